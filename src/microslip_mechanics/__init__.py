@@ -1,0 +1,1 @@
+"""Ground floor of microslip: structures, contact laws and what solvers are given."""

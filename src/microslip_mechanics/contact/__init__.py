@@ -1,0 +1,1 @@
+"""Contact: one law per file, one table of points, one compiled force."""

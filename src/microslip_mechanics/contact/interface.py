@@ -1,0 +1,64 @@
+"""Where the contact points sit: from the structure's motion to the relative motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ContactPoints
+
+
+@dataclass(frozen=True, slots=True)
+class Interface:
+    """Contact points and the relative displacement that each one sees."""
+
+    points: ContactPoints
+    displacement: Array
+    """map to (normal, tangent, tangent) of each point, shape (3 points, dofs)"""
+    names: tuple[str, ...]
+    """one name for each point"""
+
+    def __post_init__(self) -> None:
+        """Check that table, map and names speak of the same points."""
+        count = len(self.names)
+        if self.displacement.ndim != 2 or self.displacement.shape[0] != 3 * count:
+            raise ValueError(
+                f"displacement has shape {self.displacement.shape}, but {count} contact "
+                f"points need {3 * count} rows: normal and two tangents for each"
+            )
+        for field, column in self.points._asdict().items():
+            if column.shape != (count,):
+                raise ValueError(
+                    f"contact parameter {field} has shape {column.shape}, "
+                    f"but there are {count} contact points"
+                )
+
+    @property
+    def count(self) -> int:
+        """Number of contact points."""
+        return len(self.names)
+
+    def relative_motion(self) -> tuple[Array, Array]:
+        """Return independent coordinates of the relative motion.
+
+        Rigid faces move relative to each other in six ways at the most, however many
+        points they carry; the solvers need no more unknowns than that (theory, eq. 11).
+
+        Returns
+        -------
+        basis
+            Orthonormal map from the coordinates to the relative displacements of the
+            points, shape ``(3 points, rank)``.
+        selection
+            Map from the structure to the coordinates [m], shape ``(rank, dofs)``;
+            ``displacement = basis @ selection``.
+        """
+        rows = self.displacement
+        if rows.shape[0] == 0:
+            return np.zeros((0, 0)), rows
+        left, sizes, _ = np.linalg.svd(rows, full_matrices=False)
+        rank = int(np.sum(sizes > 1e-9 * sizes[0]))
+        basis = np.eye(rank) if rank == rows.shape[0] else left[:, :rank]
+        return np.ascontiguousarray(basis), np.ascontiguousarray(basis.T @ rows)

@@ -1,0 +1,57 @@
+"""The `kernel` decorator: numba's options and its disk cache in one place."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar, cast
+
+import numba
+from numba.core import config
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+Function = TypeVar("Function", bound="Callable[..., Any]")
+
+
+def kernel(function: Function) -> Function:
+    """Compile a hot loop to machine code and keep it on disk.
+
+    Numba's disk cache watches the file of the compiled function alone: a caller
+    keeps the old machine code of a callee that was edited in another file. Hence
+    the cache folder is named after the content of this package, the only one whose
+    kernels are called from other files. No fast-math: results must not differ
+    between machines more than rounding makes them.
+    """
+    options = config.__dict__
+    if options["DISABLE_JIT"]:
+        return function
+    dispatcher = numba.njit(error_model="numpy", nogil=True)(function)
+    folder = _cache_folder()
+    if folder is None:
+        return cast("Function", dispatcher)
+    shared, options["CACHE_DIR"] = options["CACHE_DIR"], str(folder)
+    try:
+        dispatcher.enable_caching()
+    finally:
+        options["CACHE_DIR"] = shared
+    return cast("Function", dispatcher)
+
+
+@functools.cache
+def _cache_folder() -> Path | None:
+    """Return a writable folder for machine code, or None where there is none."""
+    content = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.rglob("*.py")):
+        content.update(source.read_bytes())
+    try:
+        home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+        folder = Path(home) / "microslip" / content.hexdigest()[:16]
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, RuntimeError):
+        return None
+    return folder if os.access(folder, os.W_OK) else None

@@ -1,0 +1,50 @@
+"""What a solver is given: a structure, its contacts, its loads and what to watch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.structure import Structure
+
+
+@dataclass(frozen=True, slots=True)
+class Probes:
+    """Displacements that a result reports, each a linear form of the motion."""
+
+    names: tuple[str, ...]
+    rows: Array
+    """shape (probes, dofs)"""
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """M ü + C u̇ + K u + Lᵀ f(L u, L u̇) = preload + drive · sin(excitation phase)."""
+
+    structure: Structure
+    interface: Interface
+    preload: Array
+    """static load [N], shape (dofs,)"""
+    drive: Array
+    """amplitude of the harmonic load [N], shape (dofs,)"""
+    probes: Probes
+
+    def __post_init__(self) -> None:
+        """Check that everything speaks of the same degrees of freedom."""
+        dofs = self.structure.dofs
+        for name, shape in (
+            ("preload", self.preload.shape),
+            ("drive", self.drive.shape),
+            ("interface.displacement", self.interface.displacement.shape[1:]),
+            ("probes.rows", self.probes.rows.shape[1:]),
+        ):
+            if shape != (dofs,):
+                raise ValueError(
+                    f"{name} has {shape} columns, but the structure has {dofs} "
+                    "degrees of freedom"
+                )
+        if not (np.all(np.isfinite(self.preload)) and np.all(np.isfinite(self.drive))):
+            raise ValueError("a load holds a value that is not finite")

@@ -1,0 +1,100 @@
+"""Static equilibrium under the preload, friction at rest (theory §5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ContactPoints, contact_energy, normal_law
+from microslip_mechanics.contact.hunt_crossley import normal_force
+from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.jit import kernel
+from microslip_mechanics.problem import Problem
+
+
+class StaticError(MicroslipError):
+    """The preload has no static equilibrium."""
+
+
+@dataclass(frozen=True, slots=True)
+class StaticState:
+    """Equilibrium of structure and normal contact forces."""
+
+    displacement: Array
+    """[m], shape (dofs,)"""
+    normal_force: Array
+    """[N], shape (points,)"""
+    residual: float
+    """largest unbalanced force over the largest preload"""
+    iterations: int
+
+
+def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticState:
+    """Return the frictionless equilibrium under the preload.
+
+    Regularised friction carries no load at rest, so the normal forces alone balance
+    the preload. The potential energy is convex; it is descended by Newton steps whose
+    matrix is M/τ² + K + contact (pseudo-transient continuation), so that a body which
+    contact alone holds, and even one which nothing holds along a load-free direction,
+    makes no singular matrix.
+
+    Raises
+    ------
+    StaticError
+        If the preload drives a body away: nothing balances it.
+    """
+    load = np.abs(problem.preload).max(initial=0.0)
+    state = np.zeros(problem.structure.dofs)
+    if load == 0.0:
+        return StaticState(state, np.zeros(problem.interface.count), 0.0, 0)
+    pseudo_time = 1e-5
+    energy, forces, gradient, hessian = _potential(problem, state)
+    for iteration in range(1, 400):
+        matrix = problem.structure.mass / pseudo_time**2 + hessian
+        step = np.linalg.solve(matrix, -gradient)
+        trial = _potential(problem, state + step)
+        if trial[0] > energy + 1e-12 * abs(energy):
+            pseudo_time *= 0.25
+            continue
+        state, pseudo_time = state + step, pseudo_time * 2.0
+        energy, forces, gradient, hessian = trial
+        residual = float(np.abs(gradient).max()) / load
+        if residual <= tolerance:
+            return StaticState(state, forces, residual, iteration)
+        if np.abs(state).max() > 1.0:
+            break
+    raise StaticError(
+        f"the static preload (largest load {load:g} N) has no equilibrium in contact: "
+        f"after {iteration} steps the largest displacement is "
+        f"{np.abs(state).max():.3g} m or rad; check direction and size of the preload"
+    )
+
+
+def _potential(problem: Problem, state: Array) -> tuple[float, Array, Array, Array]:
+    """Return energy, normal forces, gradient and Hessian of the potential energy."""
+    normals = problem.interface.displacement[0::3]
+    elastic = problem.structure.stiffness @ state
+    energies, forces, stiffness = _normal_springs(
+        problem.interface.points, normals @ state
+    )
+    energy = state @ (0.5 * elastic - problem.preload) + energies.sum()
+    gradient = elastic + normals.T @ forces - problem.preload
+    hessian = problem.structure.stiffness + (normals.T * stiffness) @ normals
+    return float(energy), forces, gradient, hessian
+
+
+@kernel
+def _normal_springs(
+    points: ContactPoints, penetration: Array
+) -> tuple[Array, Array, Array]:
+    """Return elastic energy, normal force and normal stiffness of points at rest."""
+    energy = np.zeros(penetration.size)
+    force = np.zeros(penetration.size)
+    stiffness = np.zeros(penetration.size)
+    for point in range(penetration.size):
+        law = normal_law(points, point)
+        force[point], stiffness[point], _ = normal_force(law, penetration[point], 0.0)
+        energy[point] = contact_energy(points, point, penetration[point])
+    return energy, force, stiffness

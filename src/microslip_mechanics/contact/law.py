@@ -156,3 +156,22 @@ def _friction(
         points.threshold[point],
     )
     return gkf_coefficients(gkf, first, second)
+
+
+def tangent_pattern(
+    points: ContactPoints, point: int
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return which tangents of a point can differ from zero.
+
+    Returns
+    -------
+    by displacement, by velocity
+        Shape ``(3, 3)``: what the solvers need not carry for this point's laws.
+    """
+    by_displacement, by_velocity = np.zeros((2, 3, 3), dtype=bool)
+    by_displacement[0, 0] = by_velocity[0, 0] = True
+    if points.friction[point] != FRICTIONLESS:
+        by_velocity[1:, 1:] = True
+        if not points.constant_load[point]:
+            by_displacement[1:, 0] = by_velocity[1:, 0] = True
+    return by_displacement, by_velocity

@@ -1,0 +1,1 @@
+"""Harmonic balance: periodic responses and frequency response curves."""

@@ -1,0 +1,195 @@
+"""Alternating frequency/time: contact forces and their Jacobian (theory §6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.fourier import FourierBasis, Transform, derivative, to_complex
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.law import (
+    ContactPoints,
+    contact_force,
+    contact_power,
+    tangent_pattern,
+)
+from microslip_mechanics.jit import kernel
+
+
+@dataclass(frozen=True, slots=True)
+class PeriodicContact:
+    """Contact forces of a periodic relative motion, in the frequency domain."""
+
+    force: Array
+    """coefficients of the force on the relative coordinates [N], (2H + 1, rank)"""
+    by_displacement: Array
+    """∂force/∂y at constant velocity, shape (2H + 1, rank, 2H + 1, rank)"""
+    by_velocity: Array
+    """∂force/∂ẏ at constant displacement, shape (2H + 1, rank, 2H + 1, rank)"""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactCycle:
+    """What one period of the contacts shows in time."""
+
+    normal_smallest: Array
+    """[N], shape (points,)"""
+    normal_largest: Array
+    """[N], shape (points,)"""
+    friction: float
+    """energy that friction takes out per period [J]"""
+    normal_damping: float
+    """energy that normal damping takes out per period [J]"""
+
+
+class AlternatingFrequencyTime:
+    """Contact points evaluated over the samples of one period."""
+
+    def __init__(self, points: ContactPoints, basis: Array, fourier: FourierBasis) -> None:
+        """Plan the transforms; ``basis`` maps y to the points, (3 points, rank)."""
+        self._points, self._basis, self._fourier = points, basis, fourier
+        rows = basis.shape[0]
+        self._displacement = Transform(rows, fourier.samples)
+        self._velocity = Transform(rows, fourier.samples)
+        self._force = Transform(rows, fourier.samples)
+        self._entries = _entries(points)
+        self._tangents = Transform(len(self._entries), fourier.samples)
+
+    def __call__(self, coefficients: Array, frequency: float) -> PeriodicContact:
+        """Return force and Jacobian for y with ``coefficients``, (2H + 1, rank).
+
+        ``frequency`` [rad/s] turns the derivative by phase into velocity.
+        """
+        displacement, velocity = self._motion(coefficients, frequency)
+        _sample(
+            self._points, displacement, velocity, self._entries,
+            self._force.samples, self._tangents.samples,
+        )  # fmt: skip
+        force = self._force.analysis(self._fourier.harmonics) @ self._basis
+        spectrum = to_complex(self._tangents.analysis(2 * self._fourier.harmonics))
+        return PeriodicContact(
+            force, *(self._jacobian(spectrum, by_velocity) for by_velocity in (0, 1))
+        )
+
+    def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
+        """Return normal forces and energies over one period."""
+        displacement, velocity = self._motion(coefficients, frequency)
+        smallest, largest, powers = _cycle(self._points, displacement, velocity)
+        period = 2.0 * np.pi / frequency
+        return ContactCycle(smallest, largest, *(float(p) * period for p in powers))
+
+    def _motion(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
+        at_points = coefficients @ self._basis.T
+        velocities = frequency * derivative(at_points)
+        return (
+            self._displacement.synthesis(at_points),
+            self._velocity.synthesis(velocities),
+        )
+
+    def _jacobian(self, spectrum: ComplexArray, by_velocity: int) -> Array:
+        """Expand the spectra of one kind of tangent to a Jacobian on y.
+
+        The tangents are brought to the relative coordinates order by order, before the
+        products of harmonics multiply their number (theory, eq. 19).
+        """
+        rows, rank = self._basis.shape
+        chosen = self._entries[:, 2] == by_velocity
+        entries = self._entries[chosen]
+        dense = np.zeros((spectrum.shape[0], rows, rows), complex)
+        dense[:, entries[:, 0], entries[:, 1]] = spectrum[:, chosen]
+        local = self._basis.T @ dense @ self._basis
+        return _products(local, self._fourier.harmonics, rank)
+
+
+def _entries(points: ContactPoints) -> NDArray[np.int64]:
+    """Return (row, column, by velocity) of the tangents that can differ from zero."""
+    rows = []
+    for point in range(len(points.load)):
+        for kind, pattern in enumerate(tangent_pattern(points, point)):
+            for row, column in np.argwhere(pattern):
+                rows.append((3 * point + row, 3 * point + column, kind))
+    return np.array(rows, dtype=np.int64).reshape(-1, 3)
+
+
+def _products(spectrum: ComplexArray, harmonics: int, rank: int) -> Array:
+    """Return the matrix that multiplies a signal's coefficients by k(θ) (eq. 19).
+
+    ``spectrum`` holds the complex amplitudes of k up to order 2H, (2H + 1, rank, rank).
+    """
+    orders = np.arange(1, harmonics + 1)
+    size = 2 * harmonics + 1
+    matrix = np.empty((size, rank, size, rank))
+    cosine, sine = spectrum.real.copy(), -spectrum.imag
+    matrix[0, :, 0] = cosine[0]
+    matrix[0, :, 1::2] = cosine[orders].transpose(1, 0, 2) / 2.0
+    matrix[0, :, 2::2] = sine[orders].transpose(1, 0, 2) / 2.0
+    matrix[1::2, :, 0] = cosine[orders]
+    matrix[2::2, :, 0] = sine[orders]
+    cosine[0] *= 2.0
+    plus, minus = orders[:, None] + orders, orders[:, None] - orders
+    sign = np.sign(minus)[:, :, None, None]
+    even, odd = cosine[np.abs(minus)], sign * sine[np.abs(minus)]
+    matrix[1::2, :, 1::2] = ((even + cosine[plus]) / 2.0).transpose(0, 2, 1, 3)
+    matrix[2::2, :, 2::2] = ((even - cosine[plus]) / 2.0).transpose(0, 2, 1, 3)
+    matrix[1::2, :, 2::2] = ((sine[plus] - odd) / 2.0).transpose(0, 2, 1, 3)
+    matrix[2::2, :, 1::2] = ((sine[plus] + odd) / 2.0).transpose(0, 2, 1, 3)
+    return matrix
+
+
+@kernel
+def _sample(
+    points: ContactPoints,
+    displacement: Array,
+    velocity: Array,
+    entries: NDArray[np.int64],
+    forces: Array,
+    tangents: Array,
+) -> None:
+    """Write forces and chosen tangents of all points at all samples."""
+    force = np.zeros(3)
+    by_both = np.zeros((2, 3, 3))
+    first = 0
+    for point in range(points.load.size):
+        last = first
+        while last < entries.shape[0] and entries[last, 0] < 3 * point + 3:
+            last += 1
+        place = slice(3 * point, 3 * point + 3)
+        for sample in range(displacement.shape[1]):
+            contact_force(
+                points, point, displacement[place, sample], velocity[place, sample],
+                force, by_both[0], by_both[1],
+            )  # fmt: skip
+            for axis in range(3):
+                forces[3 * point + axis, sample] = force[axis]
+            for entry in range(first, last):
+                tangents[entry, sample] = by_both[
+                    entries[entry, 2],
+                    entries[entry, 0] - 3 * point,
+                    entries[entry, 1] - 3 * point,
+                ]
+        first = last
+
+
+@kernel
+def _cycle(
+    points: ContactPoints, displacement: Array, velocity: Array
+) -> tuple[Array, Array, Array]:
+    """Return smallest and largest normal forces and mean dissipated powers."""
+    count, samples = points.load.size, displacement.shape[1]
+    smallest, largest = np.full(count, np.inf), np.full(count, -np.inf)
+    powers = np.zeros(2)
+    force = np.zeros(3)
+    unused = np.zeros((2, 3, 3))
+    for point in range(count):
+        place = slice(3 * point, 3 * point + 3)
+        for sample in range(samples):
+            moved, moving = displacement[place, sample], velocity[place, sample]
+            contact_force(points, point, moved, moving, force, unused[0], unused[1])
+            smallest[point] = min(smallest[point], force[0])
+            largest[point] = max(largest[point], force[0])
+            slid, damped = contact_power(points, point, moved, moving, force)
+            powers[0] += slid / samples
+            powers[1] += damped / samples
+    return smallest, largest, powers

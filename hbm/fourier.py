@@ -1,0 +1,105 @@
+"""Real Fourier coefficients and samples of one period; the only import of pyfftw.
+
+A signal is a₀ + Σ aₖ cos kθ + bₖ sin kθ; its coefficients are stored in the order
+a₀, a₁, b₁, a₂, b₂, … along the first axis (theory, eq. 12).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pyfftw
+
+from microslip_mechanics.arrays import Array, ComplexArray
+
+
+@dataclass(frozen=True, slots=True)
+class FourierBasis:
+    """Number of harmonics of the solution and of samples per period."""
+
+    harmonics: int
+    samples: int
+
+    def __post_init__(self) -> None:
+        """Check that the samples resolve the products that the Jacobian needs."""
+        if self.harmonics < 1:
+            raise ValueError(f"{self.harmonics} harmonics: take at least 1")
+        if self.samples < 4 * self.harmonics + 2:
+            raise ValueError(
+                f"{self.samples} samples per period cannot carry {self.harmonics} "
+                f"harmonics: take at least {4 * self.harmonics + 2}"
+            )
+
+    @property
+    def coefficients(self) -> int:
+        """Number of real coefficients per signal."""
+        return 2 * self.harmonics + 1
+
+
+class Transform:
+    """Planned transforms of a fixed number of signals (FFTW through pyfftw)."""
+
+    def __init__(self, signals: int, samples: int) -> None:
+        """Plan transforms of arrays of shape ``(signals, samples)``."""
+        self._time = pyfftw.zeros_aligned((signals, samples), dtype="float64")
+        bins = samples // 2 + 1
+        self._spectrum = pyfftw.zeros_aligned((signals, bins), dtype="complex128")
+        self._samples = samples
+        estimate = ("FFTW_ESTIMATE",)
+        self._forward = pyfftw.FFTW(self._time, self._spectrum, flags=estimate)
+        self._backward = pyfftw.FFTW(
+            self._spectrum, self._time, direction="FFTW_BACKWARD", flags=estimate
+        )
+
+    def synthesis(self, coefficients: Array) -> Array:
+        """Return samples, shape ``(signals, samples)``, valid until the next call.
+
+        ``coefficients`` has shape ``(2 harmonics + 1, signals)``.
+        """
+        harmonics = coefficients.shape[0] // 2
+        self._spectrum[:] = 0.0
+        self._spectrum[:, 0] = coefficients[0]
+        half = to_complex(coefficients)[1:] / 2.0
+        self._spectrum[:, 1 : harmonics + 1] = half.T
+        self._backward.execute()
+        return self._time
+
+    @property
+    def samples(self) -> Array:
+        """Where samples for :meth:`analysis` are written, ``(signals, samples)``."""
+        return self._time
+
+    def analysis(self, harmonics: int) -> Array:
+        """Return the coefficients of :attr:`samples`, ``(2 harmonics + 1, signals)``."""
+        self._forward.execute()
+        spectrum = self._spectrum[:, : harmonics + 1].T / self._samples
+        spectrum[1:] *= 2.0
+        return to_real(spectrum)
+
+
+def to_complex(coefficients: Array) -> ComplexArray:
+    """Return cₖ = aₖ − i bₖ, shape ``(harmonics + 1, …)``; signal = Re Σ cₖ exp(ikθ)."""
+    amplitudes = np.empty((coefficients.shape[0] // 2 + 1, *coefficients.shape[1:]), complex)
+    amplitudes[0] = coefficients[0]
+    amplitudes[1:] = coefficients[1::2] - 1j * coefficients[2::2]
+    return amplitudes
+
+
+def to_real(amplitudes: ComplexArray) -> Array:
+    """Return aₖ and bₖ from complex amplitudes: the inverse of :func:`to_complex`."""
+    coefficients = np.empty((2 * amplitudes.shape[0] - 1, *amplitudes.shape[1:]))
+    coefficients[0] = amplitudes[0].real
+    coefficients[1::2] = amplitudes[1:].real
+    coefficients[2::2] = -amplitudes[1:].imag
+    return coefficients
+
+
+def derivative(coefficients: Array) -> Array:
+    """Return the coefficients of the derivative by the phase θ."""
+    slopes = np.zeros_like(coefficients)
+    orders = np.arange(1, coefficients.shape[0] // 2 + 1)
+    orders = orders.reshape(-1, *[1] * (coefficients.ndim - 1))
+    slopes[1::2] = orders * coefficients[2::2]
+    slopes[2::2] = -orders * coefficients[1::2]
+    return slopes

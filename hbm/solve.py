@@ -1,0 +1,120 @@
+"""The public functions: from a problem to periodic responses along frequency."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hbm.continuation import ContinuationError, Metric, StepControl, trace
+from hbm.fourier import FourierBasis
+from hbm.newton import Correction
+from hbm.residual import HarmonicBalance
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import StaticState
+
+
+@dataclass(frozen=True, slots=True)
+class CurveOptions:
+    """Range, resolution and accuracy of a frequency response curve."""
+
+    start: float
+    """first excitation frequency [rad/s]"""
+    end: float
+    """last excitation frequency [rad/s]"""
+    harmonics: int = 8
+    samples: int = 1024
+    """per period"""
+    tolerance: float = 1e-8
+    """largest unbalanced force over the smaller of preload and drive"""
+    largest_step: float = 0.25
+    """relative change of the response, or share of a tenth of the range"""
+
+    def __post_init__(self) -> None:
+        """Check the range."""
+        if self.start <= 0.0 or self.end <= 0.0 or self.start == self.end:
+            raise ValueError(
+                f"frequencies {self.start:g} and {self.end:g} rad/s: give two different "
+                "positive ones"
+            )
+
+
+def frequency_response(
+    problem: Problem, rest: StaticState, options: CurveOptions
+) -> Iterator[PeriodicResponse]:
+    """Yield the periodic responses along the curve, one per continuation step.
+
+    Parameters
+    ----------
+    problem
+        What is solved.
+    rest
+        Its static equilibrium: the curve starts from it.
+    options
+        Range, harmonics, samples, tolerance.
+
+    Raises
+    ------
+    ContinuationError
+        If the curve cannot go on; what was yielded before stays valid.
+    """
+    balance = HarmonicBalance(
+        problem, rest, FourierBasis(options.harmonics, options.samples)
+    )
+    scale = _force_scale(problem)
+    control = StepControl(
+        tolerance=options.tolerance * scale,
+        initial=min(0.02, options.largest_step),
+        largest=options.largest_step,
+    )
+    start = np.zeros((balance.fourier.coefficients, balance.rank))
+    start[0] = balance.selection @ rest.displacement
+    point = np.append(start.ravel(), options.start)
+    metric = _metric(balance, abs(options.end - options.start) / 10.0)
+    for correction in trace(
+        balance, point, options.end, metric=metric, control=control
+    ):
+        drift = balance.drift_force(correction.point)
+        if drift > 1e-6 * scale:
+            raise ContinuationError(
+                f"a body drifts at {correction.point[-1]:.6g} rad/s: friction has a mean "
+                f"of {drift:.2g} N and nothing holds the body; give it a rope"
+            )
+        yield _response(balance, correction)
+
+
+def _force_scale(problem: Problem) -> float:
+    """Return the smaller of preload and drive, of those that act [N]."""
+    sizes = [np.abs(load).max(initial=0.0) for load in (problem.preload, problem.drive)]
+    return float(min((size for size in sizes if size > 0.0), default=1.0))
+
+
+def _metric(balance: HarmonicBalance, frequency_scale: float) -> Metric:
+    """Measure arc by the relative change of the vibration and by frequency."""
+
+    def metric(point: Array) -> Array:
+        coefficients, _ = balance.split(point)
+        size = float(np.linalg.norm(coefficients)) + 1e-12
+        scale = np.full(point.size, size)
+        scale[-1] = frequency_scale
+        return scale
+
+    return metric
+
+
+def _response(balance: HarmonicBalance, correction: Correction) -> PeriodicResponse:
+    coefficients, frequency = balance.split(correction.point)
+    cycle = balance.contact.cycle(coefficients, frequency)
+    return PeriodicResponse(
+        frequency,
+        balance.motion(correction.point),
+        cycle.normal_smallest,
+        cycle.normal_largest,
+        cycle.friction,
+        cycle.normal_damping,
+        correction.residuals[-1],
+        correction.iterations,
+    )

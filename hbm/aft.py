@@ -47,7 +47,9 @@ class ContactCycle:
 class AlternatingFrequencyTime:
     """Contact points evaluated over the samples of one period."""
 
-    def __init__(self, points: ContactPoints, basis: Array, fourier: FourierBasis) -> None:
+    def __init__(
+        self, points: ContactPoints, basis: Array, fourier: FourierBasis
+    ) -> None:
         """Plan the transforms; ``basis`` maps y to the points, (3 points, rank)."""
         self._points, self._basis, self._fourier = points, basis, fourier
         rows = basis.shape[0]

@@ -43,7 +43,9 @@ class CondensedStructure:
     participation: ComplexArray
     """modal coordinate per load, shape (poles, dofs)"""
 
-    def dynamic_stiffness(self, variable: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+    def dynamic_stiffness(
+        self, variable: ComplexArray
+    ) -> tuple[ComplexArray, ComplexArray]:
         """Return S(s) and dS/ds.
 
         Parameters
@@ -65,7 +67,9 @@ class CondensedStructure:
         change = self.damping + 2.0 * s * self.mass
         return value, change - turn - turn.transpose(0, 2, 1) + (back * pole) @ into
 
-    def load(self, variable: ComplexArray, force: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+    def load(
+        self, variable: ComplexArray, force: ComplexArray
+    ) -> tuple[ComplexArray, ComplexArray]:
         """Return the load that reaches y and its derivative by s.
 
         ``force`` [N] has shape ``(orders, dofs)``; the results ``(orders, rank)``.
@@ -74,7 +78,10 @@ class CondensedStructure:
         pole = 1.0 / (s - self.poles)
         modal = force @ self.participation.T
         direct = force @ self.static
-        one, two = modal * pole @ self.viscous_back.T, modal * pole @ self.inertial_back.T
+        one, two = (
+            modal * pole @ self.viscous_back.T,
+            modal * pole @ self.inertial_back.T,
+        )
         old_one = modal * pole**2 @ self.viscous_back.T
         old_two = modal * pole**2 @ self.inertial_back.T
         change = one + 2.0 * s * two - s * old_one - s**2 * old_two
@@ -147,7 +154,10 @@ def _poles(
     count = len(squares)
     # The state (Ω q, q̇) makes a nearly skew matrix, whose eigenvectors are well apart.
     system = np.block(
-        [[np.zeros((count, count)), frequencies], [-frequencies, -modes.T @ damping @ modes]]
+        [
+            [np.zeros((count, count)), frequencies],
+            [-frequencies, -modes.T @ damping @ modes],
+        ]
     )
     poles, vectors = np.linalg.eig(system)
     inverse = np.linalg.inv(vectors)

@@ -80,7 +80,9 @@ class Transform:
 
 def to_complex(coefficients: Array) -> ComplexArray:
     """Return cₖ = aₖ − i bₖ, shape ``(harmonics + 1, …)``; signal = Re Σ cₖ exp(ikθ)."""
-    amplitudes = np.empty((coefficients.shape[0] // 2 + 1, *coefficients.shape[1:]), complex)
+    amplitudes = np.empty(
+        (coefficients.shape[0] // 2 + 1, *coefficients.shape[1:]), complex
+    )
     amplitudes[0] = coefficients[0]
     amplitudes[1:] = coefficients[1::2] - 1j * coefficients[2::2]
     return amplitudes

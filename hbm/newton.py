@@ -79,7 +79,9 @@ def correct(
         if len(sizes) > max_iterations:
             return Correction(point, jacobian, Outcome.EXHAUSTED, tuple(sizes))
         try:
-            step = np.linalg.solve(np.vstack([jacobian, normal]), np.append(residual, 0.0))
+            step = np.linalg.solve(
+                np.vstack([jacobian, normal]), np.append(residual, 0.0)
+            )
         except np.linalg.LinAlgError:
             return Correction(point, jacobian, Outcome.SINGULAR, tuple(sizes))
         for halving in range(6):

@@ -19,12 +19,16 @@ class HarmonicBalance:
     the excitation frequency [rad/s].
     """
 
-    def __init__(self, problem: Problem, rest: StaticState, fourier: FourierBasis) -> None:
+    def __init__(
+        self, problem: Problem, rest: StaticState, fourier: FourierBasis
+    ) -> None:
         """Condense ``problem`` and plan the transforms; ``rest`` is its equilibrium."""
         basis, self.selection = problem.interface.relative_motion()
         self.fourier, self.rank = fourier, basis.shape[1]
         self.condensed: CondensedStructure = condense(problem, self.selection)
-        self.contact = AlternatingFrequencyTime(problem.interface.points, basis, fourier)
+        self.contact = AlternatingFrequencyTime(
+            problem.interface.points, basis, fourier
+        )
         self._force = np.zeros((fourier.harmonics + 1, problem.structure.dofs), complex)
         self._force[0], self._force[1] = problem.preload, -1j * problem.drive
         self._gauge = self._free_positions(rest)

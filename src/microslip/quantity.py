@@ -83,7 +83,9 @@ class Quantity:
             return f"it must be above {self.lowest:g}{unit}"
         if math.isinf(self.highest):
             return f"it must be at least {self.lowest:g}{unit}"
-        edge = f"above {self.lowest:g}" if self.positive else f"at least {self.lowest:g}"
+        edge = (
+            f"above {self.lowest:g}" if self.positive else f"at least {self.lowest:g}"
+        )
         return f"it must be {edge} and at most {self.highest:g}{unit}"
 
 

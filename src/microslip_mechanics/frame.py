@@ -1,4 +1,4 @@
-"""A frame of beams, rigid bodies and springs, assembled to a Structure (theory §1–3)."""
+"""Beams, rigid bodies and springs, assembled to a Structure (theory §1–3)."""
 
 from __future__ import annotations
 
@@ -140,7 +140,10 @@ class Frame:
 
     def _element(self, beam: Beam) -> tuple[Array, Array]:
         """Return stiffness and mass of a beam in global axes."""
-        start, end = self.nodes[self._index(beam.start)], self.nodes[self._index(beam.end)]
+        start, end = (
+            self.nodes[self._index(beam.start)],
+            self.nodes[self._index(beam.end)],
+        )
         axis = end.position - start.position
         length = float(np.linalg.norm(axis))
         local_z = beam.thickness_direction / np.linalg.norm(beam.thickness_direction)

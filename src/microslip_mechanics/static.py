@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_energy, normal_law
 from microslip_mechanics.contact.hunt_crossley import normal_force
+from microslip_mechanics.contact.law import ContactPoints, contact_energy, normal_law
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem

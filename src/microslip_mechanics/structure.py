@@ -35,7 +35,9 @@ class Structure:
             if not np.all(np.isfinite(matrix)):
                 raise ValueError(f"{name} holds a value that is not finite")
             if np.abs(matrix - matrix.T).max() > 1e-9 * np.abs(matrix).max():
-                raise ValueError(f"{name} is not symmetric: only symmetric is supported")
+                raise ValueError(
+                    f"{name} is not symmetric: only symmetric is supported"
+                )
         if np.linalg.eigvalsh(self.mass)[0] <= 0.0:
             raise ValueError(
                 "mass is not positive definite: some motion has no mass; "

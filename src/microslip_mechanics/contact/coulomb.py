@@ -43,4 +43,10 @@ def coulomb_coefficients(
         return slope * first, slope * second, slope, 0.0, slope
     ratio = law.coefficient / speed
     one, two = first / speed, second / speed
-    return ratio * first, ratio * second, ratio * two**2, -ratio * one * two, ratio * one**2
+    return (
+        ratio * first,
+        ratio * second,
+        ratio * two**2,
+        -ratio * one * two,
+        ratio * one**2,
+    )

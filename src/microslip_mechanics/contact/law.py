@@ -111,7 +111,11 @@ def contact_force(
 
 @kernel
 def contact_power(
-    points: ContactPoints, point: int, displacement: Array, velocity: Array, force: Array
+    points: ContactPoints,
+    point: int,
+    displacement: Array,
+    velocity: Array,
+    force: Array,
 ) -> tuple[float, float]:
     """Return the power [W] that friction and normal damping take out.
 

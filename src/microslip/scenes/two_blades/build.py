@@ -9,6 +9,9 @@ from microslip.scenes.two_blades.faces import interface
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.problem import Probes, Problem
 
+SLIPS = ("element-to-excited", "element-to-follower")
+"""motion of the friction element's centre relative to the blade ends' centres"""
+
 
 def problem(rig: TwoBlades) -> Problem:
     """Return the rig as a problem: preload along x, drive along z (tutorial, part 1)."""
@@ -18,15 +21,18 @@ def problem(rig: TwoBlades) -> Problem:
         frame.motion(layout.tip(rig, blade), layout.end_centre(rig, blade))[2]
         for blade in (0, 1)
     ]
+    element = frame.motion(layout.ELEMENT, centre)[2]
     push = centre + np.array([0.0, rig.preload.offset, 0.0])
-    drive = layout.end_centre(rig, 0) + rig.excitation.offset * layout.blade_axis(rig, 0)
+    drive = layout.end_centre(rig, 0) + rig.excitation.offset * layout.blade_axis(
+        rig, 0
+    )
     return Problem(
         frame.structure(),
         interface(rig, frame),
         preload=rig.preload.force * frame.motion(layout.ELEMENT, push)[0],
         drive=rig.excitation.force * frame.motion(layout.tip(rig, 0), drive)[2],
         probes=Probes(
-            (*layout.BLADES, layout.ELEMENT),
-            np.array([*ends, frame.motion(layout.ELEMENT, centre)[2]]),
+            (*layout.BLADES, layout.ELEMENT, *SLIPS),
+            np.array([*ends, element, *(element - end for end in ends)]),
         ),
     )

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+
 import numpy as np
 
 from microslip.scenes.two_blades import layout
 from microslip.scenes.two_blades.tables import TwoBlades
-
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import (
@@ -68,10 +68,14 @@ def faces(rig: TwoBlades) -> tuple[Face, Face]:
         axes = np.array(
             [[sine, side * cosine, 0.0], [cosine, -side * sine, 0.0], [0.0, 0.0, 1.0]]
         )
-        centre = layout.element_centre(rig) + np.array([0.0, side * element.width / 2.0, 0.0])
+        centre = layout.element_centre(rig) + np.array(
+            [0.0, side * element.width / 2.0, 0.0]
+        )
         load = rig.preload.force * math.cos(other) / wedge if wedge else math.inf
         made.append(
-            Face(name, blade, centre, axes, element.height / cosine, element.depth, load)
+            Face(
+                name, blade, centre, axes, element.height / cosine, element.depth, load
+            )
         )
     return made[0], made[1]
 
@@ -84,7 +88,9 @@ def _points(face: Face, count: int) -> list[Array]:
         extent / (2.0 * math.sqrt(3.0)) for extent in (face.width, face.depth)
     )
     return [
-        face.centre + along * half_width * face.axes[1] + across * half_depth * face.axes[2]
+        face.centre
+        + along * half_width * face.axes[1]
+        + across * half_depth * face.axes[2]
         for along, across in ((-1, -1), (-1, 1), (1, -1), (1, 1))
     ]
 

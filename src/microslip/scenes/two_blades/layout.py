@@ -13,7 +13,14 @@ import numpy as np
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.beam import RectangularSection
-from microslip_mechanics.frame import MOTIONS, Beam, Frame, GroundSpring, Node, RigidBody
+from microslip_mechanics.frame import (
+    MOTIONS,
+    Beam,
+    Frame,
+    GroundSpring,
+    Node,
+    RigidBody,
+)
 
 AXIAL = np.array([0.0, 0.0, 1.0])
 ELEMENT = "friction-element"
@@ -80,9 +87,7 @@ def _beam(rig: TwoBlades, start: str, end: str) -> Beam:
         blade.poisson_ratio,
         blade.density,
     )
-    return Beam(
-        start, end, section, AXIAL, blade.mass_damping, blade.stiffness_damping
-    )
+    return Beam(start, end, section, AXIAL, blade.mass_damping, blade.stiffness_damping)
 
 
 def _blade_end(rig: TwoBlades, blade: int) -> RigidBody:

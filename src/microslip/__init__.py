@@ -1,0 +1,1 @@
+"""microslip: nonlinear forced response with friction and contact."""

@@ -1,0 +1,90 @@
+"""Load histories: how preload and drive vary with time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+
+
+class LoadHistory(Protocol):
+    """Factors of preload and drive over time."""
+
+    @property
+    def duration(self) -> float:
+        """Length [s]."""
+        ...
+
+    def factors(self, time: Array) -> Array:
+        """Return the factors of preload and drive, shape (times, 2)."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class SweptSine:
+    """Preload ramp, then an exponential swept sine, then free (theory, eq. 20)."""
+
+    ramp: float
+    """the preload grows linearly from 0 until then [s]"""
+    start: float
+    """[s]"""
+    end: float
+    """[s]"""
+    duration: float
+    """[s]"""
+    lowest: float
+    """frequency at the start [Hz]"""
+    highest: float
+    """frequency at the end [Hz]"""
+
+    def __post_init__(self) -> None:
+        """Check the order of the times."""
+        if not 0.0 <= self.ramp <= self.start < self.end <= self.duration:
+            raise ValueError(
+                f"ramp {self.ramp:g} s, start {self.start:g} s, end {self.end:g} s, "
+                f"duration {self.duration:g} s: give 0 <= ramp <= start < end <= duration"
+            )
+        if not (self.lowest > 0.0 and self.highest > 0.0):
+            raise ValueError(
+                f"frequencies {self.lowest:g} and {self.highest:g} Hz: give positive ones"
+            )
+        if self.lowest == self.highest:
+            raise ValueError(
+                f"lowest and highest are both {self.lowest:g} Hz: a sweep needs two "
+                "different frequencies"
+            )
+
+    @property
+    def rate(self) -> float:
+        """Logarithmic sweep rate k [1/s]."""
+        return float(np.log(self.highest / self.lowest) / (self.end - self.start))
+
+    def frequency(self, time: Array) -> Array:
+        """Return the instantaneous frequency [Hz], held outside the sweep."""
+        inside = np.clip(time, self.start, self.end) - self.start
+        return self.lowest * np.exp(self.rate * inside)
+
+    def factors(self, time: Array) -> Array:
+        """Return the factors of preload and drive, shape (times, 2)."""
+        elapsed = np.clip(time, self.start, self.end) - self.start
+        phase = 2.0 * np.pi * self.lowest * np.expm1(self.rate * elapsed) / self.rate
+        sweeps = (time >= self.start) & (time <= self.end)
+        ramp = np.clip(time / self.ramp, 0.0, 1.0) if self.ramp else np.ones_like(time)
+        return np.stack([ramp, np.where(sweeps, np.sin(phase), 0.0)], axis=1)
+
+
+@dataclass(frozen=True, slots=True)
+class Dwell:
+    """Full preload and a sine of constant frequency."""
+
+    frequency: float
+    """[rad/s]"""
+    duration: float
+    """[s]"""
+
+    def factors(self, time: Array) -> Array:
+        """Return the factors of preload and drive, shape (times, 2)."""
+        return np.stack([np.ones_like(time), np.sin(self.frequency * time)], axis=1)

@@ -1,0 +1,68 @@
+"""What a march returns: probes, contact forces and energies over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+
+
+@dataclass(frozen=True, slots=True)
+class TimeHistory:
+    """Response to a load history at stored times."""
+
+    time: Array
+    """[s], shape (times,)"""
+    probes: tuple[str, ...]
+    displacement: Array
+    """of each probe [m], shape (times, probes)"""
+    velocity: Array
+    """of each probe [m/s], shape (times, probes)"""
+    contacts: tuple[str, ...]
+    normal_force: Array
+    """of each contact point [N], shape (times, contacts)"""
+    friction_power: Array
+    """taken out by friction [W], shape (times,)"""
+    energies: tuple[str, ...]
+    energy: Array
+    """[J], shape (times, energies): what flowed so far and what is stored"""
+    stored_at_start: float
+    """energy stored when the march began [J]"""
+    time_step: float
+    """[s]"""
+    iterations: int
+    """Newton iterations of all steps"""
+    divided: int
+    """steps that converged only when they were divided"""
+    ending: str = "complete"
+    """how the march ended: "complete", "interrupted", or the cause"""
+
+    def of(self, energy: str) -> Array:
+        """Return one energy over time [J], shape (times,)."""
+        return self.energy[:, self.energies.index(energy)]
+
+    @property
+    def closing_error(self) -> Array:
+        """What the energy balance leaves [J], shape (times,) (theory, eq. 26)."""
+        spent = self.energy.sum(axis=1) - self.of("input")
+        return self.of("input") - spent + self.stored_at_start
+
+
+def joined(blocks: Sequence[TimeHistory], ending: str) -> TimeHistory:
+    """Return blocks of one march as one history."""
+    first = blocks[0]
+    whole = {
+        field.name: np.concatenate([getattr(block, field.name) for block in blocks])
+        for field in fields(first)
+        if isinstance(getattr(first, field.name), np.ndarray)
+    }
+    return replace(
+        first,
+        **whole,
+        iterations=sum(block.iterations for block in blocks),
+        divided=sum(block.divided for block in blocks),
+        ending=ending,
+    )

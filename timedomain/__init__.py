@@ -1,0 +1,1 @@
+"""Time integration of the same equations with the same compiled contact laws."""

@@ -1,0 +1,34 @@
+"""A small dense solve for kernels: a library call costs more than it computes here."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.jit import kernel
+
+
+@kernel
+def solve_in_place(matrix: Array, right: Array) -> bool:
+    """Solve by Gaussian elimination with row pivots; return False if singular.
+
+    ``right``, shape ``(n,)``, becomes the solution; ``matrix`` is overwritten.
+    """
+    size = right.size
+    for k in range(size):
+        pivot = k + np.argmax(np.abs(matrix[k:, k]))
+        if not abs(matrix[pivot, k]) > 0.0:
+            return False
+        for j in range(k, size):
+            matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
+        right[k], right[pivot] = right[pivot], right[k]
+        for i in range(k + 1, size):
+            factor = matrix[i, k] / matrix[k, k]
+            for j in range(k + 1, size):
+                matrix[i, j] -= factor * matrix[k, j]
+            right[i] -= factor * right[k]
+    for k in range(size - 1, -1, -1):
+        for j in range(k + 1, size):
+            right[k] -= matrix[k, j] * right[j]
+        right[k] /= matrix[k, k]
+    return True

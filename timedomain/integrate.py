@@ -1,0 +1,206 @@
+"""The public function: a problem and a load history to blocks of a time history."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.time_history import TimeHistory
+from timedomain.newmark import Operators, march
+from timedomain.record import FLOWS, STORES, accumulate, row_length, store
+from timedomain.start import Start, at_rest, first_state, meters, stored_energy
+
+
+class IntegrationError(MicroslipError):
+    """A time step that does not converge, however short."""
+
+
+@dataclass(frozen=True, slots=True)
+class MarchOptions:
+    """Step size, storage and accuracy of a march."""
+
+    time_step: float = 2.5e-5
+    """longest step [s]; the last step ends exactly at the history's end"""
+    store_every: int = 10
+    """steps per stored row"""
+    tolerance: float = 1e-9
+    """of the contact forces' residual over the relative acceleration"""
+    divisions: int = 10
+    """how often a step that does not converge is halved"""
+
+    def __post_init__(self) -> None:
+        """Check the step."""
+        if not self.time_step > 0.0:
+            raise ValueError(f"time step {self.time_step:g} s: give a positive one")
+        if self.store_every < 1:
+            raise ValueError(f"store every {self.store_every} steps: give at least 1")
+
+
+def integrate(
+    problem: Problem,
+    history: LoadHistory,
+    options: MarchOptions,
+    *,
+    start: Start | None = None,
+    block: float = 0.1,
+) -> Iterator[TimeHistory]:
+    """Yield the response to a load history, block by block.
+
+    Parameters
+    ----------
+    problem
+        What is integrated.
+    history
+        Factors of preload and drive over time.
+    options
+        Step and accuracy.
+    start
+        Initial displacement and velocity; all at rest and without load if left out.
+    block
+        Length of a block [s].
+
+    Raises
+    ------
+    IntegrationError
+        If a step does not converge even when it is divided; what was yielded stays.
+    """
+    stride = options.store_every
+    rows = int(np.ceil(history.duration / options.time_step / stride - 1e-9))
+    step = history.duration / (rows * stride)
+    marching = _March(problem, history, options, step, start or at_rest(problem))
+    per_block = max(1, round(block / (step * stride)))
+    for first in range(0, rows, per_block):
+        count = min(per_block, rows - first)
+        yield marching.block(first * stride, count * stride)
+
+
+class _March:
+    """A march under way: operators, state and meters."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        history: LoadHistory,
+        options: MarchOptions,
+        step: float,
+        start: Start,
+    ) -> None:
+        self._problem, self._history = problem, history
+        self._options, self._step = options, step
+        self._shapes = np.stack([problem.preload, problem.drive], axis=1)
+        self._operators = _operators(problem, self._shapes, step)
+        self._state = first_state(problem, history, start)
+        self._meters = meters(problem, self._shapes)
+        self._stored_at_start = stored_energy(problem, self._state)
+        # the powers at time zero, for the first trapezoid
+        self._measure(history.factors(np.zeros(1))[0], 0.0)
+
+    def block(self, first: int, count: int) -> TimeHistory:
+        """March ``count`` steps from step ``first``; divide those that fail."""
+        stride, points = self._options.store_every, self._problem.interface.points
+        probes = len(self._problem.probes.names)
+        rows = np.empty((count // stride, row_length(probes, len(points.load))))
+        times = (first + 1 + np.arange(count)) * self._step
+        factors = self._history.factors(times)
+        done, iterations, divided = 0, 0, 0
+        while True:
+            done, taken = march(
+                self._operators,
+                points,
+                self._state,
+                self._meters,
+                factors,
+                rows,
+                done,
+                self._options.tolerance,
+            )
+            iterations += taken
+            if done == count:
+                break
+            iterations += self._divide(first + done)
+            divided, done = divided + 1, done + 1
+            if done % stride == 0:
+                store(self._meters, points, self._state, rows[done // stride - 1])
+        return self._table(times[stride - 1 :: stride], rows, iterations, divided)
+
+    def _divide(self, step: int) -> int:
+        """Take step number ``step`` in parts; return Newton's iterations."""
+        points = self._problem.interface.points
+        nothing = np.empty((1, row_length(len(self._meters.probes), len(points.load))))
+        before = [array.copy() for array in (*self._state, *self._meters)]
+        for halvings in range(1, self._options.divisions + 1):
+            parts = 2**halvings
+            times = (step + np.arange(1, parts + 1) / parts) * self._step
+            operators = _operators(self._problem, self._shapes, self._step / parts)
+            done, iterations = march(
+                operators,
+                points,
+                self._state,
+                self._meters,
+                self._history.factors(times),
+                nothing,
+                0,
+                self._options.tolerance,
+            )
+            if done == parts:
+                return iterations
+            for array, old in zip((*self._state, *self._meters), before, strict=True):
+                array[:] = old
+        raise IntegrationError(
+            f"the step at t = {step * self._step:.6g} s does not converge, even in "
+            f"{parts} parts: contact forces of {np.abs(self._state.forces).max():.3g} N; "
+            "give a shorter time step, a larger threshold velocity or a softer contact"
+        )
+
+    def _measure(self, factors: Array, step: float) -> None:
+        points = self._problem.interface.points
+        accumulate(self._meters, points, self._state, factors, step)
+
+    def _table(
+        self, times: Array, rows: Array, iterations: int, divided: int
+    ) -> TimeHistory:
+        probes, contacts = self._problem.probes.names, self._problem.interface.names
+        cuts = np.cumsum([len(probes), len(probes), len(contacts), 1])
+        shown, moving, normal, power, energy = np.split(rows, cuts, axis=1)
+        return TimeHistory(
+            times,
+            probes,
+            shown,
+            moving,
+            contacts,
+            normal,
+            power[:, 0],
+            (*FLOWS, *STORES),
+            energy,
+            self._stored_at_start,
+            self._step,
+            iterations,
+            divided,
+        )
+
+
+def _operators(problem: Problem, shapes: Array, step: float) -> Operators:
+    """Return the matrices of average acceleration (theory, eqs. 22–23)."""
+    structure = problem.structure
+    basis, selection = problem.interface.relative_motion()
+    half = 0.5 * step
+    effective = (
+        structure.mass + half * structure.damping + half**2 * structure.stiffness
+    )
+    inverse = np.linalg.inv(effective)
+    contact = inverse @ selection.T
+    return Operators(
+        step,
+        -inverse @ np.hstack([structure.stiffness, structure.damping]),
+        inverse @ shapes,
+        contact,
+        selection @ contact,
+        selection,
+        basis,
+    )

@@ -72,7 +72,7 @@ class AlternatingFrequencyTime:
         force = self._force.analysis(self._fourier.harmonics) @ self._basis
         spectrum = to_complex(self._tangents.analysis(2 * self._fourier.harmonics))
         return PeriodicContact(
-            force, *(self._jacobian(spectrum, by_velocity) for by_velocity in (0, 1))
+            force, self._jacobian(spectrum, 0), self._jacobian(spectrum, 1)
         )
 
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:

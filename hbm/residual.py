@@ -1,4 +1,4 @@
-"""The harmonic balance residual R(y, ω) and its Jacobian (theory, eqs. 17–19)."""
+"""The residual R(y, ω) of harmonic balance and its Jacobian (theory, eqs. 17–19)."""
 
 from __future__ import annotations
 

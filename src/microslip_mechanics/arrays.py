@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array: TypeAlias = NDArray[np.float64]
-ComplexArray: TypeAlias = NDArray[np.complex128]
+Array: TypeAlias = NDArray[np.floating[Any]]
+"""real, always float64 at run time"""
+ComplexArray: TypeAlias = NDArray[np.complexfloating[Any, Any]]
+"""always complex128 at run time"""

@@ -45,11 +45,13 @@ class SweptSine:
         if not 0.0 <= self.ramp <= self.start < self.end <= self.duration:
             raise ValueError(
                 f"ramp {self.ramp:g} s, start {self.start:g} s, end {self.end:g} s, "
-                f"duration {self.duration:g} s: give 0 <= ramp <= start < end <= duration"
+                f"duration {self.duration:g} s: "
+                "give 0 <= ramp <= start < end <= duration"
             )
         if not (self.lowest > 0.0 and self.highest > 0.0):
             raise ValueError(
-                f"frequencies {self.lowest:g} and {self.highest:g} Hz: give positive ones"
+                f"frequencies {self.lowest:g} and {self.highest:g} Hz: "
+                "give positive ones"
             )
         if self.lowest == self.highest:
             raise ValueError(
@@ -65,7 +67,8 @@ class SweptSine:
     def frequency(self, time: Array) -> Array:
         """Return the instantaneous frequency [Hz], held outside the sweep."""
         inside = np.clip(time, self.start, self.end) - self.start
-        return self.lowest * np.exp(self.rate * inside)
+        frequency: Array = self.lowest * np.exp(self.rate * inside)
+        return frequency
 
     def factors(self, time: Array) -> Array:
         """Return the factors of preload and drive, shape (times, 2)."""

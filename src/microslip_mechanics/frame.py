@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.beam import RectangularSection, beam_matrices
@@ -135,7 +136,7 @@ class Frame:
             stiffness[np.ix_(slots, slots)] += spring.stiffness * along
         return mass, damping, stiffness
 
-    def _slots(self, node: str) -> Array:
+    def _slots(self, node: str) -> NDArray[np.intp]:
         return 6 * self._index(node) + np.arange(6)
 
     def _element(self, beam: Beam) -> tuple[Array, Array]:

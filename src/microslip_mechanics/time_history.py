@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -42,19 +43,21 @@ class TimeHistory:
 
     def of(self, energy: str) -> Array:
         """Return one energy over time [J], shape (times,)."""
-        return self.energy[:, self.energies.index(energy)]
+        column: Array = self.energy[:, self.energies.index(energy)]
+        return column
 
     @property
     def closing_error(self) -> Array:
         """What the energy balance leaves [J], shape (times,) (theory, eq. 26)."""
-        spent = self.energy.sum(axis=1) - self.of("input")
-        return self.of("input") - spent + self.stored_at_start
+        others = [place for place, name in enumerate(self.energies) if name != "input"]
+        spent: Array = self.energy[:, others].sum(axis=1)
+        return self.of("input") + self.stored_at_start - spent
 
 
 def joined(blocks: Sequence[TimeHistory], ending: str) -> TimeHistory:
     """Return blocks of one march as one history."""
     first = blocks[0]
-    whole = {
+    whole: dict[str, Any] = {
         field.name: np.concatenate([getattr(block, field.name) for block in blocks])
         for field in fields(first)
         if isinstance(getattr(first, field.name), np.ndarray)

@@ -1,0 +1,1 @@
+"""The two-blade rig: its tables, layout, faces and the problem they make."""

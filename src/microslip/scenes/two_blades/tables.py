@@ -103,7 +103,6 @@ class Excitation:
 class TwoBlades:
     """The two-blade rig."""
 
-    model: Literal["full", "B", "A"] = quantity()
     blade: Blade
     blade_end: BladeEnd
     friction_element: FrictionElement
@@ -111,4 +110,5 @@ class TwoBlades:
     friction: Friction
     preload: Preload
     excitation: Excitation
+    model: Literal["full", "B", "A"] = quantity()
     rope: Rope | None = None

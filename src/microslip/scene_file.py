@@ -1,0 +1,259 @@
+"""Scenes: TOML text to checked tables; every message names file, table and key."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import tomllib
+import types
+import typing
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+
+from microslip.quantity import Quantity, SceneError, quantity
+from microslip.scenes.two_blades.tables import TwoBlades
+
+RIGS = {"two-blades": TwoBlades}
+"""what ``scene = "…"`` may name"""
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """Load history of the time march."""
+
+    ramp: float = quantity("s", lowest=0.0)
+    start: float = quantity("s", lowest=0.0)
+    end: float = quantity("s", positive=True)
+    duration: float = quantity("s", positive=True)
+    lowest: float = quantity("Hz", positive=True)
+    highest: float = quantity("Hz", positive=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """Frequency response by harmonic balance."""
+
+    lowest: float = quantity("Hz", positive=True)
+    highest: float = quantity("Hz", positive=True)
+    harmonics: int = quantity(lowest=1, highest=512)
+    samples: int = quantity(lowest=6, highest=2**20)
+
+
+@dataclass(frozen=True, slots=True)
+class March:
+    """Time integration."""
+
+    time_step: float = quantity("s", positive=True, highest=1.0)
+    store_every: int = quantity(lowest=1, highest=10**6)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A rig, and what is done with it."""
+
+    rig: TwoBlades
+    sweep: Sweep
+    curve: Curve
+    march: March
+    text: str
+    """the TOML that made it, overrides included"""
+
+
+def built_in_text(name: str) -> str:
+    """Return the TOML of a built-in scene."""
+    folder = resources.files("microslip.scenes") / name.replace("-", "_")
+    return (folder / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
+    """Read a built-in scene by name, or a scene file.
+
+    Parameters
+    ----------
+    source
+        Name of a built-in scene, or path of a TOML file.
+    overrides
+        Texts ``table.key=value`` that replace values; ``value`` is TOML, or a text.
+
+    Raises
+    ------
+    SceneError
+        With file, table, key, value and remedy.
+    """
+    path = Path(source)
+    if source in RIGS and not path.is_file():
+        text = built_in_text(source)
+    else:
+        text = _read(path)
+    try:
+        document = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"{source}: not valid TOML: {error}") from None
+    for override in overrides:
+        _apply(document, override)
+        text += f"\n# --set {override}"
+    return _scene(source, document, text)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except (FileNotFoundError, NotADirectoryError):
+        raise SceneError(
+            f"there is no scene file {path}, and no built-in scene of that name: "
+            f"give a path, or one of {', '.join(RIGS)}"
+        ) from None
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
+        raise SceneError(f"{path} cannot be read: {reason}") from None
+
+
+def _apply(document: dict[str, typing.Any], override: str) -> None:
+    """Put one ``table.key=value`` into the document."""
+    name, equals, text = override.partition("=")
+    *tables, key = name.strip().split(".")
+    if not equals or not key or len(tables) > 1 or not all(tables):
+        raise SceneError(
+            f"--set {override}: give table.key=value, such as contact.sigma=3e-7"
+        )
+    try:
+        value = tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        value = text.strip()
+    place = document
+    for table in tables:
+        place = place.setdefault(table, {})
+        if not isinstance(place, dict):
+            raise SceneError(f"--set {override}: {table} is a value, not a table")
+    place[key] = value
+
+
+def _scene(source: str, document: dict[str, typing.Any], text: str) -> Scene:
+    kind = document.pop("scene", None)
+    if kind not in RIGS:
+        raise SceneError(
+            f"{source}: scene = {kind!r}: name the kind of scene at the top, "
+            f"one of {', '.join(RIGS)}"
+        )
+    experiments = {"sweep": Sweep, "curve": Curve, "march": March}
+    made = {}
+    for name, table in experiments.items():
+        if name not in document:
+            raise SceneError(f"{source}: table [{name}] is missing: add it")
+        made[name] = _table(source, f"[{name}] ", table, document.pop(name))
+    known = [*experiments, "scene"]
+    rig = _table(source, "", RIGS[kind], document, known)
+    scene = Scene(rig, **made, text=text)
+    _check(source, scene)
+    return scene
+
+
+def _table(
+    source: str,
+    place: str,
+    table: type,
+    values: object,
+    known: typing.Sequence[str] = (),
+) -> typing.Any:  # noqa: ANN401  (an instance of ``table``)
+    """Make a dataclass from a TOML table; ``known`` are more names to suggest."""
+    if not isinstance(values, dict):
+        raise SceneError(f"{source}: {place}must be a table, not {values!r}")
+    hints = typing.get_type_hints(table)
+    fields = {field.name: field for field in dataclasses.fields(table)}
+    for key in values:
+        if key not in fields:
+            raise SceneError(
+                f"{source}: {place}{key} is unknown{_meant(key, [*fields, *known])}"
+            )
+    made = {}
+    for name, field in fields.items():
+        if name in values:
+            made[name] = _value(source, place, field, hints[name], values[name])
+        elif not _optional(hints[name]):
+            what = (
+                f"{place}{name}" if "quantity" in field.metadata else f"table [{name}]"
+            )
+            raise SceneError(f"{source}: {what} is missing: add it")
+    return table(**made)
+
+
+def _value(
+    source: str,
+    place: str,
+    field: dataclasses.Field[typing.Any],
+    hint: typing.Any,  # noqa: ANN401  (a type annotation)
+    value: object,
+) -> object:
+    """Read one key as its annotation says."""
+    if _optional(hint):
+        hint = typing.get_args(hint)[0]
+    if dataclasses.is_dataclass(hint):
+        return _table(source, f"[{field.name}] ", typing.cast("type", hint), value)
+    try:
+        return _scalar(field.metadata["quantity"], hint, value)
+    except ValueError as error:
+        shown = f'"{value}"' if isinstance(value, str) else value
+        raise SceneError(f"{source}: {place}{field.name} = {shown}: {error}") from None
+
+
+def _scalar(
+    kind: Quantity,
+    hint: typing.Any,  # noqa: ANN401  (a type annotation)
+    value: object,
+) -> object:
+    """Return a choice, a switch, a whole number or a quantity in SI units."""
+    if typing.get_origin(hint) is typing.Literal:
+        choices = typing.get_args(hint)
+        if value not in choices:
+            raise ValueError(f"is unknown: give one of {', '.join(choices)}")
+        return value
+    if hint is bool:
+        if not isinstance(value, bool):
+            raise ValueError("is not a switch: give true or false")
+        return value
+    number = kind.read(value)
+    if hint is int:
+        if number != int(number):
+            raise ValueError("is not a whole number: give one")
+        return int(number)
+    return number
+
+
+def _optional(hint: typing.Any) -> bool:  # noqa: ANN401  (a type annotation)
+    return isinstance(hint, types.UnionType) and types.NoneType in typing.get_args(hint)
+
+
+def _meant(key: str, names: typing.Sequence[str]) -> str:
+    close = difflib.get_close_matches(key, names, n=1)
+    if close:
+        return f": do you mean {close[0]}?"
+    return f": give one of {', '.join(names)}"
+
+
+def _check(source: str, scene: Scene) -> None:
+    """Check what more than one key decides."""
+    sweep, curve, contact = scene.sweep, scene.curve, scene.rig.contact
+    if not sweep.ramp <= sweep.start < sweep.end <= sweep.duration:
+        raise SceneError(
+            f"{source}: [sweep] ramp {sweep.ramp:g} s, start {sweep.start:g} s, end "
+            f"{sweep.end:g} s, duration {sweep.duration:g} s: "
+            "give ramp <= start < end <= duration"
+        )
+    for name, table in (("sweep", sweep), ("curve", curve)):
+        if table.lowest == table.highest:
+            raise SceneError(
+                f"{source}: [{name}] lowest and highest are both {table.lowest:g} Hz: "
+                "give two different frequencies"
+            )
+    if curve.samples < 4 * curve.harmonics + 2:
+        raise SceneError(
+            f"{source}: [curve] samples = {curve.samples}: too few for "
+            f"{curve.harmonics} harmonics: give at least {4 * curve.harmonics + 2}"
+        )
+    if contact.angle_excited + contact.angle_follower <= 0.0:
+        raise SceneError(
+            f"{source}: [contact] angle_excited + angle_follower = "
+            f"{contact.angle_excited + contact.angle_follower:g} rad: the faces must "
+            "form a wedge that the preload pushes into: give a positive sum"
+        )

@@ -101,7 +101,7 @@ class AlternatingFrequencyTime:
         entries = self._entries[chosen]
         dense = np.zeros((spectrum.shape[0], rows, rows), complex)
         dense[:, entries[:, 0], entries[:, 1]] = spectrum[:, chosen]
-        local = self._basis.T @ dense @ self._basis
+        local = self._basis.T @ dense @ self._basis.astype(complex)
         return _products(local, self._fourier.harmonics, rank)
 
 

@@ -159,7 +159,7 @@ def _poles(
             [-frequencies, -modes.T @ damping @ modes],
         ]
     )
-    poles, vectors = np.linalg.eig(system)
+    poles, vectors = (part.astype(complex) for part in np.linalg.eig(system))
     inverse = np.linalg.inv(vectors)
     error = np.abs(vectors @ (poles[:, None] * inverse) - system).max(initial=0.0)
     if error > 1e-8 * np.abs(system).max(initial=0.0):
@@ -167,5 +167,5 @@ def _poles(
             "two poles of the structure coincide (a critically damped mode): "
             "change its damping slightly"
         )
-    shapes = (modes / np.sqrt(squares)) @ vectors[:count]
-    return poles.astype(complex), shapes.astype(complex), inverse[:, count:] @ modes.T
+    shapes = (modes / np.sqrt(squares)).astype(complex) @ vectors[:count]
+    return poles, shapes, inverse[:, count:] @ modes.T.astype(complex)

@@ -79,9 +79,7 @@ def trace(
     ContinuationError
         If the first point or, after the shortest step, a later one does not converge.
     """
-    first, begin = _correct_at(system, start, control), float(start[-1])
-    if first.outcome is not Outcome.CONVERGED:
-        raise ContinuationError(_text("the first point", begin, first, control))
+    first, begin = correct_at(system, start, control), float(start[-1])
     yield first
     direction = np.zeros_like(start)
     direction[-1] = math.copysign(1.0, end - begin)
@@ -97,6 +95,24 @@ def trace(
         yield candidate
         step = control.after(step, candidate.iterations)
         accepted = candidate
+
+
+def correct_at(system: System, guess: Array, control: StepControl) -> Correction:
+    """Correct a guess at its own parameter.
+
+    Raises
+    ------
+    ContinuationError
+        If it does not converge.
+    """
+    normal = np.zeros_like(guess)
+    normal[-1] = 1.0
+    found = correct(
+        system, guess, normal, tolerance=control.tolerance, max_iterations=60
+    )
+    if found.outcome is not Outcome.CONVERGED:
+        raise ContinuationError(_text(float(guess[-1]), found, control))
+    return found
 
 
 def tangent(jacobian: Array, direction: Array, scale: Array) -> Array:
@@ -131,7 +147,7 @@ def _next(
                 return candidate, step
         elif step <= control.smallest:
             where = float(accepted.point[-1])
-            raise ContinuationError(_text("the curve", where, candidate, control))
+            raise ContinuationError(_text(where, candidate, control))
         step = max(step * 0.5, control.smallest)
 
 
@@ -148,24 +164,12 @@ def _border(
     share = (limit - before) / (after - before)
     guess = accepted.point + share * (candidate.point - accepted.point)
     guess[-1] = limit
-    last = _correct_at(system, guess, control)
-    if last.outcome is not Outcome.CONVERGED:
-        raise ContinuationError(_text("the last point", float(limit), last, control))
-    return last
+    return correct_at(system, guess, control)
 
 
-def _correct_at(system: System, guess: Array, control: StepControl) -> Correction:
-    """Correct at the guess's own parameter."""
-    normal = np.zeros_like(guess)
-    normal[-1] = 1.0
-    return correct(
-        system, guess, normal, tolerance=control.tolerance, max_iterations=60
-    )
-
-
-def _text(what: str, where: float, failed: Correction, control: StepControl) -> str:
+def _text(where: float, failed: Correction, control: StepControl) -> str:
     return (
-        f"{what} does not go on at parameter {where:.9g}: {failed.outcome.value} "
+        f"the curve does not go on at parameter {where:.9g}: {failed.outcome.value} "
         f"(residual {failed.residuals[-1]:.1e} after {failed.iterations} iterations, "
         f"tolerance {control.tolerance:.1e}); more harmonics, more samples or a larger "
         "threshold velocity make it smoother"

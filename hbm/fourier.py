@@ -42,9 +42,11 @@ class Transform:
 
     def __init__(self, signals: int, samples: int) -> None:
         """Plan transforms of arrays of shape ``(signals, samples)``."""
-        self._time = pyfftw.zeros_aligned((signals, samples), dtype="float64")
+        self._time: Array = pyfftw.zeros_aligned((signals, samples), dtype="float64")
         bins = samples // 2 + 1
-        self._spectrum = pyfftw.zeros_aligned((signals, bins), dtype="complex128")
+        self._spectrum: ComplexArray = pyfftw.zeros_aligned(
+            (signals, bins), dtype="complex128"
+        )
         self._samples = samples
         estimate = ("FFTW_ESTIMATE",)
         self._forward = pyfftw.FFTW(self._time, self._spectrum, flags=estimate)
@@ -71,7 +73,7 @@ class Transform:
         return self._time
 
     def analysis(self, harmonics: int) -> Array:
-        """Return the coefficients of :attr:`samples`, ``(2 harmonics + 1, signals)``."""
+        """Return coefficients of :attr:`samples`, ``(2 harmonics + 1, signals)``."""
         self._forward.execute()
         spectrum = self._spectrum[:, : harmonics + 1].T / self._samples
         spectrum[1:] *= 2.0
@@ -79,7 +81,7 @@ class Transform:
 
 
 def to_complex(coefficients: Array) -> ComplexArray:
-    """Return cₖ = aₖ − i bₖ, shape ``(harmonics + 1, …)``; signal = Re Σ cₖ exp(ikθ)."""
+    """Return cₖ = aₖ − i bₖ, ``(harmonics + 1, …)``: the signal is Re Σ cₖ exp ikθ."""
     amplitudes = np.empty(
         (coefficients.shape[0] // 2 + 1, *coefficients.shape[1:]), complex
     )

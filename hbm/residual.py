@@ -15,14 +15,14 @@ from microslip_mechanics.static import StaticState
 class HarmonicBalance:
     """Residual of a problem in the relative coordinates of its contacts.
 
-    A point is the flat array of the coefficients of y, shape (2H + 1, rank), followed by
-    the excitation frequency [rad/s].
+    A point is the flat array of the coefficients of y, shape (2H + 1, rank), followed
+    by the excitation frequency [rad/s].
     """
 
     def __init__(
         self, problem: Problem, rest: StaticState, fourier: FourierBasis
     ) -> None:
-        """Condense ``problem`` and plan the transforms; ``rest`` is its equilibrium."""
+        """Condense ``problem`` and plan transforms; ``rest`` is its equilibrium."""
         basis, self.selection = problem.interface.relative_motion()
         self.fourier, self.rank = fourier, basis.shape[1]
         self.condensed: CondensedStructure = condense(problem, self.selection)
@@ -34,7 +34,7 @@ class HarmonicBalance:
         self._gauge = self._free_positions(rest)
 
     def __call__(self, point: Array) -> tuple[Array, Array]:
-        """Return the residual [N], (unknowns,), and Jacobian, (unknowns, unknowns + 1)."""
+        """Return the residual [N] and its Jacobian, (unknowns, unknowns + 1)."""
         coefficients, frequency = self.split(point)
         variable = self._variable(frequency)
         stiffness, stiffness_change = self.condensed.dynamic_stiffness(variable)
@@ -50,6 +50,10 @@ class HarmonicBalance:
             stiffness, contact.by_displacement, contact.by_velocity,
             to_real(change), coefficients, frequency,
         )  # fmt: skip
+
+    def point(self, motion: Array, frequency: float) -> Array:
+        """Return the point of a motion u with coefficients (2H + 1, dofs)."""
+        return np.append(motion @ self.selection.T, frequency)
 
     def split(self, point: Array) -> tuple[Array, float]:
         """Return the coefficients of y, shape (2H + 1, rank), and the frequency."""
@@ -111,4 +115,5 @@ class HarmonicBalance:
         if self.rank == 0:
             return held
         loose = directions[:, sizes < 1e-11 * sizes[-1]]
-        return sizes[-1] * 1e-6 * loose @ loose.T
+        gauge: Array = sizes[-1] * 1e-6 * loose @ loose.T
+        return gauge

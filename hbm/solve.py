@@ -7,7 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.continuation import ContinuationError, Metric, StepControl, trace
+from hbm.continuation import (
+    ContinuationError,
+    Metric,
+    StepControl,
+    correct_at,
+    trace,
+)
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction
 from hbm.residual import HarmonicBalance
@@ -37,8 +43,8 @@ class CurveOptions:
         """Check the range."""
         if self.start <= 0.0 or self.end <= 0.0 or self.start == self.end:
             raise ValueError(
-                f"frequencies {self.start:g} and {self.end:g} rad/s: give two different "
-                "positive ones"
+                f"frequencies {self.start:g} and {self.end:g} rad/s: "
+                "give two different positive ones"
             )
 
 
@@ -61,29 +67,51 @@ def frequency_response(
     ContinuationError
         If the curve cannot go on; what was yielded before stays valid.
     """
-    balance = HarmonicBalance(
-        problem, rest, FourierBasis(options.harmonics, options.samples)
+    fourier = FourierBasis(options.harmonics, options.samples)
+    balance = HarmonicBalance(problem, rest, fourier)
+    still = np.zeros((fourier.coefficients, problem.structure.dofs))
+    still[0] = rest.displacement
+    corrections = trace(
+        balance,
+        balance.point(still, options.start),
+        options.end,
+        metric=_metric(balance, abs(options.end - options.start) / 10.0),
+        control=StepControl(
+            tolerance=options.tolerance * _force_scale(problem),
+            initial=min(0.02, options.largest_step),
+            largest=options.largest_step,
+        ),
     )
-    scale = _force_scale(problem)
-    control = StepControl(
-        tolerance=options.tolerance * scale,
-        initial=min(0.02, options.largest_step),
-        largest=options.largest_step,
+    for correction in corrections:
+        yield _response(balance, correction, problem)
+
+
+def periodic_response(
+    problem: Problem,
+    rest: StaticState,
+    guess: PeriodicResponse,
+    *,
+    harmonics: int,
+    samples: int,
+    tolerance: float = 1e-8,
+) -> PeriodicResponse:
+    """Return the response at the frequency of ``guess`` with another resolution.
+
+    Raises
+    ------
+    ContinuationError
+        If the point does not converge.
+    """
+    balance = HarmonicBalance(problem, rest, FourierBasis(harmonics, samples))
+    coefficients = np.zeros((2 * harmonics + 1, problem.structure.dofs))
+    kept = min(len(coefficients), len(guess.coefficients))
+    coefficients[:kept] = guess.coefficients[:kept]
+    correction = correct_at(
+        balance,
+        balance.point(coefficients, guess.frequency),
+        StepControl(tolerance=tolerance * _force_scale(problem)),
     )
-    start = np.zeros((balance.fourier.coefficients, balance.rank))
-    start[0] = balance.selection @ rest.displacement
-    point = np.append(start.ravel(), options.start)
-    metric = _metric(balance, abs(options.end - options.start) / 10.0)
-    for correction in trace(
-        balance, point, options.end, metric=metric, control=control
-    ):
-        drift = balance.drift_force(correction.point)
-        if drift > 1e-6 * scale:
-            raise ContinuationError(
-                f"a body drifts at {correction.point[-1]:.6g} rad/s: friction has a mean "
-                f"of {drift:.2g} N and nothing holds the body; give it a rope"
-            )
-        yield _response(balance, correction)
+    return _response(balance, correction, problem)
 
 
 def _force_scale(problem: Problem) -> float:
@@ -105,8 +133,16 @@ def _metric(balance: HarmonicBalance, frequency_scale: float) -> Metric:
     return metric
 
 
-def _response(balance: HarmonicBalance, correction: Correction) -> PeriodicResponse:
+def _response(
+    balance: HarmonicBalance, correction: Correction, problem: Problem
+) -> PeriodicResponse:
     coefficients, frequency = balance.split(correction.point)
+    drift = balance.drift_force(correction.point)
+    if drift > 1e-6 * _force_scale(problem):
+        raise ContinuationError(
+            fX
+            "N and nothing holds the body; give it a rope"
+        )
     cycle = balance.contact.cycle(coefficients, frequency)
     return PeriodicResponse(
         frequency,

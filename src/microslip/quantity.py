@@ -52,7 +52,9 @@ class Quantity:
 
     def _number(self, value: object) -> float:
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-            raise ValueError(f"is not a number: give one{self._unit_hint()}")
+            raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+                f"is not a number: give one{self._unit_hint()}"
+            )
         if isinstance(value, str):
             return self._with_unit(value)
         if not math.isfinite(value):

@@ -25,7 +25,7 @@ class Interface:
         count = len(self.names)
         if self.displacement.ndim != 2 or self.displacement.shape[0] != 3 * count:
             raise ValueError(
-                f"displacement has shape {self.displacement.shape}, but {count} contact "
+                f"displacement has shape {self.displacement.shape}, but {count} "
                 f"points need {3 * count} rows: normal and two tangents for each"
             )
         for field, column in self.points._asdict().items():

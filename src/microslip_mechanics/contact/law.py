@@ -130,7 +130,7 @@ def contact_power(
 def contact_energy(points: ContactPoints, point: int, penetration: float) -> float:
     """Return the elastic energy [J] stored in the normal spring of one point."""
     spring = spring_force(normal_law(points, point), penetration)
-    return spring * penetration / (points.exponent[point] + 1.0)
+    return float(spring * penetration / (points.exponent[point] + 1.0))
 
 
 @kernel

@@ -14,7 +14,7 @@ SLIPS = ("element-to-excited", "element-to-follower")
 
 
 def problem(rig: TwoBlades) -> Problem:
-    """Return the rig as a problem: preload along x, drive along z (tutorial, part 1)."""
+    """Return the rig as a problem: preload along x, drive along z (tutorial)."""
     frame = layout.frame(rig)
     centre = layout.element_centre(rig)
     ends = [

@@ -6,6 +6,7 @@ is the excited one, at y < 0; blade 1 is the follower, at y > 0 (tutorial, part 
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -37,7 +38,7 @@ def frame(rig: TwoBlades) -> Frame:
             Node(name, place, MOTIONS if k else ())
             for k, (name, place) in enumerate(zip(names, stations, strict=True))
         ]
-        ends = zip(names[:-1], names[1:], strict=True)
+        ends = itertools.pairwise(names)
         beams += [_beam(rig, start, end) for start, end in ends]
         bodies.append(_blade_end(rig, blade))
     centre, free = element_centre(rig), MOTIONS if rig.model == "full" else MOTIONS[:3]

@@ -1,0 +1,29 @@
+"""Progress bars on standard error, around generators that know nothing of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeVar
+
+Item = TypeVar("Item")
+
+
+def shown(
+    items: Iterable[Item],
+    *,
+    total: float,
+    done: Callable[[Item], float],
+    unit: str,
+    name: str,
+) -> Iterator[Item]:
+    """Pass items through and keep a bar; ``done`` tells how far an item has come.
+
+    The bar is off where standard error is no terminal.
+    """
+    from tqdm import tqdm
+
+    form = "{desc}: {percentage:3.0f}%|{bar}| {n:.4g}/{total:.4g} {unit} [{elapsed}<{remaining}]"
+    with tqdm(total=total, desc=name, unit=unit, disable=None, bar_format=form) as bar:
+        for item in items:
+            bar.update(max(0.0, min(done(item), total) - bar.n))
+            yield item

@@ -1,0 +1,170 @@
+"""Results to netCDF files and back; docs/files.md describes the schema."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.io import netcdf_file
+
+from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.time_history import TimeHistory
+
+NAME_LENGTH = 32
+Result = ResponseCurve | TimeHistory
+
+CURVE = {
+    "frequency": (("point",), "rad/s", "excitation frequency"),
+    "amplitude": (("point", "probe"), "m", "first-harmonic amplitude"),
+    "peak": (("point", "probe"), "m", "largest deviation from the mean in time"),
+    "velocity_peak": (("point", "probe"), "m/s", "largest velocity in time"),
+    "normal_smallest": (("point", "contact"), "N", "smallest normal force"),
+    "normal_largest": (("point", "contact"), "N", "largest normal force"),
+    "friction_energy": (("point",), "J", "energy taken out by friction per period"),
+    "damping_energy": (
+        ("point",),
+        "J",
+        "energy taken out by contact damping per period",
+    ),
+    "residual": (("point",), "N", "largest unbalanced force"),
+    "iterations": (("point",), "1", "Newton iterations"),
+    "probes": (("probe", "name"), "", "what is watched"),
+    "contacts": (("contact", "name"), "", "contact points"),
+}
+HISTORY = {
+    "time": (("time",), "s", "time"),
+    "displacement": (("time", "probe"), "m", "displacement"),
+    "velocity": (("time", "probe"), "m/s", "velocity"),
+    "normal_force": (("time", "contact"), "N", "normal contact force"),
+    "friction_power": (("time",), "W", "power taken out by friction"),
+    "energy": (("time", "energy"), "J", "energy that flowed so far, or is stored"),
+    "probes": (("probe", "name"), "", "what is watched"),
+    "contacts": (("contact", "name"), "", "contact points"),
+    "energies": (("energy", "name"), "", "kinds of energy"),
+}
+SCHEMAS = {
+    "frequency response curve": (ResponseCurve, CURVE),
+    "time history": (TimeHistory, HISTORY),
+}
+
+
+class StoreError(MicroslipError):
+    """A file that cannot be written or read as a result."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stored:
+    """A result with the text of the scene and the command that made it."""
+
+    result: Result
+    scene: str
+    command: str
+
+
+def save(path: Path, stored: Stored) -> None:
+    """Write a result as netCDF 3 (classic, 64-bit offsets).
+
+    Raises
+    ------
+    StoreError
+        If the file cannot be written.
+    """
+    kind, schema = next(
+        (kind, schema)
+        for kind, (result, schema) in SCHEMAS.items()
+        if isinstance(stored.result, result)
+    )
+    try:
+        with netcdf_file(path, "w", version=2) as file:
+            _describe(file, kind, stored)
+            for name, (dimensions, unit, meaning) in schema.items():
+                values = _plain(getattr(stored.result, name))
+                _dimensions(file, dimensions, values.shape)
+                variable = file.createVariable(name, values.dtype, dimensions)
+                variable[:] = values
+                variable.long_name = meaning
+                if unit:
+                    variable.units = unit
+    except OSError as error:
+        raise StoreError(
+            f"{path} cannot be written: {error.strerror or error}"
+        ) from None
+
+
+def load(path: Path) -> Stored:
+    """Read a result that :func:`save` wrote.
+
+    Raises
+    ------
+    StoreError
+        If there is no such file, or it is not a result.
+    """
+    try:
+        with netcdf_file(path, "r", mmap=False) as file:
+            return _read(path, file)
+    except FileNotFoundError:
+        raise StoreError(f"there is no result file {path}") from None
+    except OSError as error:
+        raise StoreError(f"{path} cannot be read: {error.strerror or error}") from None
+    except (TypeError, ValueError, KeyError, AttributeError, IndexError):
+        raise StoreError(
+            f"{path} is not a result file: give what frc or sweep wrote"
+        ) from None
+
+
+def _describe(file: netcdf_file, kind: str, stored: Stored) -> None:
+    """Write the global attributes."""
+    file.kind = kind
+    file.source = f"microslip {version('microslip')}"
+    file.command = stored.command
+    file.scene = stored.scene
+    for field in dataclasses.fields(stored.result):
+        value = getattr(stored.result, field.name)
+        if isinstance(value, (str, int, float)):
+            setattr(file, field.name, value)
+
+
+def _plain(value: object) -> np.ndarray:
+    """Return an array that netCDF 3 knows: float64, or characters for names."""
+    if isinstance(value, tuple):
+        names = np.array([name.encode() for name in value], dtype=f"S{NAME_LENGTH}")
+        return names.view("S1").reshape(len(value), NAME_LENGTH)
+    return np.asarray(value, dtype=float)
+
+
+def _dimensions(
+    file: netcdf_file, names: tuple[str, ...], shape: tuple[int, ...]
+) -> None:
+    for name, size in zip(names, shape, strict=True):
+        if name not in file.dimensions:
+            file.createDimension(name, size)
+
+
+def _read(path: Path, file: netcdf_file) -> Stored:
+    kind = file.kind.decode()
+    if kind not in SCHEMAS:
+        raise StoreError(f"{path} holds a {kind!r}, which this version does not know")
+    result, schema = SCHEMAS[kind]
+    made: dict[str, Any] = {}
+    for field in dataclasses.fields(result):
+        if field.name in schema:
+            made[field.name] = _value(file.variables[field.name].data)
+        else:
+            value = getattr(file, field.name)
+            made[field.name] = (
+                value.decode() if isinstance(value, bytes) else value.item()
+            )
+    return Stored(result(**made), file.scene.decode(), file.command.decode())
+
+
+def _value(data: np.ndarray) -> object:
+    """Return names as a tuple of texts, numbers as float64 in native order."""
+    if data.dtype.kind == "S":
+        rows = np.ascontiguousarray(data).view(f"S{NAME_LENGTH}")
+        return tuple(name.decode() for name in rows.ravel())
+    return data.astype(float)

@@ -1,0 +1,1 @@
+"""What needs a scene and one solver or both: curve, sweep, verify, tables."""

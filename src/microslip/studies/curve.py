@@ -1,0 +1,98 @@
+"""The frequency response curve of a scene, as far as it was traced."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from hbm.continuation import ContinuationError
+from hbm.solve import CurveOptions, frequency_response, periodic_response
+from microslip.scene_file import Curve
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
+from microslip_mechanics.static import StaticState, static_equilibrium
+
+Watch: TypeAlias = Callable[[Iterable[Any]], Iterator[Any]]
+"""what a command puts around a generator to show its progress"""
+
+
+@dataclass(frozen=True, slots=True)
+class Traced:
+    """A curve, the responses it is made of, and the equilibrium it started from."""
+
+    curve: ResponseCurve
+    responses: tuple[PeriodicResponse, ...]
+    rest: StaticState
+
+
+def trace_curve(problem: Problem, curve: Curve, watch: Watch = iter) -> Traced:
+    """Trace a scene's curve; keep what there is when it cannot go on or is stopped."""
+    rest = static_equilibrium(problem)
+    options = CurveOptions(
+        2.0 * np.pi * curve.lowest,
+        2.0 * np.pi * curve.highest,
+        curve.harmonics,
+        curve.samples,
+    )
+    responses: list[PeriodicResponse] = []
+    ending = "complete"
+    try:
+        for response in watch(frequency_response(problem, rest, options)):
+            responses.append(response)  # noqa: PERF402  (what is there must be kept)
+    except ContinuationError as error:
+        ending = str(error)
+        if not responses:
+            raise
+    except KeyboardInterrupt:
+        ending = "interrupted"
+        if not responses:
+            raise
+    made = response_curve(problem, responses, ending, samples=curve.samples)
+    return Traced(made, tuple(responses), rest)
+
+
+def truncation_error(problem: Problem, traced: Traced, curve: Curve) -> float:
+    """Return how much the peak amplitude changes with twice the resolution, relative.
+
+    The point of the largest amplitude is solved again with twice the harmonics and
+    twice the samples; its change estimates the error of the curve there.
+    """
+    place = int(traced.curve.amplitude.max(axis=1).argmax())
+    finer = periodic_response(
+        problem,
+        traced.rest,
+        traced.responses[place],
+        harmonics=2 * curve.harmonics,
+        samples=2 * curve.samples,
+    )
+    fine = response_curve(problem, [finer], "complete", samples=2 * curve.samples)
+    coarse = traced.curve.amplitude[place]
+    return float(np.abs(fine.amplitude[0] - coarse).max() / coarse.max())
+
+
+def quasi_static_energy(curve: ResponseCurve, rate: float) -> float:
+    """Return the energy that friction takes out of an infinitely slow upward sweep.
+
+    Parameters
+    ----------
+    curve
+        Traced upwards.
+    rate
+        Logarithmic sweep rate k [1/s].
+
+    Returns
+    -------
+    ∫ E df / k [J] along the branch that an upward sweep follows (theory §6).
+    """
+    upward = followed_upwards(curve)
+    hertz = curve.frequency[upward] / (2.0 * np.pi)
+    return float(np.trapezoid(curve.friction_energy[upward], hertz) / rate)
+
+
+def followed_upwards(curve: ResponseCurve) -> np.ndarray:
+    """Return the points that a slow upward sweep passes: it jumps at a fold."""
+    highest = np.maximum.accumulate(curve.frequency)
+    return np.flatnonzero(curve.frequency >= highest)

@@ -1,0 +1,85 @@
+"""The paper's Tables 4 and 5: dissipated energies of all variants of the rig."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip.rigs import problem_of
+from microslip.scene_file import Scene, load_scene
+from microslip.studies.sweep import march_sweep, swept_sine
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.time_history import TimeHistory
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """A row of the tables."""
+
+    name: str
+    overrides: tuple[str, ...]
+    paper: float
+    """dissipated energy that the paper prints [J]; NaN for rows of our own"""
+
+
+PAPER = (
+    Variant("coulomb, full, stiff", (), 0.009),
+    Variant("coulomb, full, soft", ("contact.sigma=3e-7",), 0.143),
+    Variant("coulomb, B", ("model=B",), 0.148),
+    Variant("coulomb, A", ("model=A",), 0.149),
+    Variant("gkf, full, stiff", ("friction.law=gkf",), 0.014),
+    Variant("gkf, full, soft", ("friction.law=gkf", "contact.sigma=3e-7"), 0.102),
+    Variant("gkf, B", ("friction.law=gkf", "model=B"), 0.099),
+    Variant("gkf, A", ("friction.law=gkf", "model=A"), 0.099),
+)
+SENSITIVITIES = (
+    Variant("coulomb, full, stiff, fan 0", ("blade.fan=0 deg",), np.nan),
+    Variant(
+        "coulomb, full, stiff, V_lim 0.1 mm/s",
+        ("friction.threshold_velocity=0.1 mm/s",),
+        np.nan,
+    ),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """What microslip finds for a variant."""
+
+    variant: Variant
+    energy: float
+    """dissipated by friction over the whole history [J]"""
+    half_step_change: float
+    """change of the energy when the time step is halved, relative; NaN if not run"""
+    closing_error: float
+    """largest over the input energy"""
+    seconds: float
+    """run time of the march at the scene's time step [s]"""
+    rest: np.ndarray
+    """normal force of each point at rest [N]"""
+    history: TimeHistory
+
+
+def rows(source: str, variants: tuple[Variant, ...], *, halve: bool) -> Iterator[Row]:
+    """Yield the rows; with ``halve`` each is marched again with half the time step."""
+    for variant in variants:
+        scene = load_scene(source, variant.overrides)
+        start = time.perf_counter()
+        history = _march(scene, 1.0)
+        seconds = time.perf_counter() - start
+        energy, change = float(history.of("friction")[-1]), float("nan")
+        if halve:
+            finer = float(_march(scene, 0.5).of("friction")[-1])
+            energy, change = finer, energy / finer - 1.0
+        closing = np.abs(history.closing_error).max() / history.of("input").max()
+        rest = static_equilibrium(problem_of(scene)).normal_force
+        yield Row(variant, energy, change, float(closing), seconds, rest, history)
+
+
+def _march(scene: Scene, share: float) -> TimeHistory:
+    march = dataclasses.replace(scene.march, time_step=scene.march.time_step * share)
+    return march_sweep(problem_of(scene), swept_sine(scene.sweep), march)

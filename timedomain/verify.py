@@ -1,0 +1,97 @@
+"""Does a periodic response stay what it is when time runs? (theory §7)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.time_history import TimeHistory, joined
+from timedomain.integrate import MarchOptions, integrate
+from timedomain.start import Start
+
+ROWS_PER_PERIOD = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Agreement:
+    """How far a march leaves the periodic response on which it began."""
+
+    frequency: float
+    """excitation frequency [rad/s]"""
+    predicted: Array
+    """first-harmonic amplitude of the periodic response [m], shape (probes,)"""
+    marched: Array
+    """first-harmonic amplitude of the last period of the march [m], shape (probes,)"""
+    first_distance: float
+    """largest distance of the first period from the orbit, over the orbit's size"""
+    last_distance: float
+    """the same for the last period"""
+    drift: float
+    """change of the amplitude over the last tenth of the march, relative"""
+    closing_error: float
+    """of the energy balance, over the input energy"""
+
+    @property
+    def deviation(self) -> float:
+        """Largest relative difference of the amplitudes."""
+        return float(np.abs(self.marched / self.predicted - 1.0).max())
+
+
+def march_periods(
+    problem: Problem,
+    response: PeriodicResponse,
+    *,
+    periods: int,
+    steps_per_period: int,
+) -> Iterator[TimeHistory]:
+    """Yield the march that begins on a periodic response, ten periods at a time.
+
+    ``steps_per_period`` is rounded up to a multiple of the stored rows per period.
+    """
+    period = 2.0 * np.pi / response.frequency
+    stride = -(-steps_per_period // ROWS_PER_PERIOD)
+    displacement, velocity = response.at(np.zeros(1))
+    yield from integrate(
+        problem,
+        Dwell(response.frequency, periods * period),
+        MarchOptions(period / (stride * ROWS_PER_PERIOD), store_every=stride),
+        start=Start(displacement[0], velocity[0]),
+        block=10.0 * period,
+    )
+
+
+def agreement(
+    problem: Problem, response: PeriodicResponse, blocks: list[TimeHistory]
+) -> Agreement:
+    """Compare a march from :func:`march_periods` with the response it began on.
+
+    Distances are taken over all probes and all phases of a period; the orbit's size is
+    its largest first-harmonic amplitude.
+    """
+    history = joined(blocks, "complete")
+    phase = 2.0 * np.pi * np.arange(1, ROWS_PER_PERIOD + 1) / ROWS_PER_PERIOD
+    orbit = response.at(phase)[0] @ problem.probes.rows.T
+    cycles = history.displacement.reshape(-1, ROWS_PER_PERIOD, orbit.shape[1])
+    rotation = np.exp(-1j * phase)[:, None] * 2.0 / ROWS_PER_PERIOD
+    predicted = np.abs((rotation * orbit).sum(axis=0))
+    amplitudes = np.abs((rotation * cycles).sum(axis=1))
+    size = predicted.max()
+    away = np.abs(cycles - orbit).max(axis=(1, 2)) / size
+    tail = max(1, len(amplitudes) // 10)
+    drift = np.abs(amplitudes[-1] - amplitudes[-1 - tail]).max() / size
+    closing = np.abs(history.closing_error).max() / np.abs(history.of("input")).max()
+    return Agreement(
+        response.frequency,
+        predicted,
+        amplitudes[-1],
+        float(away[0]),
+        float(away[-1]),
+        float(drift),
+        float(closing),
+    )

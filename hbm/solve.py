@@ -140,8 +140,8 @@ def _response(
     drift = balance.drift_force(correction.point)
     if drift > 1e-6 * _force_scale(problem):
         raise ContinuationError(
-            fX
-            "N and nothing holds the body; give it a rope"
+            f"a body drifts at {frequency:.6g} rad/s: friction has a mean of "
+            f"{drift:.2g} N and nothing holds the body; give it a rope"
         )
     cycle = balance.contact.cycle(coefficients, frequency)
     return PeriodicResponse(

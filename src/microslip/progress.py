@@ -22,7 +22,10 @@ def shown(
     """
     from tqdm import tqdm
 
-    form = "{desc}: {percentage:3.0f}%|{bar}| {n:.4g}/{total:.4g} {unit} [{elapsed}<{remaining}]"
+    form = (
+        "{desc}: {percentage:3.0f}%|{bar}| {n:.4g}/{total:.4g} {unit} "
+        "[{elapsed}<{remaining}]"
+    )
     with tqdm(total=total, desc=name, unit=unit, disable=None, bar_format=form) as bar:
         for item in items:
             bar.update(max(0.0, min(done(item), total) - bar.n))

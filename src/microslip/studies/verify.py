@@ -1,0 +1,134 @@
+"""Do both solvers agree? Orbits that must stay, and sweeps that slow to the curve."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip.scene_file import Scene
+from microslip.studies.curve import Traced, Watch, followed_upwards, quasi_static_energy
+from microslip.studies.sweep import march_sweep, swept_sine
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse, ResponseCurve
+from microslip_mechanics.time_history import TimeHistory
+from timedomain.verify import Agreement, agreement, march_periods
+
+
+@dataclass(frozen=True, slots=True)
+class SweepAgreement:
+    """A swept sine beside what the curve predicts for an infinitely slow one."""
+
+    slower: float
+    """how many times longer than the scene's sweep"""
+    energy: float
+    """dissipated by friction while the drive acts, over ``slower`` [J]"""
+    quasi_static: float
+    """the curve's prediction of the same [J]"""
+    envelope_error: float
+    """largest difference of envelope and curve, over the curve's peak"""
+    closing_error: float
+    """of the energy balance, over the input"""
+    envelope_frequency: Array
+    """excitation frequency of each cycle [Hz]"""
+    envelope: Array
+    """largest deflection of each cycle [m], shape (cycles, probes)"""
+    ending: str
+
+    @property
+    def energy_error(self) -> float:
+        """Relative difference of the energies."""
+        return self.energy / self.quasi_static - 1.0
+
+
+def spread(traced: Traced, count: int) -> list[PeriodicResponse]:
+    """Return responses spread evenly along the branch of an upward sweep.
+
+    Even in arc: half of the weight is frequency, half is amplitude, so that the flanks
+    of a resonance get their share; the peak and both ends are always among them.
+    """
+    curve, places = traced.curve, followed_upwards(traced.curve)
+    amplitude = curve.amplitude[places].max(axis=1)
+    frequency = curve.frequency[places]
+    arc = np.cumsum(
+        np.abs(np.diff(amplitude, prepend=amplitude[0])) / (2.0 * np.ptp(amplitude))
+        + np.abs(np.diff(frequency, prepend=frequency[0])) / np.ptp(frequency)
+    )
+    wanted = np.linspace(arc[0], arc[-1], count)
+    chosen = {int(np.abs(arc - place).argmin()) for place in wanted}
+    chosen.add(int(amplitude.argmax()))
+    return [traced.responses[places[place]] for place in sorted(chosen)]
+
+
+def orbits(
+    problem: Problem,
+    responses: list[PeriodicResponse],
+    *,
+    periods: int,
+    steps_per_period: int,
+) -> Iterator[Agreement]:
+    """Yield the agreement of each response with the march that begins on it."""
+    for response in responses:
+        blocks = list(
+            march_periods(
+                problem, response, periods=periods, steps_per_period=steps_per_period
+            )
+        )
+        yield agreement(problem, response, blocks)
+
+
+def sweep_agreement(
+    scene: Scene,
+    problem: Problem,
+    curve: ResponseCurve,
+    *,
+    slower: float,
+    watch: Watch = iter,
+) -> SweepAgreement:
+    """March the scene's sweep, ``slower`` times as long, and compare it with a curve."""
+    sweep = swept_sine(scene.sweep, slower=slower)
+    history = march_sweep(problem, sweep, scene.march, watch)
+    friction, time = history.of("friction"), history.time
+    energy = np.diff(np.interp([sweep.start, sweep.end], time, friction))[0] / slower
+    frequency, envelope = _envelope(
+        history, sweep.frequency(time), sweep.start, sweep.end
+    )
+    places = followed_upwards(curve)
+    hertz = curve.frequency[places] / (2.0 * np.pi)
+    predicted = np.stack(
+        [np.interp(frequency, hertz, peak) for peak in curve.peak[places].T], axis=1
+    )
+    return SweepAgreement(
+        slower,
+        float(energy),
+        quasi_static_energy(curve, sweep.rate * slower),
+        float(np.abs(envelope - predicted).max() / curve.peak.max()),
+        float(np.abs(history.closing_error).max() / history.of("input").max()),
+        frequency,
+        envelope,
+        history.ending,
+    )
+
+
+def rate_of(agreements: list[SweepAgreement]) -> float:
+    """Return the exponent by which the energies' difference falls with duration."""
+    slower = np.log([each.slower for each in agreements])
+    error = np.log([abs(each.energy_error) for each in agreements])
+    return float(-np.polyfit(slower, error, 1)[0])
+
+
+def _envelope(
+    history: TimeHistory, frequency: Array, start: float, end: float
+) -> tuple[Array, Array]:
+    """Return frequency and largest deflection of each cycle of the drive."""
+    driven = (history.time >= start) & (history.time <= end)
+    hertz = frequency[driven]
+    shown = history.displacement[driven]
+    spacing = history.time[1] - history.time[0]
+    cycle = np.floor(np.cumsum(hertz) * spacing).astype(int)
+    edges = np.flatnonzero(np.diff(cycle, prepend=cycle[0] - 1))
+    high = np.maximum.reduceat(shown, edges, axis=0)
+    low = np.minimum.reduceat(shown, edges, axis=0)
+    return hertz[edges], (high - low) / 2.0

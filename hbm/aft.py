@@ -1,4 +1,4 @@
-"""Alternating frequency/time: contact forces and their Jacobian (theory §6)."""
+"""Alternating frequency/time: contact forces and their tangents (theory §6)."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis, Transform, derivative, to_complex
+from hbm.jacobian import Spectra
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import (
     ContactPoints,
@@ -24,10 +25,10 @@ class PeriodicContact:
 
     force: Array
     """coefficients of the force on the relative coordinates [N], (2H + 1, rank)"""
-    by_displacement: Array
-    """∂force/∂y at constant velocity, shape (2H + 1, rank, 2H + 1, rank)"""
-    by_velocity: Array
-    """∂force/∂ẏ at constant displacement, shape (2H + 1, rank, 2H + 1, rank)"""
+    by_frequency: Array
+    """its derivative by ω at constant coefficients [N s/rad], (2H + 1, rank)"""
+    tangents: Spectra
+    """of ∂force/∂y and ∂force/∂ẏ over the period, up to order 2H"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,23 +57,33 @@ class AlternatingFrequencyTime:
         self._displacement = Transform(rows, fourier.samples)
         self._velocity = Transform(rows, fourier.samples)
         self._force = Transform(rows, fourier.samples)
+        self._change = Transform(rows, fourier.samples)
         self._entries = _entries(points)
         self._tangents = Transform(len(self._entries), fourier.samples)
 
     def __call__(self, coefficients: Array, frequency: float) -> PeriodicContact:
-        """Return force and Jacobian for y with ``coefficients``, (2H + 1, rank).
+        """Return force and tangents for y with ``coefficients``, (2H + 1, rank).
 
         ``frequency`` [rad/s] turns the derivative by phase into velocity.
         """
         displacement, velocity = self._motion(coefficients, frequency)
         _sample(
-            self._points, displacement, velocity, self._entries,
-            self._force.samples, self._tangents.samples,
-        )  # fmt: skip
-        force = self._force.analysis(self._fourier.harmonics) @ self._basis
-        spectrum = to_complex(self._tangents.analysis(2 * self._fourier.harmonics))
+            self._points,
+            displacement,
+            velocity,
+            self._entries,
+            self._force.samples,
+            self._change.samples,
+            self._tangents.samples,
+        )
+        harmonics = self._fourier.harmonics
+        force = self._force.analysis(harmonics) @ self._basis
+        change = self._change.analysis(harmonics) @ self._basis / frequency
+        spectrum = to_complex(self._tangents.analysis(2 * harmonics))
+        stiffness, damping = (self._spectrum(spectrum, kind) for kind in (0, 1))
+        spectra = Spectra(stiffness.real, -stiffness.imag, damping.real, -damping.imag)
         return PeriodicContact(
-            force, self._jacobian(spectrum, 0), self._jacobian(spectrum, 1)
+            force, change, Spectra(*map(np.ascontiguousarray, spectra))
         )
 
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
@@ -90,19 +101,19 @@ class AlternatingFrequencyTime:
             self._velocity.synthesis(velocities),
         )
 
-    def _jacobian(self, spectrum: ComplexArray, by_velocity: int) -> Array:
-        """Expand the spectra of one kind of tangent to a Jacobian on y.
+    def _spectrum(self, amplitudes: ComplexArray, by_velocity: int) -> ComplexArray:
+        """Return the spectrum of one kind of tangent on the relative coordinates.
 
-        The tangents are brought to the relative coordinates order by order, before the
-        products of harmonics multiply their number (theory, eq. 19).
+        They are brought there order by order, before the products of harmonics
+        multiply their number (theory, eq. 19).
         """
-        rows, rank = self._basis.shape
+        rows = self._basis.shape[0]
         chosen = self._entries[:, 2] == by_velocity
         entries = self._entries[chosen]
-        dense = np.zeros((spectrum.shape[0], rows, rows), complex)
-        dense[:, entries[:, 0], entries[:, 1]] = spectrum[:, chosen]
-        local = self._basis.T @ dense @ self._basis.astype(complex)
-        return _products(local, self._fourier.harmonics, rank)
+        dense: ComplexArray = np.zeros((amplitudes.shape[0], rows, rows), complex)
+        dense[:, entries[:, 0], entries[:, 1]] = amplitudes[:, chosen]
+        spectrum: ComplexArray = self._basis.T @ dense @ self._basis
+        return spectrum
 
 
 def _entries(points: ContactPoints) -> NDArray[np.int64]:
@@ -115,31 +126,6 @@ def _entries(points: ContactPoints) -> NDArray[np.int64]:
     return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
 
-def _products(spectrum: ComplexArray, harmonics: int, rank: int) -> Array:
-    """Return the matrix that multiplies a signal's coefficients by k(θ) (eq. 19).
-
-    ``spectrum`` holds the complex amplitudes of k up to order 2H, (2H + 1, rank, rank).
-    """
-    orders = np.arange(1, harmonics + 1)
-    size = 2 * harmonics + 1
-    matrix = np.empty((size, rank, size, rank))
-    cosine, sine = spectrum.real.copy(), -spectrum.imag
-    matrix[0, :, 0] = cosine[0]
-    matrix[0, :, 1::2] = cosine[orders].transpose(1, 0, 2) / 2.0
-    matrix[0, :, 2::2] = sine[orders].transpose(1, 0, 2) / 2.0
-    matrix[1::2, :, 0] = cosine[orders]
-    matrix[2::2, :, 0] = sine[orders]
-    cosine[0] *= 2.0
-    plus, minus = orders[:, None] + orders, orders[:, None] - orders
-    sign = np.sign(minus)[:, :, None, None]
-    even, odd = cosine[np.abs(minus)], sign * sine[np.abs(minus)]
-    matrix[1::2, :, 1::2] = ((even + cosine[plus]) / 2.0).transpose(0, 2, 1, 3)
-    matrix[2::2, :, 2::2] = ((even - cosine[plus]) / 2.0).transpose(0, 2, 1, 3)
-    matrix[1::2, :, 2::2] = ((sine[plus] - odd) / 2.0).transpose(0, 2, 1, 3)
-    matrix[2::2, :, 1::2] = ((sine[plus] + odd) / 2.0).transpose(0, 2, 1, 3)
-    return matrix
-
-
 @kernel
 def _sample(
     points: ContactPoints,
@@ -147,9 +133,10 @@ def _sample(
     velocity: Array,
     entries: NDArray[np.int64],
     forces: Array,
+    changes: Array,
     tangents: Array,
 ) -> None:
-    """Write forces and chosen tangents of all points at all samples."""
+    """Write forces, (∂force/∂velocity) velocity, and chosen tangents at all samples."""
     force = np.zeros(3)
     by_both = np.zeros((2, 3, 3))
     first = 0
@@ -165,6 +152,11 @@ def _sample(
             )  # fmt: skip
             for axis in range(3):
                 forces[3 * point + axis, sample] = force[axis]
+                changes[3 * point + axis, sample] = (
+                    by_both[1, axis, 0] * velocity[3 * point, sample]
+                    + by_both[1, axis, 1] * velocity[3 * point + 1, sample]
+                    + by_both[1, axis, 2] * velocity[3 * point + 2, sample]
+                )
             for entry in range(first, last):
                 tangents[entry, sample] = by_both[
                     entries[entry, 2],

@@ -57,6 +57,8 @@ def trace(
     *,
     metric: Metric,
     control: StepControl,
+    begin: float | None = None,
+    direction: Array | None = None,
 ) -> Iterator[Correction]:
     """Yield the points of a curve from one value of its parameter to another.
 
@@ -65,10 +67,14 @@ def trace(
     system
         Residual and Jacobian; the last component of a point is the parameter.
     start
-        First guess, shape ``(n + 1,)``; its parameter is where the curve starts.
+        First guess, shape ``(n + 1,)``; it is corrected at its own parameter.
     end
-        Parameter at which the curve ends. A curve that folds back to its start's
-        parameter ends there.
+        Parameter at which the curve ends.
+    begin
+        The other parameter at which the curve ends, if it folds back; that of
+        ``start`` if left out.
+    direction
+        Where to go first, shape ``(n + 1,)``; towards ``end`` if left out.
     metric
         Scale of each component, by which arc length is measured near a point.
     control
@@ -79,16 +85,17 @@ def trace(
     ContinuationError
         If the first point or, after the shortest step, a later one does not converge.
     """
-    first, begin = correct_at(system, start, control), float(start[-1])
-    yield first
-    direction = np.zeros_like(start)
-    direction[-1] = math.copysign(1.0, end - begin)
-    accepted, step = first, control.initial
+    accepted, step = correct_at(system, start, control), control.initial
+    yield accepted
+    begin = float(start[-1]) if begin is None else begin
+    if direction is None:
+        direction = np.zeros_like(start)
+        direction[-1] = math.copysign(1.0, end - begin)
+    low, high = sorted((begin, end))
     while True:
         scale = metric(accepted.point)
         direction = tangent(accepted.jacobian, direction, scale)
         candidate, step = _next(system, accepted, direction, scale, step, control)
-        low, high = sorted((begin, end))
         if not low < candidate.point[-1] < high:
             yield _border(system, accepted, candidate, (low, high), control)
             return

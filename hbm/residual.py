@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.condensation import CondensedStructure, condense
-from hbm.fourier import FourierBasis, derivative, to_complex, to_real
+from hbm.fourier import FourierBasis, to_complex, to_real
+from hbm.jacobian import assemble
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
@@ -35,6 +37,16 @@ class HarmonicBalance:
 
     def __call__(self, point: Array) -> tuple[Array, Array]:
         """Return the residual [N] and its Jacobian, (unknowns, unknowns + 1)."""
+        return self.evaluated(point, np.arange(point.size - 1))
+
+    def evaluated(
+        self, point: Array, unknowns: NDArray[np.intp]
+    ) -> tuple[Array, Array]:
+        """Return the whole residual, and the Jacobian of some rows and columns.
+
+        ``unknowns`` are flat indices of coefficients; the Jacobian has shape
+        ``(unknowns, unknowns + 1)``, its last column is the derivative by frequency.
+        """
         coefficients, frequency = self.split(point)
         variable = self._variable(frequency)
         stiffness, stiffness_change = self.condensed.dynamic_stiffness(variable)
@@ -46,10 +58,12 @@ class HarmonicBalance:
         contact = self.contact(coefficients, frequency)
         residual = to_real(linear) + contact.force
         residual[0] += self._gauge @ coefficients[0]
-        return residual.ravel(), self._jacobian(
-            stiffness, contact.by_displacement, contact.by_velocity,
-            to_real(change), coefficients, frequency,
-        )  # fmt: skip
+        elastic, viscous = stiffness.real.copy(), stiffness.imag.copy()
+        elastic[0] += self._gauge
+        jacobian = assemble(contact.tangents, elastic, viscous, frequency, unknowns)
+        slope = to_real(change) + contact.by_frequency
+        jacobian[:, -1] = slope.ravel()[unknowns]
+        return residual.ravel(), jacobian
 
     def point(self, motion: Array, frequency: float) -> Array:
         """Return the point of a motion u with coefficients (2H + 1, dofs)."""
@@ -74,33 +88,6 @@ class HarmonicBalance:
     def _variable(self, frequency: float) -> ComplexArray:
         return 1j * frequency * np.arange(self.fourier.harmonics + 1)
 
-    def _jacobian(
-        self,
-        stiffness: ComplexArray,
-        by_displacement: Array,
-        by_velocity: Array,
-        change: Array,
-        coefficients: Array,
-        frequency: float,
-    ) -> Array:
-        size, rank = coefficients.shape
-        jacobian = np.empty((size * rank, size * rank + 1))
-        square = by_displacement.copy()
-        orders = np.arange(1, self.fourier.harmonics + 1)[:, None, None]
-        cosine, sine = by_velocity[:, :, 1::2], by_velocity[:, :, 2::2]
-        square[:, :, 1::2] -= frequency * orders[:, :, 0] * sine
-        square[:, :, 2::2] += frequency * orders[:, :, 0] * cosine
-        square[0, :, 0] += stiffness[0].real + self._gauge
-        odd, even = np.arange(1, size, 2), np.arange(2, size, 2)
-        square[odd, :, odd] += stiffness[1:].real
-        square[even, :, even] += stiffness[1:].real
-        square[odd, :, even] += stiffness[1:].imag
-        square[even, :, odd] -= stiffness[1:].imag
-        jacobian[:, :-1] = square.reshape(size * rank, size * rank)
-        slope = by_velocity.reshape(size * rank, -1) @ derivative(coefficients).ravel()
-        jacobian[:, -1] = change.ravel() + slope
-        return jacobian
-
     def _free_positions(self, rest: StaticState) -> Array:
         """Return a stiffness along mean motions that nothing holds, else zero.
 
@@ -109,7 +96,7 @@ class HarmonicBalance:
         """
         start = np.zeros((self.fourier.coefficients, self.rank))
         start[0] = self.selection @ rest.displacement
-        tangent = self.contact(start, 1.0).by_displacement[0, :, 0]
+        tangent = self.contact(start, 1.0).tangents.stiffness_cosine[0]
         held = self.condensed.stiffness + tangent
         sizes, directions = np.linalg.eigh((held + held.T) / 2.0)
         if self.rank == 0:

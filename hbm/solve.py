@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.active import ActiveUnknowns, moving
 from hbm.continuation import (
     ContinuationError,
     Metric,
@@ -71,19 +72,49 @@ def frequency_response(
     balance = HarmonicBalance(problem, rest, fourier)
     still = np.zeros((fourier.coefficients, problem.structure.dofs))
     still[0] = rest.displacement
-    corrections = trace(
-        balance,
-        balance.point(still, options.start),
-        options.end,
-        metric=_metric(balance, abs(options.end - options.start) / 10.0),
-        control=StepControl(
-            tolerance=options.tolerance * _force_scale(problem),
-            initial=min(0.02, options.largest_step),
-            largest=options.largest_step,
-        ),
+    tolerance = options.tolerance * _force_scale(problem)
+    control = StepControl(
+        tolerance=tolerance,
+        initial=min(0.02, options.largest_step),
+        largest=options.largest_step,
     )
+    first = correct_at(balance, balance.point(still, options.start), control)
+    corrections = _restricted(balance, first.point, options, control)
     for correction in corrections:
         yield _response(balance, correction, problem)
+
+
+def _restricted(
+    balance: HarmonicBalance, start: Array, options: CurveOptions, control: StepControl
+) -> Iterator[Correction]:
+    """Yield points of the whole system, solved for in the active unknowns.
+
+    Where an equation that is left out no longer holds, all unknowns take over.
+    """
+    active = ActiveUnknowns(balance, moving(balance, start))
+    metric = _metric(abs(options.end - options.start) / 10.0)
+    before, accepted = None, start
+    for correction in trace(
+        active, active.restricted(start), options.end, metric=metric, control=control
+    ):
+        if active.excluded > control.tolerance:
+            break
+        before, accepted = accepted, active.expanded(correction.point)
+        yield replace(correction, point=accepted)
+    else:
+        return
+    onwards = None if before is None else accepted - before
+    whole = trace(
+        balance,
+        accepted,
+        options.end,
+        metric=metric,
+        control=control,
+        begin=options.start,
+        direction=onwards,
+    )
+    next(whole)
+    yield from whole
 
 
 def periodic_response(
@@ -120,13 +151,11 @@ def _force_scale(problem: Problem) -> float:
     return float(min((size for size in sizes if size > 0.0), default=1.0))
 
 
-def _metric(balance: HarmonicBalance, frequency_scale: float) -> Metric:
-    """Measure arc by the relative change of the vibration and by frequency."""
+def _metric(frequency_scale: float) -> Metric:
+    """Measure arc by the change relative to the motion, and by frequency."""
 
     def metric(point: Array) -> Array:
-        coefficients, _ = balance.split(point)
-        size = float(np.linalg.norm(coefficients)) + 1e-12
-        scale = np.full(point.size, size)
+        scale = np.full(point.size, float(np.linalg.norm(point[:-1])) + 1e-12)
         scale[-1] = frequency_scale
         return scale
 

@@ -81,19 +81,18 @@ def save(path: Path, stored: Stored) -> None:
     )
     try:
         with netcdf_file(path, "w", version=2) as file:
-            _describe(file, kind, stored)
+            for name, text in _attributes(kind, stored).items():
+                setattr(file, name, text)
             for name, (dimensions, unit, meaning) in schema.items():
                 values = _plain(getattr(stored.result, name))
                 _dimensions(file, dimensions, values.shape)
                 variable = file.createVariable(name, values.dtype, dimensions)
                 variable[:] = values
-                variable.long_name = meaning
-                if unit:
-                    variable.units = unit
+                setattr(variable, "long_name", meaning)  # noqa: B010  (an attribute of the file)
+                setattr(variable, "units", unit)  # noqa: B010
     except OSError as error:
-        raise StoreError(
-            f"{path} cannot be written: {error.strerror or error}"
-        ) from None
+        reason = error.strerror or error
+        raise StoreError(f"{path} cannot be written: {reason}") from None
 
 
 def load(path: Path) -> Stored:
@@ -117,16 +116,19 @@ def load(path: Path) -> Stored:
         ) from None
 
 
-def _describe(file: netcdf_file, kind: str, stored: Stored) -> None:
-    """Write the global attributes."""
-    file.kind = kind
-    file.source = f"microslip {version('microslip')}"
-    file.command = stored.command
-    file.scene = stored.scene
+def _attributes(kind: str, stored: Stored) -> dict[str, str | int | float]:
+    """Return the global attributes of the file."""
+    made: dict[str, str | int | float] = {
+        "kind": kind,
+        "source": f"microslip {version('microslip')}",
+        "command": stored.command,
+        "scene": stored.scene,
+    }
     for field in dataclasses.fields(stored.result):
         value = getattr(stored.result, field.name)
         if isinstance(value, (str, int, float)):
-            setattr(file, field.name, value)
+            made[field.name] = value
+    return made
 
 
 def _plain(value: object) -> np.ndarray:
@@ -146,7 +148,9 @@ def _dimensions(
 
 
 def _read(path: Path, file: netcdf_file) -> Stored:
-    kind = file.kind.decode()
+    kind, scene, command = (
+        getattr(file, name).decode() for name in ("kind", "scene", "command")
+    )
     if kind not in SCHEMAS:
         raise StoreError(f"{path} holds a {kind!r}, which this version does not know")
     result, schema = SCHEMAS[kind]
@@ -159,7 +163,7 @@ def _read(path: Path, file: netcdf_file) -> Stored:
             made[field.name] = (
                 value.decode() if isinstance(value, bytes) else value.item()
             )
-    return Stored(result(**made), file.scene.decode(), file.command.decode())
+    return Stored(result(**made), scene, command)
 
 
 def _value(data: np.ndarray) -> object:

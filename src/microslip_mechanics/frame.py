@@ -147,6 +147,12 @@ class Frame:
         )
         axis = end.position - start.position
         length = float(np.linalg.norm(axis))
+        across = float(np.abs(beam.thickness_direction @ axis))
+        if across > 1e-9 * length * float(np.linalg.norm(beam.thickness_direction)):
+            raise ValueError(
+                f"beam {beam.start} to {beam.end}: thickness_direction "
+                f"{beam.thickness_direction} is not perpendicular to the beam's axis"
+            )
         local_z = beam.thickness_direction / np.linalg.norm(beam.thickness_direction)
         axes = np.array([axis / length, np.cross(local_z, axis / length), local_z])
         turn = np.kron(np.eye(4), axes)

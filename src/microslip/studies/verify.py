@@ -87,7 +87,7 @@ def sweep_agreement(
     slower: float,
     watch: Watch = iter,
 ) -> SweepAgreement:
-    """March the scene's sweep, ``slower`` times as long, and compare it with a curve."""
+    """March the scene's sweep, ``slower`` times as long; compare it with a curve."""
     sweep = swept_sine(scene.sweep, slower=slower)
     history = march_sweep(problem, sweep, scene.march, watch)
     friction, time = history.of("friction"), history.time

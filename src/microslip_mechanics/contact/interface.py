@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse.csgraph import connected_components
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints
@@ -44,7 +45,8 @@ class Interface:
         """Return independent coordinates of the relative motion.
 
         Rigid faces move relative to each other in six ways at the most, however many
-        points they carry; the solvers need no more unknowns than that (theory, eq. 11).
+        points they carry; the solvers need no more unknowns (theory, eq. 11). Motions that share no degree of freedom, such as those along and across a plane of
+        symmetry, stay apart.
 
         Returns
         -------
@@ -58,7 +60,18 @@ class Interface:
         rows = self.displacement
         if rows.shape[0] == 0:
             return np.zeros((0, 0)), rows
-        left, sizes, _ = np.linalg.svd(rows, full_matrices=False)
-        rank = int(np.sum(sizes > 1e-9 * sizes[0]))
-        basis = np.eye(rank) if rank == rows.shape[0] else left[:, :rank]
+        gram = np.abs(rows.T @ rows)
+        _, family = connected_components(gram > 1e-10 * gram.max())
+        floor = 1e-9 * float(np.linalg.norm(rows, 2))
+        spans = [_span(rows[:, family == each], floor) for each in np.unique(family)]
+        basis = np.hstack(spans)
+        if basis.shape[1] == rows.shape[0]:
+            basis = np.eye(rows.shape[0])
         return np.ascontiguousarray(basis), np.ascontiguousarray(basis.T @ rows)
+
+
+def _span(columns: Array, floor: float) -> Array:
+    """Return an orthonormal basis of what the columns span above ``floor``."""
+    left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
+    basis: Array = left[:, sizes > floor]
+    return basis

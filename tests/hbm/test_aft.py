@@ -1,0 +1,212 @@
+"""Contact forces of a periodic motion: closed forms and exact derivatives."""
+
+import numpy as np
+import pytest
+
+from contact_tables import FRICTION_LAWS, contact_points, every_combination
+from hbm.aft import AlternatingFrequencyTime, ContactCycle, PeriodicContact
+from hbm.fourier import FourierBasis
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ContactPoints, contact_force
+
+pytestmark = pytest.mark.kernels
+
+FREQUENCY, AMPLITUDE, LOAD, FRICTION = 11.0, 0.02, 1.7, 0.3
+MEAN, COSINE, SINE = 0, 1, 2
+"""places of the coefficients of the mean and of the first harmonic"""
+
+
+def one_point(
+    points: ContactPoints, *, harmonics: int = 3, samples: int = 256
+) -> AlternatingFrequencyTime:
+    return AlternatingFrequencyTime(points, np.eye(3), FourierBasis(harmonics, samples))
+
+
+def moved(harmonics: int = 3, **coefficients: tuple[int, float]) -> Array:
+    """Return coefficients (2H + 1, 3) from (place, value) of each direction."""
+    motion = np.zeros((2 * harmonics + 1, 3))
+    for axis, direction in enumerate(("normal", "first", "second")):
+        if direction in coefficients:
+            place, value = coefficients[direction]
+            motion[place, axis] = value
+    return motion
+
+
+def sliding(samples: int, threshold: float) -> tuple[PeriodicContact, ContactCycle]:
+    """Return forces and energies of X sin θ at constant normal load."""
+    points = contact_points(
+        constant_load=True, load=LOAD, dynamic=FRICTION, threshold=threshold
+    )
+    contact = one_point(points, samples=samples)
+    motion = moved(first=(SINE, AMPLITUDE))
+    return contact(motion, FREQUENCY), contact.cycle(motion, FREQUENCY)
+
+
+@pytest.mark.parametrize("order", [1, 3])
+def test_sliding_friction_has_the_harmonics_of_a_square_wave(order: int) -> None:
+    samples, threshold = 1022, 1e-9
+
+    force, _ = sliding(samples, threshold)
+
+    # The velocity X ω cos θ makes a square wave of cosines: 4 µN / π, −4 µN / 3π, …
+    # Samples see it with an error of (k π / samples)² / 3 at order k: below 3e-5.
+    expected = FRICTION * LOAD * 4.0 / (np.pi * order) * (1.0 if order == 1 else -1.0)
+    assert force.force[2 * order - 1, 1] == pytest.approx(expected, rel=3e-5)
+    assert force.force[2 * order, 1] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_sliding_friction_has_neither_mean_nor_even_harmonics() -> None:
+    force, _ = sliding(1022, 1e-9)
+
+    np.testing.assert_allclose(force.force[[0, 3, 4], 1], 0.0, atol=1e-12)
+    np.testing.assert_allclose(force.force[:, [0, 2]], 0.0, atol=1e-12)
+
+
+def test_sliding_friction_takes_four_times_force_times_amplitude_per_cycle() -> None:
+    _, cycle = sliding(1022, 1e-9)
+
+    # Samples of |cos θ| miss its mean by (π / samples)² / 3: 3e-6.
+    expected = 4.0 * FRICTION * LOAD * AMPLITUDE
+    assert cycle.friction == pytest.approx(expected, rel=1e-5)
+
+
+def test_friction_below_its_threshold_velocity_is_a_viscous_damper() -> None:
+    threshold = 2.0 * AMPLITUDE * FREQUENCY
+    damper = FRICTION * LOAD / threshold
+
+    force, cycle = sliding(64, threshold)
+
+    assert force.force[COSINE, 1] == pytest.approx(damper * FREQUENCY * AMPLITUDE)
+    energy = np.pi * damper * FREQUENCY * AMPLITUDE**2
+    assert cycle.friction == pytest.approx(energy)
+
+
+def test_a_contact_that_opens_half_of_the_time_rectifies_the_motion() -> None:
+    stiffness, samples = 50.0, 1022
+    points = contact_points(friction=0, stiffness=stiffness, exponent=1.0, damping=0.0)
+    contact, motion = one_point(points, samples=samples), moved(normal=(COSINE, 1.0))
+
+    force, cycle = (
+        contact(motion, FREQUENCY).force[:, 0],
+        contact.cycle(motion, FREQUENCY),
+    )
+
+    # K max(cos θ, 0) = K (1/π + cos θ / 2 + 2 cos 2θ / 3π − …); at a kink samples err
+    # by (π / samples)² / 3 of the mean, k² times as much at order k.
+    expected = stiffness * np.array([1.0 / np.pi, 0.5, 0.0, 2.0 / (3.0 * np.pi), 0.0])
+    np.testing.assert_allclose(force[:5], expected, atol=5e-5 * stiffness)
+    assert cycle.normal_smallest == pytest.approx(0.0)
+    assert cycle.normal_largest == pytest.approx(stiffness)
+
+
+def test_separated_faces_exchange_no_force() -> None:
+    contact = one_point(contact_points(threshold=1e-3))
+    motion = moved(normal=(MEAN, -1.0), first=(SINE, 1.0))
+
+    seen, cycle = contact(motion, FREQUENCY), contact.cycle(motion, FREQUENCY)
+
+    for each in (seen.force, seen.by_displacement, seen.by_velocity):
+        assert not each.any()
+    assert cycle.friction == cycle.normal_damping == 0.0
+    assert cycle.normal_largest == 0.0
+
+
+def test_linear_normal_damping_takes_the_energy_of_a_dashpot() -> None:
+    damping = 0.8
+    points = contact_points(friction=0, damping=damping, damping_exponent=0.0)
+    motion = moved(normal=(COSINE, AMPLITUDE))
+    motion[MEAN, 0] = 2.0 * AMPLITUDE
+
+    cycle = one_point(points, samples=32).cycle(motion, FREQUENCY)
+
+    assert cycle.normal_damping == pytest.approx(
+        damping * np.pi * FREQUENCY * AMPLITUDE**2
+    )
+    assert cycle.friction == 0.0
+
+
+def test_normal_forces_range_from_the_smallest_to_the_largest_penetration() -> None:
+    points = contact_points(friction=0, stiffness=3.0, damping=0.0)
+    motion = moved(normal=(COSINE, AMPLITUDE))
+    motion[MEAN, 0] = 2.0 * AMPLITUDE
+
+    cycle = one_point(points, samples=32).cycle(motion, FREQUENCY)
+
+    assert cycle.normal_smallest == pytest.approx(3.0 * AMPLITUDE**2)
+    assert cycle.normal_largest == pytest.approx(3.0 * (3.0 * AMPLITUDE) ** 2)
+
+
+def multiplication(
+    points: ContactPoints, basis: Array, motion: Array, fourier: FourierBasis
+) -> tuple[Array, Array]:
+    """Return the two Jacobians by multiplying each cosine and sine with the tangents.
+
+    What :class:`PeriodicContact` gets from spectra is done here sample by sample.
+    """
+    phase = 2.0 * np.pi * np.arange(fourier.samples) / fourier.samples
+    orders = np.arange(1, fourier.harmonics + 1)
+    waves, slopes = (np.zeros((fourier.samples, fourier.coefficients)) for _ in "12")
+    waves[:, 0] = 1.0
+    waves[:, 1::2] = np.cos(np.outer(phase, orders))
+    waves[:, 2::2] = np.sin(np.outer(phase, orders))
+    slopes[:, 1::2], slopes[:, 2::2] = (
+        -orders * waves[:, 2::2],
+        orders * waves[:, 1::2],
+    )
+    moved, moving = (waves @ motion @ basis.T, FREQUENCY * slopes @ motion @ basis.T)
+    size = basis.shape[0]
+    tangents = np.zeros((2, fourier.samples, size, size))
+    for sample in range(fourier.samples):
+        for point in range(size // 3):
+            place = slice(3 * point, 3 * point + 3)
+            force, by_both = np.zeros(3), np.zeros((2, 3, 3))
+            contact_force(
+                points,
+                point,
+                moved[sample, place],
+                moving[sample, place],
+                force,
+                by_both[0],
+                by_both[1],
+            )
+            tangents[:, sample, place, place] = by_both
+    weights = waves * np.r_[1.0, np.full(2 * fourier.harmonics, 2.0)] / fourier.samples
+    local = basis.T @ tangents @ basis
+    by_displacement, by_velocity = np.einsum("sa,ksij,sb->kaibj", weights, local, waves)
+    return by_displacement, by_velocity
+
+
+@pytest.mark.parametrize("law", FRICTION_LAWS)
+@pytest.mark.parametrize("samples", [14, 15, 40])
+def test_jacobian_is_exactly_the_multiplication_by_the_tangents(
+    law: str, samples: int
+) -> None:
+    points = every_combination(FRICTION_LAWS[law])
+    rng = np.random.default_rng(5)
+    fourier = FourierBasis(3, samples)
+    basis = np.linalg.qr(rng.standard_normal((3 * len(points.load), 7)))[0]
+    motion = rng.standard_normal((fourier.coefficients, 7))
+    motion[0] += basis[0::3].sum(axis=0)
+
+    seen = AlternatingFrequencyTime(points, basis, fourier)(motion, FREQUENCY)
+
+    expected = multiplication(points, basis, motion, fourier)
+    # Exact at the smallest number of samples too; rounding only, measured 1e-14.
+    for value, exact in zip(
+        (seen.by_displacement, seen.by_velocity), expected, strict=True
+    ):
+        np.testing.assert_allclose(value, exact, atol=1e-13 * np.abs(exact).max())
+
+
+def test_force_on_the_coordinates_is_that_of_the_points_brought_back() -> None:
+    points = contact_points(2, stiffness=[3.0, 5.0])
+    rng = np.random.default_rng(6)
+    fourier = FourierBasis(2, 32)
+    basis = np.linalg.qr(rng.standard_normal((6, 4)))[0]
+    motion = rng.standard_normal((5, 4))
+
+    force = AlternatingFrequencyTime(points, basis, fourier)(motion, FREQUENCY).force
+
+    at_points = AlternatingFrequencyTime(points, np.eye(6), fourier)
+    expected = at_points(motion @ basis.T, FREQUENCY).force @ basis
+    np.testing.assert_allclose(force, expected, atol=1e-14)

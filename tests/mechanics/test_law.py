@@ -1,0 +1,400 @@
+"""The force of a contact point: values, exact tangents, powers, energy."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from contact_tables import FRICTION_LAWS, contact_points, every_combination
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.hunt_crossley import spring_force
+from microslip_mechanics.contact.law import (
+    COULOMB,
+    FRICTIONLESS,
+    GENERAL_KINETIC,
+    ContactPoints,
+    contact_energy,
+    contact_force,
+    contact_power,
+    normal_law,
+    tangent_pattern,
+)
+
+pytestmark = pytest.mark.kernels
+
+Motion = tuple[Array, Array]
+"""relative displacement and velocity of each point, each (points, 3)"""
+
+SLIDING = [COULOMB, GENERAL_KINETIC]
+
+
+def written(points: ContactPoints, motion: Motion) -> tuple[Array, Array, Array]:
+    """Return force (points, 3) and both tangents (points, 3, 3)."""
+    count = len(points.load)
+    force = np.full((count, 3), np.nan)
+    by_displacement, by_velocity = np.full((2, count, 3, 3), np.nan)
+    for point in range(count):
+        contact_force(
+            points,
+            point,
+            motion[0][point],
+            motion[1][point],
+            force[point],
+            by_displacement[point],
+            by_velocity[point],
+        )
+    return force, by_displacement, by_velocity
+
+
+def sizes(points: ContactPoints, motion: Motion) -> tuple[Array, Array]:
+    """Return the spring's force and the damper's force per approach in contact."""
+    depth = np.maximum(motion[0][:, 0], 0.0)
+    return (
+        points.stiffness * depth**points.exponent,
+        points.damping * depth**points.damping_exponent,
+    )
+
+
+def moving(points: ContactPoints, random: np.random.Generator, speed: Array) -> Motion:
+    """Return random motions in contact with the given sliding speeds, (points,)."""
+    count = len(points.load)
+    displacement = random.normal(size=(count, 3))
+    displacement[:, 0] = 10.0 ** random.uniform(-6.0, 0.5, count)
+    angle = random.uniform(0.0, 2.0 * np.pi, count)
+    approach = random.normal(size=count)
+    return displacement, np.stack(
+        [approach, speed * np.cos(angle), speed * np.sin(angle)], axis=1
+    )
+
+
+def sticking(points: ContactPoints, random: np.random.Generator) -> Motion:
+    share = 10.0 ** random.uniform(-6.0, -0.01, len(points.load))
+    return moving(points, random, share * points.threshold)
+
+
+def slipping(points: ContactPoints, random: np.random.Generator) -> Motion:
+    share = 10.0 ** random.uniform(0.01, 3.0, len(points.load))
+    return moving(points, random, share * points.threshold)
+
+
+def around_the_threshold(points: ContactPoints, random: np.random.Generator) -> Motion:
+    share = 1.0 + random.choice([-1e-4, 1e-4], len(points.load))
+    return moving(points, random, share * points.threshold)
+
+
+def separated(points: ContactPoints, random: np.random.Generator) -> Motion:
+    displacement, velocity = slipping(points, random)
+    displacement[:, 0] *= -1.0
+    return displacement, velocity
+
+
+def around_the_surface(points: ContactPoints, random: np.random.Generator) -> Motion:
+    displacement, velocity = slipping(points, random)
+    displacement[:, 0] = random.choice([-1e-12, 1e-12], len(points.load))
+    return displacement, velocity
+
+
+def around_zero_force(points: ContactPoints, random: np.random.Generator) -> Motion:
+    motion = slipping(points, random)
+    spring, damper = sizes(points, motion)
+    share = 1.0 + random.choice([-1e-3, 1e-3], len(points.load))
+    motion[1][:, 0] = -share * spring / damper
+    return motion
+
+
+def pulling(points: ContactPoints, random: np.random.Generator) -> Motion:
+    motion = slipping(points, random)
+    spring, damper = sizes(points, motion)
+    motion[1][:, 0] = -random.uniform(1.1, 5.0, len(points.load)) * spring / damper
+    return motion
+
+
+REGIONS = [
+    sticking,
+    slipping,
+    around_the_threshold,
+    separated,
+    around_the_surface,
+    around_zero_force,
+    pulling,
+]
+Region = Callable[[ContactPoints, np.random.Generator], Motion]
+
+
+@pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)
+@pytest.mark.parametrize("region", REGIONS)
+@pytest.mark.parametrize("seed", range(4))
+def test_tangents_are_the_central_differences_of_the_force(
+    region: Region, friction: int, seed: int
+) -> None:
+    points = every_combination(friction)
+    motion = region(points, np.random.default_rng(seed))
+
+    _, *exact = written(points, motion)
+
+    spring, damper = sizes(points, motion)
+    speed = np.hypot(motion[1][:, 1], motion[1][:, 2])
+    rounding = 4e-15 * (
+        spring + damper * np.abs(motion[1][:, 0]) + points.load + points.viscous * speed
+    )
+    for kind, tangent in enumerate(exact):
+        for column in range(3):
+            size = speed if kind == 1 and column else np.abs(motion[kind][:, column])
+            step = 1e-6 * size
+            ahead, behind = (np.array(motion) for _ in range(2))
+            ahead[kind, :, column] += step
+            behind[kind, :, column] -= step
+            width = ahead[kind, :, column] - behind[kind, :, column]
+            change = (
+                written(points, (ahead[0], ahead[1]))[0]
+                - written(points, (behind[0], behind[1]))[0]
+            )
+            difference = change / width[:, None]
+            allowed = 1e-6 * np.abs(tangent[:, :, column]) + (rounding / width)[:, None]
+            assert np.all(np.abs(difference - tangent[:, :, column]) <= allowed)
+
+
+@pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)
+def test_pattern_holds_each_tangent_that_is_ever_written_and_no_other(
+    friction: int,
+) -> None:
+    points = every_combination(friction)
+    random = np.random.default_rng(11)
+    count = len(points.load)
+
+    patterns = [tangent_pattern(points, point) for point in range(count)]
+
+    seen = np.zeros((2, count, 3, 3), dtype=bool)
+    for region in 8 * REGIONS:
+        _, *tangents = written(points, region(points, random))
+        seen |= np.array(tangents) != 0.0
+    np.testing.assert_array_equal(seen, np.swapaxes(np.array(patterns), 0, 1))
+
+
+@pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)
+def test_normal_force_is_hunt_and_crossleys_whatever_the_friction(
+    friction: int,
+) -> None:
+    points = every_combination(friction)
+    motion = around_zero_force(points, np.random.default_rng(1))
+
+    force, *_ = written(points, motion)
+
+    spring, damper = sizes(points, motion)
+    printed = spring + damper * motion[1][:, 0]
+    expected = np.where(points.clamped, np.maximum(printed, 0.0), printed)
+    assert np.any(expected < 0.0)
+    np.testing.assert_allclose(force[:, 0], expected, rtol=0.0, atol=1e-13)
+
+
+@pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)
+def test_nothing_acts_out_of_contact_with_a_computed_load(friction: int) -> None:
+    points = every_combination(friction)
+    points = points._replace(constant_load=np.zeros(len(points.load), dtype=bool))
+
+    acting = written(points, separated(points, np.random.default_rng(2)))
+
+    for array in acting:
+        np.testing.assert_array_equal(array, 0.0)
+
+
+def test_without_friction_the_tangential_force_vanishes() -> None:
+    points = every_combination(FRICTIONLESS)
+
+    force, *_ = written(points, slipping(points, np.random.default_rng(3)))
+
+    np.testing.assert_array_equal(force[:, 1:], 0.0)
+
+
+@pytest.mark.parametrize("friction", SLIDING)
+def test_there_is_no_friction_while_the_computed_load_pulls(friction: int) -> None:
+    points = every_combination(friction)
+    pulled = ~points.clamped & ~points.constant_load
+    motion = pulling(points, np.random.default_rng(4))
+
+    force, by_displacement, by_velocity = written(points, motion)
+
+    assert np.all(force[pulled, 0] < 0.0)
+    for array in (force, by_displacement, by_velocity):
+        np.testing.assert_array_equal(array[pulled, 1:], 0.0)
+
+
+@pytest.mark.parametrize("friction", SLIDING)
+@pytest.mark.parametrize("region", [slipping, separated, pulling])
+def test_constant_load_rubs_whatever_the_normal_force(
+    region: Region, friction: int
+) -> None:
+    points = every_combination(friction)
+    points = points._replace(
+        constant_load=np.ones(len(points.load), dtype=bool), viscous=0.0 * points.load
+    )
+    motion = region(points, np.random.default_rng(5))
+
+    force, *_ = written(points, motion)
+
+    coefficient = np.hypot(force[:, 1], force[:, 2]) / 1.7
+    assert np.all(coefficient >= 0.3 * (1.0 - 1e-14))
+    if friction == COULOMB:
+        np.testing.assert_allclose(coefficient, 0.3, rtol=1e-14)
+
+
+@pytest.mark.parametrize("region", [sticking, slipping, around_the_threshold])
+def test_coulomb_friction_is_mu_times_load_times_the_regularised_direction(
+    region: Region,
+) -> None:
+    points = every_combination(COULOMB)
+    motion = region(points, np.random.default_rng(6))
+
+    force, *_ = written(points, motion)
+
+    speed = np.hypot(motion[1][:, 1], motion[1][:, 2])
+    load = np.where(points.constant_load, 1.7, np.maximum(force[:, 0], 0.0))
+    factor = 0.3 * load / np.maximum(speed, points.threshold)
+    np.testing.assert_allclose(
+        force[:, 1:], factor[:, None] * motion[1][:, 1:], rtol=1e-13, atol=1e-15
+    )
+
+
+@pytest.mark.parametrize("region", [sticking, slipping])
+def test_viscous_friction_is_added_to_general_kinetic_friction_alone(
+    region: Region,
+) -> None:
+    random = np.random.default_rng(7)
+    for friction, viscous in ((GENERAL_KINETIC, 0.04), (COULOMB, 0.0)):
+        points = every_combination(friction)
+        dry = points._replace(viscous=np.zeros_like(points.viscous))
+        motion = region(points, random)
+
+        force, *_ = written(points, motion)
+
+        rubs = points.constant_load | (force[:, 0] > 0.0)
+        drag = viscous * rubs[:, None] * motion[1][:, 1:]
+        expected = written(dry, motion)[0][:, 1:] + drag
+        np.testing.assert_allclose(force[:, 1:], expected, rtol=1e-14, atol=1e-15)
+
+
+@pytest.mark.parametrize("region", [sticking, slipping, around_the_surface])
+def test_general_kinetic_friction_without_its_excess_is_coulombs(
+    region: Region,
+) -> None:
+    coulomb = every_combination(COULOMB)
+    kinetic = every_combination(GENERAL_KINETIC)._replace(
+        static=coulomb.dynamic, viscous=np.zeros_like(coulomb.viscous)
+    )
+    motion = region(coulomb, np.random.default_rng(8))
+
+    acting = written(kinetic, motion)
+
+    for array, expected in zip(acting, written(coulomb, motion), strict=True):
+        largest = np.abs(expected).max(axis=-1, keepdims=True)
+        assert np.all(np.abs(array - expected) <= 1e-13 * largest)
+
+
+@pytest.mark.parametrize("friction", SLIDING)
+@pytest.mark.parametrize("region", REGIONS)
+def test_friction_opposes_sliding_within_the_cone_of_the_static_coefficient(
+    region: Region, friction: int
+) -> None:
+    points = every_combination(friction)
+    points = points._replace(viscous=np.zeros_like(points.viscous))
+    motion = region(points, np.random.default_rng(9))
+
+    force, *_ = written(points, motion)
+
+    speed = np.hypot(motion[1][:, 1], motion[1][:, 2])
+    load = np.where(points.constant_load, 1.7, np.maximum(force[:, 0], 0.0))
+    most = (0.6 if friction == GENERAL_KINETIC else 0.3) * load
+    across = force[:, 1] * motion[1][:, 2] - force[:, 2] * motion[1][:, 1]
+    assert np.all(np.hypot(force[:, 1], force[:, 2]) <= most * (1.0 + 1e-14))
+    assert np.all(np.sum(force[:, 1:] * motion[1][:, 1:], axis=1) >= 0.0)
+    assert np.all(np.abs(across) <= 1e-14 * most * speed)
+
+
+@pytest.mark.parametrize("friction", SLIDING)
+@pytest.mark.parametrize("region", [sticking, slipping, around_the_threshold])
+def test_turning_both_tangents_turns_friction_and_its_tangents(
+    region: Region, friction: int
+) -> None:
+    points = every_combination(friction)
+    displacement, velocity = region(points, np.random.default_rng(10))
+    cosine, sine = np.cos(0.7), np.sin(0.7)
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+
+    force, *tangents = written(points, (displacement @ turn.T, velocity @ turn.T))
+
+    original, *expected = written(points, (displacement, velocity))
+    largest = np.abs(original).max()
+    np.testing.assert_allclose(force, original @ turn.T, rtol=0.0, atol=1e-14 * largest)
+    for tangent, before in zip(tangents, expected, strict=True):
+        scale = np.abs(before).max(axis=(1, 2), keepdims=True)
+        error = np.abs(tangent - turn @ before @ turn.T)
+        assert np.all(error <= 1e-13 * scale)
+
+
+@pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)
+@pytest.mark.parametrize("region", REGIONS)
+def test_power_splits_into_friction_damping_and_what_the_spring_stores(
+    region: Region, friction: int
+) -> None:
+    points = every_combination(friction)
+    motion = region(points, np.random.default_rng(12))
+    force, *_ = written(points, motion)
+
+    powers = np.array(
+        [
+            contact_power(
+                points, point, motion[0][point], motion[1][point], force[point]
+            )
+            for point in range(len(points.load))
+        ]
+    )
+
+    rubbing = np.sum(force[:, 1:] * motion[1][:, 1:], axis=1)
+    spring, damper = sizes(points, motion)
+    stored = spring * motion[1][:, 0]
+    given = np.sum(force * motion[1], axis=1)
+    scale = np.abs(given) + np.abs(stored) + damper * motion[1][:, 0] ** 2
+    np.testing.assert_allclose(powers[:, 0], rubbing, rtol=1e-14, atol=0.0)
+    assert np.all(np.abs(powers.sum(axis=1) + stored - given) <= 1e-14 * scale)
+    assert np.all(powers >= -1e-14 * scale[:, None])
+
+
+def test_damping_takes_out_damper_force_times_approach() -> None:
+    points = every_combination(FRICTIONLESS)
+    printed = points._replace(clamped=np.zeros_like(points.clamped))
+    motion = slipping(printed, np.random.default_rng(13))
+    force, *_ = written(printed, motion)
+
+    damping = [
+        contact_power(printed, point, motion[0][point], motion[1][point], force[point])[
+            1
+        ]
+        for point in range(len(printed.load))
+    ]
+
+    spring, damper = sizes(printed, motion)
+    approach = motion[1][:, 0]
+    rounding = 1e-15 * (spring + damper * np.abs(approach)) * np.abs(approach)
+    assert np.all(np.abs(damping - damper * approach**2) <= rounding)
+
+
+def test_energy_is_the_work_of_the_spring() -> None:
+    points = every_combination(COULOMB)
+    depths = 10.0 ** np.random.default_rng(14).uniform(-6.0, 0.5, len(points.load))
+
+    for point, depth in enumerate(depths):
+        energy = [contact_energy(points, point, factor * depth) for factor in
+                  (1.0 - 1e-5, 1.0, 1.0 + 1e-5)]  # fmt: skip
+        force = spring_force(normal_law(points, point), depth)
+
+        slope = (energy[2] - energy[0]) / (2e-5 * depth)
+        assert slope == pytest.approx(force, rel=1e-9)
+        power = points.exponent[point] + 1.0
+        assert energy[1] == pytest.approx(3.0 * depth**power / power, rel=1e-14)
+
+
+@pytest.mark.parametrize("depth", [0.0, -1e-9, -2.0])
+def test_nothing_is_stored_out_of_contact(depth: float) -> None:
+    energy = contact_energy(contact_points(), 0, depth)
+
+    assert energy == 0.0

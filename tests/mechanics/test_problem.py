@@ -1,0 +1,64 @@
+"""Problem: everything speaks of the same degrees of freedom."""
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from contact_tables import contact_points
+from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.structure import Structure
+
+DOFS = 4
+
+
+def problem(**parts: Any) -> Problem:
+    identity = np.eye(DOFS)
+    sound: dict[str, Any] = {
+        "structure": Structure(identity, identity, identity, tuple("abcd")),
+        "interface": interface(DOFS),
+        "preload": np.ones(DOFS),
+        "drive": np.ones(DOFS),
+        "probes": Probes(("tip",), np.ones((1, DOFS))),
+    }
+    return Problem(**(sound | parts))
+
+
+def interface(dofs: int) -> Interface:
+    return Interface(contact_points(), np.eye(3, dofs), ("point",))
+
+
+def test_parts_that_fit_make_a_problem() -> None:
+    whole = problem()
+
+    assert whole.interface.displacement.shape == (3, whole.structure.dofs)
+
+
+@pytest.mark.parametrize(
+    ("name", "parts"),
+    [
+        ("preload", {"preload": np.ones(5)}),
+        ("drive", {"drive": np.ones(5)}),
+        ("interface.displacement", {"interface": interface(5)}),
+        ("probes.rows", {"probes": Probes(("tip",), np.ones((1, 5)))}),
+    ],
+)
+def test_part_of_another_size_is_refused(name: str, parts: dict[str, Any]) -> None:
+    message = f"{name} has (5,) columns, but the structure has 4 degrees of freedom"
+
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+        problem(**parts)
+
+
+@pytest.mark.parametrize("name", ["preload", "drive"])
+@pytest.mark.parametrize("value", [np.nan, -np.inf])
+def test_load_with_a_value_that_is_not_finite_is_refused(
+    name: str, value: float
+) -> None:
+    load = np.ones(DOFS)
+    load[2] = value
+
+    with pytest.raises(ValueError, match=r"^a load holds a value that is not finite$"):
+        problem(**{name: load})

@@ -1,0 +1,151 @@
+"""Static equilibrium against closed forms of one contact and of the wedge."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from contact_tables import contact_points
+from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.static import StaticError, static_equilibrium
+from microslip_mechanics.structure import Structure
+from rigs import rig_problem
+
+pytestmark = pytest.mark.kernels
+
+
+def pressed(exponent: float, force: float, spring: float = 0.0) -> Problem:
+    """Return a mass that is pressed on one contact point, held sideways by nothing."""
+    stiffness = np.diag([spring, 0.0, 0.0])
+    return Problem(
+        Structure(0.01 * np.eye(3), np.zeros((3, 3)), stiffness, ("x", "y", "z")),
+        Interface(contact_points(stiffness=2e8, exponent=exponent), np.eye(3), ("p",)),
+        preload=np.array([force, 0.0, 0.0]),
+        drive=np.zeros(3),
+        probes=Probes(("x",), np.eye(1, 3)),
+    )
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 2.7])
+@pytest.mark.parametrize("force", [1e-3, 1.0, 100.0])
+def test_mass_sinks_into_a_contact_until_its_spring_carries_the_load(
+    exponent: float, force: float
+) -> None:
+    problem = pressed(exponent, force)
+
+    rest = static_equilibrium(problem)
+
+    depth = (force / 2e8) ** (1.0 / exponent)
+    assert rest.normal_force == pytest.approx([force], rel=1e-9)
+    np.testing.assert_allclose(rest.displacement, [depth, 0.0, 0.0], rtol=1e-9)
+
+
+def test_spring_beside_a_linear_contact_takes_its_share() -> None:
+    problem = pressed(1.0, 3.0, spring=1e8)
+
+    rest = static_equilibrium(problem)
+
+    assert rest.normal_force == pytest.approx([2.0], rel=1e-9)
+
+
+@pytest.mark.parametrize("model", ["full", "B", "A"])
+@pytest.mark.parametrize("sigma", [3e-9, 3e-7])
+@pytest.mark.parametrize("force", [1e-3, 1.0, 100.0])
+@pytest.mark.parametrize("rope", [0, 10])
+def test_faces_of_the_wedge_carry_what_statics_demands(
+    model: str, sigma: float, force: float, rope: float
+) -> None:
+    problem = rig_problem(
+        model=model, contact__sigma=sigma, preload__force=force, rope__stiffness=rope
+    )
+
+    rest = static_equilibrium(problem)
+
+    inclined, straight = np.split(rest.normal_force, 2)  # face B, face A
+    angle = math.radians(20.0)
+    assert inclined.sum() == pytest.approx(force / math.sin(angle), rel=1e-9)
+    assert straight.sum() == pytest.approx(force / math.tan(angle), rel=1e-9)
+
+
+def test_points_of_the_rig_carry_what_the_reference_computation_found() -> None:
+    problem = rig_problem()
+
+    rest = static_equilibrium(problem)
+
+    # face B, then face A; inner points (radially), then outer ones
+    assert problem.interface.names == ("B1", "B2", "B3", "B4", "A1", "A2", "A3", "A4")
+    expected = np.repeat([0.61, 0.85, 1.21, 0.16], 2)
+    np.testing.assert_allclose(rest.normal_force, expected, rtol=0.0, atol=0.005)
+
+
+@pytest.mark.parametrize("model", ["full", "B"])
+@pytest.mark.parametrize("offset", ["0 mm", "4.51 mm"])
+def test_equilibrium_balances_preload_structure_and_contact_springs(
+    model: str, offset: str
+) -> None:
+    problem = rig_problem(model=model, preload__offset=offset)
+    points, normals = problem.interface.points, problem.interface.displacement[::3]
+
+    rest = static_equilibrium(problem)
+
+    depth = np.maximum(normals @ rest.displacement, 0.0)
+    springs = points.stiffness * depth**points.exponent
+    unbalanced = (
+        problem.structure.stiffness @ rest.displacement
+        + normals.T @ springs
+        - problem.preload
+    )
+    np.testing.assert_allclose(rest.normal_force, springs, rtol=1e-9)
+    assert np.abs(unbalanced).max() == pytest.approx(rest.residual, rel=0.0, abs=1e-11)
+    assert rest.residual <= 1e-10
+
+
+def test_outer_points_of_face_a_lift_off_under_a_preload_at_that_face() -> None:
+    problem = rig_problem(preload__offset="4.51 mm")
+
+    rest = static_equilibrium(problem)
+
+    inclined, straight = np.split(rest.normal_force, 2)
+    np.testing.assert_array_equal(straight[2:], 0.0)
+    assert np.all(np.concatenate([inclined, straight[:2]]) > 0.1)
+    assert straight.sum() == pytest.approx(1.0 / math.tan(math.radians(20.0)), rel=1e-9)
+
+
+@pytest.mark.parametrize("law", ["none", "gkf"])
+def test_friction_carries_nothing_at_rest(law: str) -> None:
+    rubbing, other = rig_problem(), rig_problem(friction__law=law)
+
+    rest = static_equilibrium(other)
+
+    np.testing.assert_array_equal(
+        rest.normal_force, static_equilibrium(rubbing).normal_force
+    )
+
+
+def test_nothing_moves_without_preload() -> None:
+    problem = rig_problem(preload__force=0)
+
+    rest = static_equilibrium(problem)
+
+    np.testing.assert_array_equal(rest.displacement, np.zeros(54))
+    np.testing.assert_array_equal(rest.normal_force, np.zeros(8))
+    assert (rest.residual, rest.iterations) == (0.0, 0)
+
+
+@pytest.mark.parametrize("model", ["full", "B"])
+def test_preload_that_drives_the_wedge_out_has_no_equilibrium(model: str) -> None:
+    problem = rig_problem(model=model)
+    inward = replace(problem, preload=-problem.preload)
+
+    with pytest.raises(
+        StaticError,
+        match=r"^the static preload \(largest load 1 N\) has no equilibrium in "
+        r"contact: after \d+ steps the largest displacement is 1\.\d+ m or rad; "
+        r"check direction and size of the preload$",
+    ) as failure:
+        static_equilibrium(inward)
+
+    assert isinstance(failure.value, MicroslipError)

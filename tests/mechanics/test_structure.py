@@ -1,0 +1,83 @@
+"""Structure: what it refuses, and the texts."""
+
+import re
+
+import numpy as np
+import pytest
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.structure import Structure
+
+NAMES = ("a", "b")
+MATRICES = ("mass", "damping", "stiffness")
+
+
+def structure(**matrices: Array) -> Structure:
+    sound = {name: np.array([[2.0, -1.0], [-1.0, 3.0]]) for name in MATRICES}
+    return Structure(**(sound | matrices), names=NAMES)
+
+
+def test_structure_counts_its_degrees_of_freedom() -> None:
+    sound = structure()
+
+    assert sound.dofs == 2
+
+
+def test_singular_stiffness_and_no_damping_are_accepted() -> None:
+    loose = structure(stiffness=np.zeros((2, 2)), damping=np.zeros((2, 2)))
+
+    assert loose.dofs == 2
+
+
+@pytest.mark.parametrize("name", MATRICES)
+def test_matrix_of_another_shape_is_refused(name: str) -> None:
+    message = (
+        f"{name} has shape (3, 2), but there are 2 names of degrees of freedom: "
+        "give (2, 2)"
+    )
+
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+        structure(**{name: np.zeros((3, 2))})
+
+
+@pytest.mark.parametrize("name", MATRICES)
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_matrix_with_a_value_that_is_not_finite_is_refused(
+    name: str, value: float
+) -> None:
+    matrix = np.array([[1.0, value], [value, 1.0]])
+
+    with pytest.raises(ValueError, match=f"^{name} holds a value that is not finite$"):
+        structure(**{name: matrix})
+
+
+@pytest.mark.parametrize("name", MATRICES)
+def test_asymmetric_matrix_is_refused(name: str) -> None:
+    matrix = np.array([[1.0, 2e-9], [0.0, 1.0]])
+
+    with pytest.raises(
+        ValueError, match=f"^{name} is not symmetric: only symmetric is supported$"
+    ):
+        structure(**{name: matrix})
+
+
+@pytest.mark.parametrize("name", MATRICES)
+def test_asymmetry_of_rounding_is_accepted(name: str) -> None:
+    matrix = np.array([[1.0, 1e-12], [0.0, 1.0]])
+
+    accepted = structure(**{name: matrix})
+
+    assert getattr(accepted, name) is matrix
+
+
+@pytest.mark.parametrize(
+    "mass", [np.diag([1.0, 0.0]), np.diag([1.0, -1.0]), np.ones((2, 2)) - np.eye(2)]
+)
+def test_massless_motion_is_refused(mass: Array) -> None:
+    message = (
+        "mass is not positive definite: some motion has no mass; "
+        "lock it or give it mass"
+    )
+
+    with pytest.raises(ValueError, match=f"^{message}$"):
+        structure(mass=mass)

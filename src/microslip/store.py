@@ -6,7 +6,7 @@ import dataclasses
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from scipy.io import netcdf_file
@@ -15,10 +15,15 @@ from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
-NAME_LENGTH = 32
-Result = ResponseCurve | TimeHistory
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-CURVE = {
+NAME_LENGTH = 32
+Result: TypeAlias = ResponseCurve | TimeHistory
+Schema: TypeAlias = dict[str, tuple[tuple[str, ...], str, str]]
+"""for each variable its dimensions, unit and meaning"""
+
+CURVE: Schema = {
     "frequency": (("point",), "rad/s", "excitation frequency"),
     "amplitude": (("point", "probe"), "m", "first-harmonic amplitude"),
     "peak": (("point", "probe"), "m", "largest deviation from the mean in time"),
@@ -36,7 +41,7 @@ CURVE = {
     "probes": (("probe", "name"), "", "what is watched"),
     "contacts": (("contact", "name"), "", "contact points"),
 }
-HISTORY = {
+HISTORY: Schema = {
     "time": (("time",), "s", "time"),
     "displacement": (("time", "probe"), "m", "displacement"),
     "velocity": (("time", "probe"), "m/s", "velocity"),
@@ -47,7 +52,7 @@ HISTORY = {
     "contacts": (("contact", "name"), "", "contact points"),
     "energies": (("energy", "name"), "", "kinds of energy"),
 }
-SCHEMAS = {
+SCHEMAS: dict[str, tuple[type[Result], Schema]] = {
     "frequency response curve": (ResponseCurve, CURVE),
     "time history": (TimeHistory, HISTORY),
 }
@@ -93,6 +98,25 @@ def save(path: Path, stored: Stored) -> None:
     except OSError as error:
         reason = error.strerror or error
         raise StoreError(f"{path} cannot be written: {reason}") from None
+
+
+def save_figure(path: Path, figure: Figure) -> None:
+    """Write a picture in the format of its ending.
+
+    Raises
+    ------
+    StoreError
+        If the file cannot be written or the ending is unknown.
+    """
+    try:
+        figure.savefig(path, dpi=160)
+    except OSError as error:
+        reason = error.strerror or error
+        raise StoreError(f"{path} cannot be written: {reason}") from None
+    except ValueError:
+        raise StoreError(
+            f"{path} cannot be written: give an ending such as .png, .pdf or .svg"
+        ) from None
 
 
 def load(path: Path) -> Stored:

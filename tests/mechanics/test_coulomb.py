@@ -23,9 +23,9 @@ def test_friction_is_proportional_to_velocity_below_the_threshold(
     first, second, d11, d12, d22 = coulomb_coefficients(LAW, *velocity)
 
     assert (first, second) == pytest.approx(
-        (300.0 * velocity[0], 300.0 * velocity[1]), rel=1e-14
+        (300.0 * velocity[0], 300.0 * velocity[1]), rel=1e-14, abs=0.0
     )
-    assert (d11, d12, d22) == pytest.approx((300.0, 0.0, 300.0), rel=1e-14)
+    assert (d11, d12, d22) == pytest.approx((300.0, 0.0, 300.0), rel=1e-14, abs=0.0)
 
 
 @pytest.mark.parametrize("angle", ANGLES)
@@ -39,7 +39,9 @@ def test_friction_has_the_size_mu_and_the_direction_of_sliding_above_the_thresho
         LAW, speed * along, speed * across
     )
 
-    assert (first, second) == pytest.approx((0.3 * along, 0.3 * across), rel=1e-13)
+    assert (first, second) == pytest.approx(
+        (0.3 * along, 0.3 * across), rel=1e-13, abs=0.0
+    )
     # µ/|v| across the sliding direction, nothing along it
     slope = 0.3 / speed * np.array([across**2, -along * across, along**2])
     np.testing.assert_allclose([d11, d12, d22], slope, rtol=0.0, atol=1e-14 / speed)
@@ -48,7 +50,7 @@ def test_friction_has_the_size_mu_and_the_direction_of_sliding_above_the_thresho
 def test_friction_at_rest_vanishes_with_the_slope_of_sticking() -> None:
     written = coulomb_coefficients(LAW, 0.0, 0.0)
 
-    assert written == pytest.approx((0.0, 0.0, 300.0, 0.0, 300.0), rel=1e-15)
+    assert written == pytest.approx((0.0, 0.0, 300.0, 0.0, 300.0), rel=1e-15, abs=0.0)
 
 
 def test_friction_is_continuous_at_the_threshold() -> None:
@@ -57,5 +59,5 @@ def test_friction_is_continuous_at_the_threshold() -> None:
         for factor in (1.0 - 1e-12, 1.0 + 1e-12)
     )
 
-    assert below == pytest.approx(above, rel=1e-11)
-    assert above == pytest.approx((0.18, -0.24), rel=1e-11)
+    assert below == pytest.approx(above, rel=1e-11, abs=0.0)
+    assert above == pytest.approx((0.18, -0.24), rel=1e-11, abs=0.0)

@@ -30,7 +30,9 @@ def test_friction_is_stribecks_coefficient_along_the_regularised_direction(
     first, second, *_ = gkf_coefficients(law, 0.6 * speed, -0.8 * speed)
 
     size = coefficient(speed, exponent) * min(speed / 1e-3, 1.0)
-    assert (first, second) == pytest.approx((0.6 * size, -0.8 * size), rel=1e-13)
+    assert (first, second) == pytest.approx(
+        (0.6 * size, -0.8 * size), rel=1e-13, abs=0.0
+    )
 
 
 @pytest.mark.parametrize("speed", SPEEDS)
@@ -60,8 +62,8 @@ def test_friction_at_rest_vanishes_with_the_slope_of_sticking(exponent: float) -
 
     at_rest, nearly = (gkf_coefficients(law, 0.0, speed) for speed in (0.0, 1e-30))
 
-    assert at_rest == pytest.approx((0.0, 0.0, 600.0, 0.0, 600.0), rel=1e-15)
-    assert nearly[2:] == pytest.approx(at_rest[2:], rel=1e-14)
+    assert at_rest == pytest.approx((0.0, 0.0, 600.0, 0.0, 600.0), rel=1e-15, abs=0.0)
+    assert nearly[2:] == pytest.approx(at_rest[2:], rel=1e-14, abs=0.0)
 
 
 def test_friction_falls_from_static_to_dynamic_with_speed() -> None:
@@ -70,8 +72,8 @@ def test_friction_falls_from_static_to_dynamic_with_speed() -> None:
 
     sizes = np.array([gkf_coefficients(law, speed, 0.0)[0] for speed in speeds])
 
-    assert sizes[0] == pytest.approx(0.6, rel=2e-9)
-    assert sizes[-1] == pytest.approx(0.3, rel=1e-8)
+    assert sizes[0] == pytest.approx(0.6, rel=2e-9, abs=0.0)
+    assert sizes[-1] == pytest.approx(0.3, rel=1e-8, abs=0.0)
     assert np.all(np.diff(sizes) < 0.0)
 
 
@@ -83,7 +85,7 @@ def test_at_stribecks_velocity_the_excess_has_fallen_to_one_part_in_e(
 
     size, *_ = gkf_coefficients(law, 0.5, 0.0)
 
-    assert size == pytest.approx(0.3 + 0.3 / math.e, rel=1e-15)
+    assert size == pytest.approx(0.3 + 0.3 / math.e, rel=1e-15, abs=0.0)
 
 
 @pytest.mark.parametrize("speed", [0.0, *SPEEDS])

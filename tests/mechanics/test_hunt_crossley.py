@@ -28,7 +28,7 @@ def law(
 def test_power_is_the_power(base: float, exponent: float) -> None:
     value = power(base, exponent)
 
-    assert value == pytest.approx(base**exponent, rel=1e-15)
+    assert value == pytest.approx(base**exponent, rel=1e-15, abs=0.0)
 
 
 @pytest.mark.parametrize("exponent", EXPONENTS)
@@ -46,7 +46,7 @@ def test_force_in_contact_is_spring_plus_damper(
 
     spring = 3.3333e8 * depth**exponent
     damper = 4.73e2 * depth**damping_exponent * approach
-    assert force == pytest.approx(spring + damper, rel=1e-14)
+    assert force == pytest.approx(spring + damper, rel=1e-14, abs=0.0)
 
 
 @pytest.mark.parametrize("exponent", EXPONENTS)
@@ -62,8 +62,10 @@ def test_tangents_in_contact_are_the_derivatives_of_the_powers(
 
     spring = exponent * 3.3333e8 * depth ** (exponent - 1.0)
     damper = damping_exponent * 4.73e2 * depth ** (damping_exponent - 1.0) * approach
-    assert by_depth == pytest.approx(spring + damper, rel=1e-14)
-    assert by_approach == pytest.approx(4.73e2 * depth**damping_exponent, rel=1e-14)
+    assert by_depth == pytest.approx(spring + damper, rel=1e-14, abs=0.0)
+    assert by_approach == pytest.approx(
+        4.73e2 * depth**damping_exponent, rel=1e-14, abs=0.0
+    )
 
 
 @pytest.mark.parametrize("clamped", [False, True])
@@ -85,7 +87,7 @@ def test_printed_law_pulls_at_fast_separation() -> None:
 
     expected = 3.3333e8 * depth**2 - 4.73e2 * depth**0.5
     assert expected < 0.0
-    assert force == pytest.approx(expected, rel=1e-14)
+    assert force == pytest.approx(expected, rel=1e-14, abs=0.0)
 
 
 @pytest.mark.parametrize("approach", [-0.07, -1.0, -100.0])

@@ -23,9 +23,9 @@ def check(interface: Interface, basis: Array, selection: Array) -> None:
     """Assert that the basis is orthonormal and that both maps make up the motion."""
     rank = basis.shape[1]
     largest = np.abs(interface.displacement).max()
-    np.testing.assert_allclose(basis.T @ basis, np.eye(rank), rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(basis.T @ basis, np.eye(rank), rtol=0.0, atol=3e-14)
     np.testing.assert_allclose(
-        basis @ selection, interface.displacement, rtol=0.0, atol=1e-14 * largest
+        basis @ selection, interface.displacement, rtol=0.0, atol=3e-14 * largest
     )
     assert selection.shape == (rank, interface.displacement.shape[1])
 
@@ -72,7 +72,9 @@ def test_work_of_contact_forces_is_the_same_in_both_coordinates() -> None:
 
     work = (basis.T @ force) @ (selection @ motion)
 
-    assert work == pytest.approx(force @ interface.displacement @ motion, rel=1e-12)
+    assert work == pytest.approx(
+        force @ interface.displacement @ motion, rel=1e-12, abs=0.0
+    )
 
 
 def test_without_points_there_are_no_coordinates() -> None:

@@ -61,7 +61,7 @@ def test_velocity_is_the_time_derivative_of_displacement() -> None:
     orders = np.arange(17)[:, None]
     spectrum = 1j * orders * FREQUENCY * np.fft.rfft(displacement, axis=0)
     derivative = np.fft.irfft(spectrum, axis=0)
-    np.testing.assert_allclose(velocity, derivative, rtol=0.0, atol=1e-13 * 5 * 850.0)
+    np.testing.assert_allclose(velocity, derivative, rtol=0.0, atol=2e-13 * 5 * 850.0)
 
 
 def test_response_repeats_after_one_turn_of_the_phase() -> None:
@@ -85,7 +85,9 @@ def test_curve_shows_first_harmonic_peak_and_velocity_of_each_probe() -> None:
 
     np.testing.assert_allclose(curve.amplitude, [[2.0, 3.0, 5.0]], rtol=1e-14)
     np.testing.assert_allclose(curve.peak[:, :2], [[2.5, 2.75]], rtol=1e-14)
-    assert curve.velocity_peak[0, 1] == pytest.approx(3.75 * FREQUENCY, rel=1e-14)
+    assert curve.velocity_peak[0, 1] == pytest.approx(
+        3.75 * FREQUENCY, rel=1e-14, abs=0.0
+    )
 
 
 @pytest.mark.parametrize("samples", [64, 256, 1024])
@@ -111,11 +113,11 @@ def test_curve_keeps_the_order_and_the_numbers_of_its_points() -> None:
     )
 
     np.testing.assert_array_equal(curve.frequency, frequencies)
-    np.testing.assert_allclose(curve.normal_smallest[:, 0], 0.001 * frequencies)
-    np.testing.assert_allclose(curve.normal_largest[:, 0], 0.002 * frequencies)
-    np.testing.assert_allclose(curve.friction_energy, 1e-4 * frequencies)
-    np.testing.assert_allclose(curve.damping_energy, 1e-5 * frequencies)
-    np.testing.assert_allclose(curve.residual, 1e-9 * frequencies)
+    np.testing.assert_array_equal(curve.normal_smallest[:, 0], 0.001 * frequencies)
+    np.testing.assert_array_equal(curve.normal_largest[:, 0], 0.002 * frequencies)
+    np.testing.assert_array_equal(curve.friction_energy, 1e-4 * frequencies)
+    np.testing.assert_array_equal(curve.damping_energy, 1e-5 * frequencies)
+    np.testing.assert_array_equal(curve.residual, 1e-9 * frequencies)
     np.testing.assert_array_equal(curve.iterations, [8.0, 9.0, 8.0])
     assert curve.probes == ("probe-0", "probe-1", "probe-2")
     assert curve.contacts == ("point",)

@@ -73,6 +73,13 @@ def truncation_error(problem: Problem, traced: Traced, curve: Curve) -> float:
     return float(np.abs(fine.amplitude[0] - coarse).max() / coarse.max())
 
 
+def shown_points(curve: ResponseCurve, largest: int, count: int = 11) -> list[int]:
+    """Return points about evenly spread in frequency, and the one of largest amplitude."""
+    wanted = np.linspace(curve.frequency[0], curve.frequency[-1], count)
+    places = {int(np.abs(curve.frequency - each).argmin()) for each in wanted}
+    return sorted(places | {largest})
+
+
 def quasi_static_energy(curve: ResponseCurve, rate: float) -> float:
     """Return the energy that friction takes out of an infinitely slow upward sweep.
 

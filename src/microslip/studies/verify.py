@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -110,6 +111,12 @@ def sweep_agreement(
         envelope,
         history.ending,
     )
+
+
+def falls(agreements: list[SweepAgreement]) -> bool:
+    """Return whether the energies' difference falls each time the sweep slows."""
+    errors = [abs(each.energy_error) for each in agreements]
+    return all(after < before for before, after in itertools.pairwise(errors))
 
 
 def rate_of(agreements: list[SweepAgreement]) -> float:

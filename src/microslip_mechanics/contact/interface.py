@@ -45,7 +45,8 @@ class Interface:
         """Return independent coordinates of the relative motion.
 
         Rigid faces move relative to each other in six ways at the most, however many
-        points they carry; the solvers need no more unknowns (theory, eq. 11). Motions that share no degree of freedom, such as those along and across a plane of
+        points they carry; the solvers need no more unknowns (theory, eq. 11). Motions
+        that share no degree of freedom, such as those along and across a plane of
         symmetry, stay apart.
 
         Returns

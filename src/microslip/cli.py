@@ -1,0 +1,65 @@
+"""The command line: arguments in, one command, exit status out."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+
+from microslip.commands import explain, frc, plot, scenes, sweep, tables, verify
+from microslip.quantity import SceneError
+from microslip_mechanics.errors import MicroslipError
+
+EPILOG = """\
+start with: microslip frc two-blades
+exit status: 0 done, 1 failed or the solvers disagree, 2 wrong scene or arguments,
+130 interrupted (what was computed is kept)"""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run one command and return the exit status."""
+    # Small matrices: threads of the linear algebra cost more than they bring.
+    for library in ("OPENBLAS", "MKL", "OMP"):
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+    options = _parser().parse_args(arguments)
+    try:
+        return int(options.run(options))
+    except SceneError as error:
+        print(f"microslip: {error}", file=sys.stderr)
+        return 2
+    except MicroslipError as error:
+        print(f"microslip: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("microslip: interrupted before there was a result", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        # the reader of our output left, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="microslip",
+        description="Nonlinear forced response of structures with friction and contact, "
+        "by harmonic balance and by time integration.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="show the version")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for command in (frc, sweep, verify, tables, scenes, explain, plot):
+        command.add(commands)
+    return parser
+
+
+class _Version(argparse.Action):
+    """Look the version up only when it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print the version and leave."""
+        from importlib.metadata import version
+
+        print(f"microslip {version('microslip')}")
+        parser.exit()

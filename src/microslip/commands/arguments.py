@@ -1,0 +1,65 @@
+"""Arguments that commands share, and where their files go."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """Add the scene and its overrides."""
+    parser.add_argument(
+        "scene", help="name of a built-in scene, or path of a scene file (TOML)"
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="TABLE.KEY=VALUE",
+        dest="overrides",
+        help="replace a value of the scene, such as contact.sigma=3e-7 or model=A; "
+        "may be repeated",
+    )
+
+
+def add_output(parser: argparse.ArgumentParser, suffix: str) -> None:
+    """Add where the results go."""
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="PATH",
+        help=f"where results go, without ending (default: SCENE-{suffix} here)",
+    )
+
+
+def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
+    """Return the paths of data and picture."""
+    chosen: Path | None = options.output
+    if chosen is None:
+        chosen = Path(f"{Path(options.scene).stem}-{suffix}")
+    elif chosen.suffix in {".nc", ".png"}:
+        chosen = chosen.with_suffix("")
+    return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
+
+
+def command_line() -> str:
+    """Return the command as it was typed."""
+    return " ".join(["microslip", *sys.argv[1:]])
+
+
+def title(options: argparse.Namespace) -> str:
+    """Return the scene and its overrides in one line."""
+    return ", ".join([str(options.scene), *options.overrides])
+
+
+def ended(ending: str) -> int:
+    """Say on standard error how a result that is not complete ended; return the status.
+
+    The results up to there are kept: 0 complete, 130 interrupted, 1 otherwise.
+    """
+    if ending == "complete":
+        return 0
+    print(f"microslip: {ending}; what was computed is kept", file=sys.stderr)
+    return 130 if ending == "interrupted" else 1

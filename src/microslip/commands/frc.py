@@ -1,0 +1,87 @@
+"""microslip frc: the frequency response curve by harmonic balance."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+
+if TYPE_CHECKING:
+    from microslip.scene_file import Curve
+    from microslip.studies.curve import Traced, Watch
+
+HEADER = """\
+frequency  first harmonic [mm]              friction      normal force [N]
+     [Hz]    excited   follower    element  [mJ/period]     least      most"""
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "frc",
+        help="frequency response curve by harmonic balance",
+        description="Trace the frequency response curve of a scene by harmonic balance; "
+        "print a short table, write SCENE-frc.nc and SCENE-frc.png.",
+        epilog="example: microslip frc two-blades --set model=A -o model-a",
+    )
+    arguments.add_scene(parser)
+    arguments.add_output(parser, "frc")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.figures.curve import curve_figure
+    from microslip.rigs import problem_of
+    from microslip.scene_file import load_scene
+    from microslip.store import Stored, save, save_figure
+    from microslip.studies.curve import trace_curve, truncation_error
+
+    scene = load_scene(options.scene, options.overrides)
+    problem = problem_of(scene)
+    traced = trace_curve(problem, scene.curve, watched(scene.curve))
+    data, picture = arguments.outputs(options, "frc")
+    save(data, Stored(traced.curve, scene.text, arguments.command_line()))
+    save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
+    print(_table(traced))
+    if traced.curve.ending == "complete":
+        error = truncation_error(problem, traced, scene.curve)
+        print(
+            f"truncation error about {100.0 * error:.2g} % of the largest amplitude "
+            "(solved again with twice the harmonics and samples)"
+        )
+    print(f"{len(traced.responses)} points in {data}, picture in {picture}")
+    return arguments.ended(traced.curve.ending)
+
+
+def watched(curve: Curve) -> Watch:
+    """Return what shows the progress of a curve."""
+    from microslip.progress import shown
+
+    return lambda responses: shown(
+        responses,
+        total=abs(curve.highest - curve.lowest),
+        done=lambda response: abs(response.frequency / math.tau - curve.lowest),
+        unit="Hz",
+        name="curve",
+    )
+
+
+def _table(traced: Traced) -> str:
+    """Return the curve at about a dozen points, among them its largest amplitude."""
+    from microslip.studies.curve import shown_points
+
+    curve, lines = traced.curve, [HEADER]
+    largest = int(curve.amplitude[:, 0].argmax())
+    for place in shown_points(curve, largest):
+        values = (
+            f"{curve.frequency[place] / math.tau:9.4f}",
+            *(f"{1e3 * amplitude:10.5f}" for amplitude in curve.amplitude[place, :3]),
+            f"{1e3 * curve.friction_energy[place]:12.6f}",
+            f"{curve.normal_smallest[place].min(initial=math.inf):9.3f}",
+            f"{curve.normal_largest[place].max(initial=-math.inf):9.3f}",
+        )
+        mark = "  largest" if place == largest else ""
+        lines.append(" ".join(values) + mark)
+    return "\n".join(lines)

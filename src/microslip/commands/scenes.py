@@ -1,0 +1,44 @@
+"""microslip scenes: the built-in scenes, or the text of one."""
+
+from __future__ import annotations
+
+import argparse
+
+VARIANTS = """\
+two-blades   two turbine blades coupled at their shrouds by a friction element
+  variants, by --set or in a copy of the file:
+    model=full | B | A            full; B: no rotation, one point a face; A: B with
+                                  constant normal load
+    friction.law=coulomb | gkf | none
+    contact.sigma=3e-9 | 3e-7     stiff or soft contact
+    contact.damping_ratio=0.05    normal contact damping
+    rope.stiffness=0              no rope
+  microslip scenes two-blades > mine.toml    makes a copy to change"""
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "scenes",
+        help="list the built-in scenes, or print one as TOML",
+        description="List the built-in scenes with their variants, or print the TOML of "
+        "one, to be copied and changed.",
+        epilog="example: microslip scenes two-blades > mine.toml",
+    )
+    parser.add_argument("scene", nargs="?", help="built-in scene to print")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    if options.scene is None:
+        print(VARIANTS)
+        return 0
+    from microslip.quantity import SceneError
+    from microslip.scene_file import RIGS, built_in_text
+
+    if options.scene not in RIGS:
+        raise SceneError(
+            f"there is no built-in scene {options.scene}: give one of {', '.join(RIGS)}"
+        )
+    print(built_in_text(options.scene), end="")
+    return 0

@@ -1,0 +1,196 @@
+"""microslip verify: do harmonic balance and time integration agree?"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments, frc, sweep
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from microslip.scene_file import Scene
+    from microslip.studies.curve import Traced
+    from microslip.studies.verify import SweepAgreement
+    from microslip_mechanics.problem import Problem
+    from timedomain.verify import Agreement
+
+ORBITS = """\
+steady state: march started on the orbit that harmonic balance found
+frequency  amplitude [mm]   deviation [%]                     distance from the orbit    drift
+     [Hz]  excited blade     excited  follower   element    first period  last period"""
+SWEEPS = """\
+swept sine beside the curve's prediction for an infinitely slow one
+  slower   energy of friction [J]  predicted [J]  difference  envelope  closing error"""
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "verify",
+        help="check harmonic balance against time integration",
+        description="March from orbits that harmonic balance found, and march the scene's "
+        "sweep and slower ones against the curve; write SCENE-verify.png. Exit status 1 "
+        "if an amplitude deviates by more than the tolerance, or if the difference of "
+        "the sweep's energy does not fall as the sweep slows.",
+        epilog="example: microslip verify two-blades --set model=B --frequencies 15",
+    )
+    arguments.add_scene(parser)
+    arguments.add_output(parser, "verify")
+    for name, kind, default, meaning in (
+        ("--frequencies", _count, 9, "orbits along the curve"),
+        ("--periods", _count, 200, "length of each march in periods"),
+        ("--steps", _count, 600, "time steps per period"),
+        ("--tolerance", float, 0.01, "relative deviation of amplitudes"),
+    ):
+        parser.add_argument(
+            name, type=kind, default=default, help=f"{meaning} (default: {default})"
+        )
+    parser.add_argument(
+        "--slower",
+        type=float,
+        nargs="*",
+        default=[1.0, 4.0, 10.0],
+        metavar="FACTOR",
+        help="lengths of the sweeps over that of the scene (default: 1 4 10)",
+    )
+    parser.set_defaults(run=_run)
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{number} is too few: give at least 1")
+    return number
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.rigs import problem_of
+    from microslip.scene_file import load_scene
+    from microslip.studies.curve import trace_curve
+
+    scene = load_scene(options.scene, options.overrides)
+    problem = problem_of(scene)
+    traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))
+    if traced.curve.ending != "complete":
+        return arguments.ended(traced.curve.ending)
+    orbits = _orbits(options, problem, traced)
+    sweeps = _sweeps(options, scene, problem, traced)
+    _, picture = arguments.outputs(options, "verify")
+    _draw(options, traced, orbits, sweeps, picture)
+    print(f"picture in {picture}")
+    return _verdict(options, orbits, sweeps)
+
+
+def _orbits(
+    options: argparse.Namespace, problem: Problem, traced: Traced
+) -> list[Agreement]:
+    """March the orbits and print what came of them."""
+    from microslip.progress import shown
+    from microslip.studies.verify import orbits, spread
+
+    chosen = spread(traced, options.frequencies)
+    marches = orbits(
+        problem, chosen, periods=options.periods, steps_per_period=options.steps
+    )
+    total, done = len(chosen), iter(range(1, len(chosen) + 1))
+    found = list(
+        shown(marches, total=total, done=lambda _: next(done), unit="", name="orbits")
+    )
+    print(ORBITS)
+    for each in found:
+        print(
+            f"{each.frequency / math.tau:9.4f}  {1e3 * each.predicted[0]:13.6f}  "
+            + " ".join(f"{100.0 * deviation:9.4f}" for deviation in each.deviation[:3])
+            + f"  {each.first_distance:14.1e}  {each.last_distance:11.1e}"
+            f"  {each.drift:7.1e}"
+        )
+    return found
+
+
+def _sweeps(
+    options: argparse.Namespace, scene: Scene, problem: Problem, traced: Traced
+) -> list[SweepAgreement]:
+    """March the sweeps and print what came of them."""
+    from microslip.studies.sweep import swept_sine
+    from microslip.studies.verify import rate_of, sweep_agreement
+
+    found = []
+    for slower in sorted(options.slower):
+        length = swept_sine(scene.sweep, slower=slower).duration
+        watch = sweep.watched(length, f"sweep, {slower:g} times as long")
+        found.append(
+            sweep_agreement(scene, problem, traced.curve, slower=slower, watch=watch)
+        )
+    if found:
+        print(SWEEPS)
+    for each in found:
+        print(
+            f"{each.slower:8g} {each.energy:24.6f} {each.quasi_static:14.6f}"
+            f" {100.0 * each.energy_error:9.2f} % {100.0 * each.envelope_error:7.1f} %"
+            f" {each.closing_error:14.1e}"
+        )
+    if len(found) > 1:
+        print(f"the difference falls as duration^-{rate_of(found):.2f}")
+    return found
+
+
+def _draw(
+    options: argparse.Namespace,
+    traced: Traced,
+    orbits: list[Agreement],
+    sweeps: list[SweepAgreement],
+    picture: Path,
+) -> None:
+    import numpy as np
+
+    from microslip.figures.agreement import agreement_figure
+    from microslip.store import save_figure
+
+    figure = agreement_figure(
+        traced.curve,
+        (
+            np.array([each.frequency for each in orbits]) / math.tau,
+            np.array([each.marched for each in orbits]),
+            np.array([_deviation(each) for each in orbits]),
+        ),
+        [
+            (f"{s.slower:g} x as long", s.envelope_frequency, s.envelope[:, 0])
+            for s in sweeps
+        ],
+        (
+            np.array([each.slower for each in sweeps]),
+            np.array([each.energy_error for each in sweeps]),
+        ),
+        arguments.title(options),
+    )
+    save_figure(picture, figure)
+
+
+def _deviation(each: Agreement) -> float:
+    """Return the largest deviation among blades and friction element."""
+    return float(each.deviation[:3].max())
+
+
+def _verdict(
+    options: argparse.Namespace, orbits: list[Agreement], sweeps: list[SweepAgreement]
+) -> int:
+    """Print whether the solvers agree; return the exit status."""
+    from microslip.studies.verify import falls
+
+    worst = max(orbits, key=_deviation)
+    stays = _deviation(worst) <= options.tolerance
+    print(
+        f"{'agree' if stays else 'DISAGREE'}: largest deviation of an amplitude "
+        f"{100.0 * _deviation(worst):.3g} % at {worst.frequency / math.tau:.4f} Hz, "
+        f"tolerance {100.0 * options.tolerance:g} %"
+    )
+    slows = falls(sweeps)
+    if len(sweeps) > 1:
+        print(
+            f"{'agree' if slows else 'DISAGREE'}: the difference of the sweep's energy "
+            f"{'falls' if slows else 'does not fall'} as the sweep slows"
+        )
+    return 0 if stays and slows else 1

@@ -1,0 +1,101 @@
+"""Pictures of a frequency response curve."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    absolute,
+    faces,
+    framed,
+    readable,
+    relative,
+)
+from microslip_mechanics.response import ResponseCurve
+
+FREQUENCY = "excitation frequency [Hz]"
+
+
+def curve_figure(curve: ResponseCurve, title: str) -> Figure:
+    """Draw amplitude, sliding velocity, dissipated energy and normal forces."""
+    figure = Figure(figsize=(10.0, 7.0), layout="constrained")
+    panels = figure.subplots(2, 2, sharex=True)
+    frequency_response(panels[0, 0], curve)
+    sliding_velocity(panels[0, 1], curve)
+    dissipated_energy(panels[1, 0], curve)
+    normal_forces(panels[1, 1], curve)
+    figure.suptitle(title)
+    return figure
+
+
+def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
+    """Draw the first-harmonic amplitude of each absolute motion."""
+    for colour, place in zip(COLOURS, absolute(curve.probes), strict=False):
+        axes.plot(
+            hertz(curve),
+            1e3 * curve.amplitude[:, place],
+            color=colour,
+            linewidth=WIDTH * 1.5,
+            label=readable(curve.probes[place]),
+        )
+    framed(axes, x=FREQUENCY, y="amplitude [mm]", title="First harmonic, along z")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(frameon=False)
+
+
+def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
+    """Draw the largest relative velocity in time, logarithmically."""
+    for colour, place in zip(COLOURS, relative(curve.probes), strict=False):
+        axes.semilogy(
+            hertz(curve),
+            curve.velocity_peak[:, place],
+            color=colour,
+            linewidth=WIDTH * 1.5,
+            label=readable(curve.probes[place]),
+        )
+    framed(axes, x=FREQUENCY, y="velocity [m/s]", title="Largest relative velocity")
+    axes.legend(frameon=False)
+
+
+def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
+    """Draw what friction and contact damping take out per period."""
+    for colour, name, energy in (
+        (COLOURS[0], "friction", curve.friction_energy),
+        (COLOURS[1], "normal contact damping", curve.damping_energy),
+    ):
+        axes.plot(
+            hertz(curve), 1e3 * energy, color=colour, linewidth=WIDTH * 1.5, label=name
+        )
+    framed(axes, x=FREQUENCY, y="energy [mJ]", title="Dissipated per period")
+    axes.legend(frameon=False)
+
+
+def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
+    """Draw the range of normal forces at the points of each face."""
+    styles = ("-", "--", ":", "-.")
+    for colour, (face, places) in zip(
+        COLOURS, faces(curve.contacts).items(), strict=False
+    ):
+        for style, place in zip(styles, places, strict=False):
+            low, high = curve.normal_smallest[:, place], curve.normal_largest[:, place]
+            axes.fill_between(hertz(curve), low, high, color=colour, alpha=0.12, lw=0.0)
+            axes.plot(
+                hertz(curve),
+                high,
+                style,
+                color=colour,
+                linewidth=WIDTH,
+                label=curve.contacts[place],
+            )
+    title = "Normal forces: range over a period, line at the largest"
+    framed(axes, x=FREQUENCY, y="force [N]", title=title)
+    axes.legend(frameon=False, ncols=2)
+
+
+def hertz(curve: ResponseCurve) -> np.ndarray:
+    """Return the excitation frequency [Hz]."""
+    return curve.frequency / (2.0 * np.pi)

@@ -1,0 +1,103 @@
+"""Pictures of a time history, in the manner of the paper's Figures 4 to 9."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    absolute,
+    faces,
+    framed,
+    readable,
+    relative,
+)
+from microslip_mechanics.time_history import TimeHistory
+
+TIME = "time [s]"
+
+
+def sweep_figure(history: TimeHistory, title: str) -> Figure:
+    """Draw displacements, relative velocities, normal forces, friction and energies."""
+    slips, shrouds = relative(history.probes), faces(history.contacts)
+    blades = [place for place in absolute(history.probes)][:2]
+    count = len(blades) + len(slips) + len(shrouds) + 2
+    lines = (count + 1) // 2
+    figure = Figure(figsize=(10.0, 2.6 * lines), layout="constrained")
+    panels = iter(figure.subplots(lines, 2, sharex=True, squeeze=False).ravel())
+    limit = 1.05e3 * float(abs(history.displacement[:, blades]).max(initial=1e-12))
+    for colour, place in zip(COLOURS, blades, strict=False):
+        axes = next(panels)
+        displacement(axes, history, place, colour)
+        axes.set_ylim(-limit, limit)
+    for place in slips:
+        relative_velocity(next(panels), history, place)
+    for face, places in shrouds.items():
+        normal_force(next(panels), history, face, places)
+    friction_power(next(panels), history)
+    energies(next(panels), history)
+    for axes in panels:
+        axes.remove()
+    figure.suptitle(title)
+    return figure
+
+
+def displacement(axes: Axes, history: TimeHistory, place: int, colour: str) -> None:
+    """Draw the displacement of one probe."""
+    shown = 1e3 * history.displacement[:, place]
+    axes.plot(history.time, shown, color=colour, linewidth=0.2, rasterized=True)
+    name = readable(history.probes[place])
+    framed(axes, x=TIME, y="displacement [mm]", title=f"Displacement, {name}")
+
+
+def relative_velocity(axes: Axes, history: TimeHistory, place: int) -> None:
+    """Draw one relative velocity."""
+    shown = history.velocity[:, place]
+    axes.plot(history.time, shown, color="0.25", linewidth=0.2, rasterized=True)
+    name = readable(history.probes[place])
+    framed(axes, x=TIME, y="velocity [m/s]", title=f"Relative velocity, {name}")
+
+
+def normal_force(
+    axes: Axes, history: TimeHistory, face: str, places: list[int]
+) -> None:
+    """Draw the normal forces of the points of one face."""
+    for colour, place in zip(COLOURS, places, strict=False):
+        axes.plot(
+            history.time,
+            history.normal_force[:, place],
+            color=colour,
+            linewidth=0.3,
+            alpha=0.8,
+            label=history.contacts[place],
+            rasterized=True,
+        )
+    framed(axes, x=TIME, y="force [N]", title=f"Normal forces, face {face}")
+    for line in axes.legend(frameon=False, ncols=4, loc="upper left").get_lines():
+        line.set_linewidth(2.0)
+
+
+def friction_power(axes: Axes, history: TimeHistory) -> None:
+    """Draw the power that friction develops; it is negative, as in the paper."""
+    shown = -history.friction_power
+    axes.plot(history.time, shown, color=COLOURS[1], linewidth=0.3, rasterized=True)
+    framed(axes, x=TIME, y="power [W]", title="Power developed by friction forces")
+
+
+def energies(axes: Axes, history: TimeHistory) -> None:
+    """Draw the energies that flowed, and the closing error of their balance."""
+    flows = ("input", "friction", "normal_damping", "structural_damping")
+    for colour, name in zip(COLOURS, flows, strict=False):
+        axes.plot(
+            history.time,
+            history.of(name),
+            color=colour,
+            linewidth=WIDTH * 1.5,
+            label=f"{name.replace('_', ' ')}: {history.of(name)[-1]:.4g} J",
+        )
+    closing = abs(history.closing_error).max()
+    title = f"Energy since the start (closing error {closing:.1e} J)"
+    framed(axes, x=TIME, y="energy [J]", title=title)
+    axes.legend(frameon=False, loc="upper left")

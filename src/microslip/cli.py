@@ -42,8 +42,8 @@ def main(arguments: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="microslip",
-        description="Nonlinear forced response of structures with friction and contact, "
-        "by harmonic balance and by time integration.",
+        description="Nonlinear forced response of structures with friction and "
+        "contact, by harmonic balance and by time integration.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 Item = TypeVar("Item")
+Watch: TypeAlias = Callable[[Iterable[Any]], Iterator[Any]]
+"""what a command puts around a generator to show its progress"""
 
 
 def shown(

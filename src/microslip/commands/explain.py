@@ -20,8 +20,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "explain",
         help="what a scene keeps and what is left out, with counts and reasons",
-        description="Count what a scene's solvers carry, and what they leave out because "
-        "the scene does not need it.",
+        description="Count what a scene's solvers carry, and what they leave out "
+        "because the scene does not need it.",
         epilog="example: microslip explain two-blades --set model=A",
     )
     arguments.add_scene(parser)

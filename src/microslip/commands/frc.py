@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments
 
 if TYPE_CHECKING:
+    from microslip.progress import Watch
     from microslip.scene_file import Curve
-    from microslip.studies.curve import Traced, Watch
+    from microslip.studies.curve import Traced
 
 HEADER = """\
 frequency  first harmonic [mm]              friction      normal force [N]
@@ -22,8 +23,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "frc",
         help="frequency response curve by harmonic balance",
-        description="Trace the frequency response curve of a scene by harmonic balance; "
-        "print a short table, write SCENE-frc.nc and SCENE-frc.png.",
+        description="Trace the frequency response curve of a scene by harmonic "
+        "balance; print a short table, write SCENE-frc.nc and SCENE-frc.png.",
         epilog="example: microslip frc two-blades --set model=A -o model-a",
     )
     arguments.add_scene(parser)

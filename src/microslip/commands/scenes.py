@@ -21,8 +21,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "scenes",
         help="list the built-in scenes, or print one as TOML",
-        description="List the built-in scenes with their variants, or print the TOML of "
-        "one, to be copied and changed.",
+        description="List the built-in scenes with their variants, or print the TOML "
+        "of one, to be copied and changed.",
         epilog="example: microslip scenes two-blades > mine.toml",
     )
     parser.add_argument("scene", nargs="?", help="built-in scene to print")

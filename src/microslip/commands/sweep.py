@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments
 
 if TYPE_CHECKING:
-    from microslip.studies.curve import Watch
+    from microslip.progress import Watch
     from microslip_mechanics.time_history import TimeHistory
 
 
@@ -17,8 +17,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "sweep",
         help="swept sine by time integration",
-        description="March the scene through its swept sine; print energies and extremes, "
-        "write SCENE-sweep.nc and SCENE-sweep.png.",
+        description="March the scene through its swept sine; print energies and "
+        "extremes, write SCENE-sweep.nc and SCENE-sweep.png.",
         epilog="example: microslip sweep two-blades --set sweep.highest='150 Hz'",
     )
     arguments.add_scene(parser)
@@ -60,8 +60,10 @@ def watched(duration: float, name: str = "sweep") -> Watch:
 def _table(history: TimeHistory) -> str:
     """Return energies, closing error and extremes."""
     lines = [f"energy until {history.time[-1]:g} s [J]"]
-    for name in history.energies:
-        lines.append(f"  {name.replace('_', ' '):20s} {history.of(name)[-1]:12.6g}")
+    lines += [
+        f"  {name.replace('_', ' '):20s} {history.of(name)[-1]:12.6g}"
+        for name in history.energies
+    ]
     closing = abs(history.closing_error).max()
     share = closing / max(abs(history.of("input")).max(), 1e-300)
     lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")

@@ -12,16 +12,16 @@ if TYPE_CHECKING:
 
 HEADER = """\
 Energy dissipated by friction over the sweep [J]: the paper's Tables 4 and 5
-                                    paper   microslip   ratio   half step   closing   time
-                                      [J]         [J]             [%]        error     [s]"""
+                                  paper   microslip   ratio half step   closing   time
+                                    [J]         [J]           [%]         error    [s]"""
 NOTES = """\
-half step: change of the energy when the time step is halved; the value is the finer one.
-time: of the march at the scene's time step. closing error: of the energy balance, over
-the input. The geometry is one fit for all rows, none is tuned by itself.
+half step: excess at the scene's time step over the value, which is that of half the
+step. closing error: of the energy balance, over the input. time: of the march at the
+scene's time step. The geometry is one fit for all rows; none is tuned by itself.
 Stiff contact: the energy is largely the viscous creep of the regularised friction in a
-jammed contact (see the row with V_lim 0.1 mm/s), not sliding. Hence GKF, whose coefficient
-is twice as high near rest, creeps half as much and gives about half of Coulomb's energy,
-where the paper has more."""
+jammed contact (see the row with V_lim 0.1 mm/s), not sliding. Hence GKF, whose friction
+coefficient is twice as high near rest, creeps half as fast and gives about half of
+Coulomb's energy, where the paper has more."""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -29,8 +29,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "tables",
         help="the paper's Tables 4 and 5 beside our own numbers",
-        description="March all variants of the paper's Tables 4 and 5 through the sweep; "
-        "print the paper's energy, ours, their ratio, errors and run time.",
+        description="March all variants of the paper's Tables 4 and 5 through the "
+        "sweep; print the paper's energy, ours, their ratio, errors and run time.",
         epilog="example: microslip tables --csv tables.csv",
     )
     parser.add_argument(
@@ -78,9 +78,10 @@ def _line(row: Row) -> str:
     paper = row.variant.paper
     own = math.isnan(paper)
     return (
-        f"{row.variant.name:33s} {'-' if own else format(paper, '.3f'):>7s} "
+        f"{row.variant.name:32s} {'-' if own else format(paper, '.3f'):>6s} "
         f"{row.energy:11.6f} {'-' if own else format(row.energy / paper, '.3f'):>7s} "
-        f"{_percent(row.half_step_change):>11s} {row.closing_error:9.1e} {row.seconds:7.2f}"
+        f"{_percent(row.half_step_change):>9s} {row.closing_error:9.1e} "
+        f"{row.seconds:6.1f}"
     )
 
 

@@ -1,4 +1,4 @@
-"""microslip verify: do harmonic balance and time integration agree?"""
+"""microslip verify: whether harmonic balance and time integration agree."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 ORBITS = """\
 steady state: march started on the orbit that harmonic balance found
-frequency  amplitude [mm]   deviation [%]                     distance from the orbit    drift
-     [Hz]  excited blade     excited  follower   element    first period  last period"""
+frequency  amplitude [mm]   deviation [%]                   distance from orbit  drift
+     [Hz]  excited blade     excited  follower   element       first      last"""
 SWEEPS = """\
 swept sine beside the curve's prediction for an infinitely slow one
   slower   energy of friction [J]  predicted [J]  difference  envelope  closing error"""
@@ -31,10 +31,10 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "verify",
         help="check harmonic balance against time integration",
-        description="March from orbits that harmonic balance found, and march the scene's "
-        "sweep and slower ones against the curve; write SCENE-verify.png. Exit status 1 "
-        "if an amplitude deviates by more than the tolerance, or if the difference of "
-        "the sweep's energy does not fall as the sweep slows.",
+        description="March from orbits that harmonic balance found, and march the "
+        "scene's sweep and slower ones against the curve; write SCENE-verify.png. Exit "
+        "status 1 if an amplitude deviates by more than the tolerance, or if the "
+        "difference of the sweep's energy does not fall as the sweep slows.",
         epilog="example: microslip verify two-blades --set model=B --frequencies 15",
     )
     arguments.add_scene(parser)
@@ -104,8 +104,8 @@ def _orbits(
         print(
             f"{each.frequency / math.tau:9.4f}  {1e3 * each.predicted[0]:13.6f}  "
             + " ".join(f"{100.0 * deviation:9.4f}" for deviation in each.deviation[:3])
-            + f"  {each.first_distance:14.1e}  {each.last_distance:11.1e}"
-            f"  {each.drift:7.1e}"
+            + f"  {each.first_distance:10.1e}{each.last_distance:10.1e}"
+            f"{each.drift:9.1e}"
         )
     return found
 

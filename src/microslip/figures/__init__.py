@@ -1,1 +1,1 @@
-"""Pictures of results; each function draws on a figure that it makes or axes it is given."""
+"""Pictures of results: functions that draw on axes they are given."""

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from microslip.figures.style import (
     COLOURS,
+    STYLES,
     WIDTH,
     absolute,
     faces,
@@ -34,12 +35,14 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
 
 def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the first-harmonic amplitude of each absolute motion."""
-    for colour, place in zip(COLOURS, absolute(curve.probes), strict=False):
+    lines = zip(COLOURS, STYLES, absolute(curve.probes), strict=False)
+    for colour, style, place in lines:
         axes.plot(
             hertz(curve),
             1e3 * curve.amplitude[:, place],
+            style,
             color=colour,
-            linewidth=WIDTH * 1.5,
+            linewidth=WIDTH * 2.0,
             label=readable(curve.probes[place]),
         )
     framed(axes, x=FREQUENCY, y="amplitude [mm]", title="First harmonic, along z")
@@ -71,16 +74,13 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
             hertz(curve), 1e3 * energy, color=colour, linewidth=WIDTH * 1.5, label=name
         )
     framed(axes, x=FREQUENCY, y="energy [mJ]", title="Dissipated per period")
-    axes.legend(frameon=False)
+    axes.legend(frameon=False, loc="upper left")
 
 
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the range of normal forces at the points of each face."""
-    styles = ("-", "--", ":", "-.")
-    for colour, (face, places) in zip(
-        COLOURS, faces(curve.contacts).items(), strict=False
-    ):
-        for style, place in zip(styles, places, strict=False):
+    for colour, places in zip(COLOURS, faces(curve.contacts).values(), strict=False):
+        for style, place in zip(STYLES, places, strict=False):
             low, high = curve.normal_smallest[:, place], curve.normal_largest[:, place]
             axes.fill_between(hertz(curve), low, high, color=colour, alpha=0.12, lw=0.0)
             axes.plot(

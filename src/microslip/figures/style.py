@@ -10,6 +10,8 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Okabe and Ito's palette: told apart by colour-blind readers too"""
 WIDTH = 0.9
 """of lines [pt]"""
+STYLES = ("-", "--", ":", "-.")
+"""lines that lie on one another stay apart"""
 
 
 def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
@@ -18,6 +20,7 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.set_ylabel(y)
     axes.set_title(title, loc="left", fontsize="medium")
     axes.spines[["top", "right"]].set_visible(False)
+    axes.margins(x=0.0)
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
 
 

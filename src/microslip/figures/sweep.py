@@ -22,7 +22,7 @@ TIME = "time [s]"
 def sweep_figure(history: TimeHistory, title: str) -> Figure:
     """Draw displacements, relative velocities, normal forces, friction and energies."""
     slips, shrouds = relative(history.probes), faces(history.contacts)
-    blades = [place for place in absolute(history.probes)][:2]
+    blades = absolute(history.probes)[:2]
     count = len(blades) + len(slips) + len(shrouds) + 2
     lines = (count + 1) // 2
     figure = Figure(figsize=(10.0, 2.6 * lines), layout="constrained")

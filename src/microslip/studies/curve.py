@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, TypeAlias
 
 import numpy as np
 
 from hbm.continuation import ContinuationError
 from hbm.solve import CurveOptions, frequency_response, periodic_response
+from microslip.progress import Watch
 from microslip.scene_file import Curve
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
 from microslip_mechanics.static import StaticState, static_equilibrium
-
-Watch: TypeAlias = Callable[[Iterable[Any]], Iterator[Any]]
-"""what a command puts around a generator to show its progress"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +70,7 @@ def truncation_error(problem: Problem, traced: Traced, curve: Curve) -> float:
 
 
 def shown_points(curve: ResponseCurve, largest: int, count: int = 11) -> list[int]:
-    """Return points about evenly spread in frequency, and the one of largest amplitude."""
+    """Return points evenly spread in frequency, and the one of largest amplitude."""
     wanted = np.linspace(curve.frequency[0], curve.frequency[-1], count)
     places = {int(np.abs(curve.frequency - each).argmin()) for each in wanted}
     return sorted(places | {largest})

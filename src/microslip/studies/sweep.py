@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 
+from microslip.progress import Watch
 from microslip.scene_file import March, Sweep
-from microslip.studies.curve import Watch
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import TimeHistory, joined

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from microslip.progress import Watch
 from microslip.scene_file import Scene
-from microslip.studies.curve import Traced, Watch, followed_upwards, quasi_static_energy
+from microslip.studies.curve import Traced, followed_upwards, quasi_static_energy
 from microslip.studies.sweep import march_sweep, swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 HEADER = """\
 Energy dissipated by friction over the sweep [J]: the paper's Tables 4 and 5
                                   paper   microslip   ratio half step   closing   time
-                                    [J]         [J]           [%]         error    [s]"""
+                                    [J]         [J]           [%]         error    [s]\
+"""
 NOTES = """\
 half step: excess at the scene's time step over the value, which is that of half the
 step. closing error: of the energy balance, over the input. time: of the march at the

@@ -29,6 +29,8 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     sliding_velocity(panels[0, 1], curve)
     dissipated_energy(panels[1, 0], curve)
     normal_forces(panels[1, 1], curve)
+    for axes in figure.axes:
+        axes.label_outer()
     figure.suptitle(title)
     return figure
 

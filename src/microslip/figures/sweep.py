@@ -40,6 +40,8 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
     energies(next(panels), history)
     for axes in panels:
         axes.remove()
+    for axes in figure.axes:
+        axes.label_outer()
     figure.suptitle(title)
     return figure
 
@@ -75,7 +77,7 @@ def normal_force(
             rasterized=True,
         )
     framed(axes, x=TIME, y="force [N]", title=f"Normal forces, face {face}")
-    for line in axes.legend(frameon=False, ncols=4, loc="upper left").get_lines():
+    for line in axes.legend(frameon=False, loc="upper left").get_lines():
         line.set_linewidth(2.0)
 
 
@@ -100,4 +102,4 @@ def energies(axes: Axes, history: TimeHistory) -> None:
     closing = abs(history.closing_error).max()
     title = f"Energy since the start (closing error {closing:.1e} J)"
     framed(axes, x=TIME, y="energy [J]", title=title)
-    axes.legend(frameon=False, loc="upper left")
+    axes.legend(frameon=False, loc="center right")

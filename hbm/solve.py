@@ -181,5 +181,6 @@ def _response(
         cycle.friction,
         cycle.normal_damping,
         correction.residuals[-1],
+        correction.outcome.name.lower(),
         correction.iterations,
     )

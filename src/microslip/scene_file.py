@@ -164,7 +164,8 @@ def _table(
     for key in values:
         if key not in fields:
             raise SceneError(
-                f"{source}: {place}{key} is unknown{_meant(key, [*fields, *known])}"
+                f"{source}: {place}{key}{_shown(values[key])} is unknown"
+                f"{_meant(key, [*fields, *known])}"
             )
     made = {}
     for name, field in fields.items():
@@ -193,8 +194,8 @@ def _value(
     try:
         return _scalar(field.metadata["quantity"], hint, value)
     except ValueError as error:
-        shown = f'"{value}"' if isinstance(value, str) else value
-        raise SceneError(f"{source}: {place}{field.name} = {shown}: {error}") from None
+        name = f"{place}{field.name}{_shown(value)}"
+        raise SceneError(f"{source}: {name}: {error}") from None
 
 
 def _scalar(
@@ -220,6 +221,14 @@ def _scalar(
     return number
 
 
+def _shown(value: object) -> str:
+    """Return `` = value`` for a message; a table has too much to show."""
+    if isinstance(value, dict):
+        return ""
+    text = f'"{value}"' if isinstance(value, str) else str(value)
+    return f" = {text if len(text) <= 60 else text[:60] + '…'}"
+
+
 def _optional(hint: typing.Any) -> bool:  # noqa: ANN401  (a type annotation)
     return isinstance(hint, types.UnionType) and types.NoneType in typing.get_args(hint)
 
@@ -241,10 +250,10 @@ def _check(source: str, scene: Scene) -> None:
             "give ramp <= start < end <= duration"
         )
     for name, table in (("sweep", sweep), ("curve", curve)):
-        if table.lowest == table.highest:
+        if not table.lowest < table.highest:
             raise SceneError(
-                f"{source}: [{name}] lowest and highest are both {table.lowest:g} Hz: "
-                "give two different frequencies"
+                f"{source}: [{name}] lowest = {table.lowest:g} Hz, highest = "
+                f"{table.highest:g} Hz: give lowest < highest"
             )
     if curve.samples < 4 * curve.harmonics + 2:
         raise SceneError(

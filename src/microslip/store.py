@@ -37,6 +37,7 @@ CURVE: Schema = {
         "energy taken out by contact damping per period",
     ),
     "residual": (("point",), "N", "largest unbalanced force"),
+    "outcome": (("point", "name"), "", "how Newton's correction ended"),
     "iterations": (("point",), "1", "Newton iterations"),
     "probes": (("probe", "name"), "", "what is watched"),
     "contacts": (("contact", "name"), "", "contact points"),

@@ -29,6 +29,8 @@ class PeriodicResponse:
     """taken out by normal contact damping per period [J]"""
     residual: float
     """largest unbalanced force [N]"""
+    outcome: str
+    """how Newton's correction ended"""
     iterations: int
     """Newton iterations that the point took"""
 
@@ -67,6 +69,8 @@ class ResponseCurve:
     """of normal contact damping, per period [J], shape (points,)"""
     residual: Array
     """largest unbalanced force [N], shape (points,)"""
+    outcome: tuple[str, ...]
+    """how each point's correction ended"""
     iterations: Array
     """Newton iterations, shape (points,)"""
     ending: str
@@ -99,6 +103,7 @@ def response_curve(
         np.array([p.friction_energy for p in points]),
         np.array([p.damping_energy for p in points]),
         np.array([p.residual for p in points]),
+        tuple(p.outcome for p in points),
         np.array([p.iterations for p in points], dtype=float),
         ending,
     )

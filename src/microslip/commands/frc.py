@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from microslip.progress import Watch
     from microslip.scene_file import Curve
     from microslip.studies.curve import Traced
+    from microslip_mechanics.static import StaticState
 
 HEADER = """\
 frequency  first harmonic [mm]              friction      normal force [N]
@@ -46,13 +47,14 @@ def _run(options: argparse.Namespace) -> int:
     save(data, Stored(traced.curve, scene.text, arguments.command_line()))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     print(_table(traced))
+    print(_rest(problem.interface.names, traced.rest))
+    print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     if traced.curve.ending == "complete":
         error = truncation_error(problem, traced, scene.curve)
         print(
             f"truncation error about {100.0 * error:.2g} % of the largest amplitude "
             "(solved again with twice the harmonics and samples)"
         )
-    print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     return arguments.ended(traced.curve.ending)
 
 
@@ -67,6 +69,13 @@ def watched(curve: Curve) -> Watch:
         unit="Hz",
         name="curve",
     )
+
+
+def _rest(names: tuple[str, ...], rest: StaticState) -> str:
+    """Return the normal forces under the preload alone."""
+    points = zip(names, rest.normal_force, strict=True)
+    forces = ", ".join(f"{name} {force:.3f}" for name, force in points)
+    return f"normal force at rest [N]: {forces}"
 
 
 def _table(traced: Traced) -> str:

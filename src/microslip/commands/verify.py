@@ -33,8 +33,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="check harmonic balance against time integration",
         description="March from orbits that harmonic balance found, and march the "
         "scene's sweep and slower ones against the curve; write SCENE-verify.png. Exit "
-        "status 1 if an amplitude deviates by more than the tolerance, or if the "
-        "difference of the sweep's energy does not fall as the sweep slows.",
+        "status 1 if an amplitude deviates by more than the tolerance, or if energy "
+        "and envelope of the sweep do not approach the curve as it slows.",
         epilog="example: microslip verify two-blades --set model=B --frequencies 15",
     )
     arguments.add_scene(parser)
@@ -76,8 +76,15 @@ def _run(options: argparse.Namespace) -> int:
     traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))
     if traced.curve.ending != "complete":
         return arguments.ended(traced.curve.ending)
-    orbits = _orbits(options, problem, traced)
-    sweeps = _sweeps(options, scene, problem, traced)
+    orbits: list[Agreement] = []
+    sweeps: list[SweepAgreement] = []
+    try:
+        _orbits(options, problem, traced, orbits)
+        _sweeps(options, scene, problem, traced, sweeps)
+    except KeyboardInterrupt:
+        return arguments.ended("interrupted")
+    finally:
+        _report(orbits, sweeps)
     _, picture = arguments.outputs(options, "verify")
     _draw(options, traced, orbits, sweeps, picture)
     print(f"picture in {picture}")
@@ -85,9 +92,12 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _orbits(
-    options: argparse.Namespace, problem: Problem, traced: Traced
-) -> list[Agreement]:
-    """March the orbits and print what came of them."""
+    options: argparse.Namespace,
+    problem: Problem,
+    traced: Traced,
+    found: list[Agreement],
+) -> None:
+    """March the orbits; what is found stays when the march is stopped."""
     from microslip.progress import shown
     from microslip.studies.verify import orbits, spread
 
@@ -95,46 +105,59 @@ def _orbits(
     marches = orbits(
         problem, chosen, periods=options.periods, steps_per_period=options.steps
     )
-    total, done = len(chosen), iter(range(1, len(chosen) + 1))
-    found = list(
-        shown(marches, total=total, done=lambda _: next(done), unit="", name="orbits")
+    bar = shown(
+        marches,
+        total=len(chosen),
+        done=lambda _: len(found) + 1.0,
+        unit="",
+        name="orbits",
     )
-    print(ORBITS)
-    for each in found:
-        print(
-            f"{each.frequency / math.tau:9.4f}  {1e3 * each.predicted[0]:13.6f}  "
-            + " ".join(f"{100.0 * deviation:9.4f}" for deviation in each.deviation[:3])
-            + f"  {each.first_distance:10.1e}{each.last_distance:10.1e}"
-            f"{each.drift:9.1e}"
-        )
-    return found
+    for each in bar:
+        found.append(each)  # noqa: PERF402
 
 
 def _sweeps(
-    options: argparse.Namespace, scene: Scene, problem: Problem, traced: Traced
-) -> list[SweepAgreement]:
-    """March the sweeps and print what came of them."""
+    options: argparse.Namespace,
+    scene: Scene,
+    problem: Problem,
+    traced: Traced,
+    found: list[SweepAgreement],
+) -> None:
+    """March the sweeps; what is found stays when a march is stopped."""
     from microslip.studies.sweep import swept_sine
-    from microslip.studies.verify import rate_of, sweep_agreement
+    from microslip.studies.verify import sweep_agreement
 
-    found = []
     for slower in sorted(options.slower):
         length = swept_sine(scene.sweep, slower=slower).duration
         watch = sweep.watched(length, f"sweep, {slower:g} times as long")
         found.append(
             sweep_agreement(scene, problem, traced.curve, slower=slower, watch=watch)
         )
-    if found:
+
+
+def _report(orbits: list[Agreement], sweeps: list[SweepAgreement]) -> None:
+    """Print what was found."""
+    from microslip.studies.verify import rate_of
+
+    if orbits:
+        print(ORBITS)
+    for orbit in orbits:
+        print(
+            f"{orbit.frequency / math.tau:9.4f}  {1e3 * orbit.predicted[0]:13.6f}  "
+            + " ".join(f"{100.0 * deviation:9.4f}" for deviation in orbit.deviation[:3])
+            + f"  {orbit.first_distance:10.1e}{orbit.last_distance:10.1e}"
+            f"{orbit.drift:9.1e}"
+        )
+    if sweeps:
         print(SWEEPS)
-    for each in found:
+    for each in sweeps:
         print(
             f"{each.slower:8g} {each.energy:24.6f} {each.quasi_static:14.6f}"
             f" {100.0 * each.energy_error:9.2f} % {100.0 * each.envelope_error:7.1f} %"
             f" {each.closing_error:14.1e}"
         )
-    if len(found) > 1:
-        print(f"the difference falls as duration^-{rate_of(found):.2f}")
-    return found
+    if len(sweeps) > 1:
+        print(f"the difference falls as duration^-{rate_of(sweeps):.2f}")
 
 
 def _draw(
@@ -190,7 +213,7 @@ def _verdict(
     slows = falls(sweeps)
     if len(sweeps) > 1:
         print(
-            f"{'agree' if slows else 'DISAGREE'}: the difference of the sweep's energy "
-            f"{'falls' if slows else 'does not fall'} as the sweep slows"
+            f"{'agree' if slows else 'DISAGREE'}: energy and envelope of the sweep "
+            f"{'approach' if slows else 'do not approach'} the curve as it slows"
         )
     return 0 if stays and slows else 1

@@ -33,6 +33,18 @@ def march_sweep(
     return joined(blocks, ending)
 
 
+def march_whole(
+    problem: Problem, sweep: SweptSine, march: March, watch: Watch = iter
+) -> TimeHistory:
+    """March a sweep to its end, or raise: a part of it would give wrong energies."""
+    history = march_sweep(problem, sweep, march, watch)
+    if history.ending == "interrupted":
+        raise KeyboardInterrupt
+    if history.ending != "complete":
+        raise IntegrationError(history.ending)
+    return history
+
+
 def swept_sine(sweep: Sweep, *, slower: float = 1.0) -> SweptSine:
     """Return the load history of a scene, its sweep made ``slower`` times as long."""
     longer = (slower - 1.0) * (sweep.end - sweep.start)

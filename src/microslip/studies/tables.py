@@ -11,7 +11,7 @@ import numpy as np
 
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
-from microslip.studies.sweep import march_sweep, swept_sine
+from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import TimeHistory
 
@@ -82,4 +82,4 @@ def rows(source: str, variants: tuple[Variant, ...], *, halve: bool) -> Iterator
 
 def _march(scene: Scene, share: float) -> TimeHistory:
     march = dataclasses.replace(scene.march, time_step=scene.march.time_step * share)
-    return march_sweep(problem_of(scene), swept_sine(scene.sweep), march)
+    return march_whole(problem_of(scene), swept_sine(scene.sweep), march)

@@ -11,7 +11,7 @@ import numpy as np
 from microslip.progress import Watch
 from microslip.scene_file import Scene
 from microslip.studies.curve import Traced, followed_upwards, quasi_static_energy
-from microslip.studies.sweep import march_sweep, swept_sine
+from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve
@@ -37,7 +37,6 @@ class SweepAgreement:
     """excitation frequency of each cycle [Hz]"""
     envelope: Array
     """largest deflection of each cycle [m], shape (cycles, probes)"""
-    ending: str
 
     @property
     def energy_error(self) -> float:
@@ -91,7 +90,7 @@ def sweep_agreement(
 ) -> SweepAgreement:
     """March the scene's sweep, ``slower`` times as long; compare it with a curve."""
     sweep = swept_sine(scene.sweep, slower=slower)
-    history = march_sweep(problem, sweep, scene.march, watch)
+    history = march_whole(problem, sweep, scene.march, watch)
     friction, time = history.of("friction"), history.time
     energy = np.diff(np.interp([sweep.start, sweep.end], time, friction))[0] / slower
     frequency, envelope = _envelope(
@@ -110,14 +109,16 @@ def sweep_agreement(
         float(np.abs(history.closing_error).max() / history.of("input").max()),
         frequency,
         envelope,
-        history.ending,
     )
 
 
 def falls(agreements: list[SweepAgreement]) -> bool:
-    """Return whether the energies' difference falls each time the sweep slows."""
-    errors = [abs(each.energy_error) for each in agreements]
-    return all(after < before for before, after in itertools.pairwise(errors))
+    """Return whether energies and envelopes come closer each time the sweep slows."""
+    return all(
+        abs(after.energy_error) < abs(before.energy_error)
+        and after.envelope_error < before.envelope_error
+        for before, after in itertools.pairwise(agreements)
+    )
 
 
 def rate_of(agreements: list[SweepAgreement]) -> float:

@@ -1,0 +1,65 @@
+"""Time curve and sweep of each model in a warm process: python tests/benchmarks/warm.py.
+
+Seconds are this machine's, on this day; the ratios beside them carry further. Each pair
+is run in turn, three times, and the median is printed.
+"""
+
+from __future__ import annotations
+
+import os
+import statistics
+import time
+from collections.abc import Callable
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from microslip.rigs import problem_of
+from microslip.scene_file import Scene, load_scene
+from microslip.studies.curve import trace_curve
+from microslip.studies.sweep import march_sweep, swept_sine
+
+MODELS = ("A", "B", "full")
+
+
+def main() -> None:
+    """Print a row for each model and law."""
+    print("model  law       curve [s]  8 harmonics [s]  sweep [s]  sweep/curve")
+    for law in ("coulomb", "gkf"):
+        for model in MODELS:
+            scene = load_scene("two-blades", [f"model={model}", f"friction.law={law}"])
+            coarse = load_scene(
+                "two-blades",
+                [f"model={model}", f"friction.law={law}", "curve.harmonics=8"],
+            )
+            runs = (_curve(scene), _curve(coarse), _sweep(scene))
+            for run in runs:
+                run()
+            rounds = [[_seconds(run) for run in runs] for _ in range(3)]
+            curve, eight, sweep = (
+                statistics.median(column) for column in zip(*rounds, strict=True)
+            )
+            print(
+                f"{model:5s}  {law:8s} {curve:10.3f} {eight:16.3f} {sweep:10.2f}"
+                f" {sweep / curve:12.1f}",
+                flush=True,
+            )
+
+
+def _curve(scene: Scene) -> Callable[[], object]:
+    problem = problem_of(scene)
+    return lambda: trace_curve(problem, scene.curve)
+
+
+def _sweep(scene: Scene) -> Callable[[], object]:
+    problem, sweep = problem_of(scene), swept_sine(scene.sweep)
+    return lambda: march_sweep(problem, sweep, scene.march)
+
+
+def _seconds(run: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    run()
+    return time.perf_counter() - start
+
+
+if __name__ == "__main__":
+    main()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.jacobian import terms
 from hbm.residual import HarmonicBalance
 from microslip_mechanics.arrays import Array
 
@@ -18,10 +19,10 @@ class ActiveUnknowns:
     """
 
     def __init__(self, balance: HarmonicBalance, active: NDArray[np.bool_]) -> None:
-        """Restrict ``balance`` to the coefficients ``active``, flat, (unknowns,)."""
+        """Restrict ``balance`` to the ``active`` coefficients, (2H + 1, rank)."""
         self._balance = balance
-        self._rows = np.flatnonzero(active)
-        self._columns = np.append(self._rows, active.size)
+        self._terms = terms(active)
+        self._columns = np.append(self._terms.unknowns, active.size)
         self._left_out = np.flatnonzero(~active)
         self.excluded = 0.0
         """largest residual of the equations left out, at the last evaluation [N]"""
@@ -29,13 +30,13 @@ class ActiveUnknowns:
     def __call__(self, point: Array) -> tuple[Array, Array]:
         """Return residual and Jacobian of the active unknowns."""
         whole = self.expanded(point)
-        residual, jacobian = self._balance.evaluated(whole, self._rows)
+        residual, jacobian = self._balance.evaluated(whole, self._terms)
         self.excluded = float(np.abs(residual[self._left_out]).max(initial=0.0))
-        return residual[self._rows], jacobian
+        return residual[self._terms.unknowns], jacobian
 
     def expanded(self, point: Array) -> Array:
         """Return a point of the whole system from an active one."""
-        whole = np.zeros(self._rows.size + self._left_out.size + 1)
+        whole = np.zeros(self._columns.size + self._left_out.size)
         whole[self._columns] = point
         return whole
 
@@ -46,7 +47,7 @@ class ActiveUnknowns:
 
 
 def moving(balance: HarmonicBalance, point: Array) -> NDArray[np.bool_]:
-    """Return the coefficients that drive, structure and contacts can set moving, flat.
+    """Return the coefficients that drive, structure and contacts can set moving.
 
     Beginning with what moves at ``point``, coefficients are added that the structure
     couples to those which move, or in which the contacts answer a random motion of
@@ -71,7 +72,7 @@ def moving(balance: HarmonicBalance, point: Array) -> NDArray[np.bool_]:
             grown |= _large(balance.contact(motion, frequency).force)
         grown = _paired(grown)
         if np.array_equal(grown, active):
-            return active.ravel()
+            return active
         active = grown
 
 

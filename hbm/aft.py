@@ -81,10 +81,9 @@ class AlternatingFrequencyTime:
         change = self._change.analysis(harmonics) @ self._basis / frequency
         spectrum = to_complex(self._tangents.analysis(2 * harmonics))
         stiffness, damping = (self._spectrum(spectrum, kind) for kind in (0, 1))
-        spectra = Spectra(stiffness.real, -stiffness.imag, damping.real, -damping.imag)
-        return PeriodicContact(
-            force, change, Spectra(*map(np.ascontiguousarray, spectra))
-        )
+        parts = (stiffness.real, -stiffness.imag, damping.real, -damping.imag)
+        spectra = Spectra(*(np.ascontiguousarray(p.transpose(1, 2, 0)) for p in parts))
+        return PeriodicContact(force, change, spectra)
 
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
         """Return normal forces and energies over one period."""
@@ -137,32 +136,34 @@ def _sample(
     tangents: Array,
 ) -> None:
     """Write forces, (∂force/∂velocity) velocity, and chosen tangents at all samples."""
-    force = np.zeros(3)
-    by_both = np.zeros((2, 3, 3))
+    moved, moving, force = np.zeros(3), np.zeros(3), np.zeros(3)
+    by_displacement, by_velocity = np.zeros((3, 3)), np.zeros((3, 3))
     first = 0
     for point in range(points.load.size):
         last = first
         while last < entries.shape[0] and entries[last, 0] < 3 * point + 3:
             last += 1
-        place = slice(3 * point, 3 * point + 3)
         for sample in range(displacement.shape[1]):
+            for axis in range(3):
+                moved[axis] = displacement[3 * point + axis, sample]
+                moving[axis] = velocity[3 * point + axis, sample]
             contact_force(
-                points, point, displacement[place, sample], velocity[place, sample],
-                force, by_both[0], by_both[1],
-            )  # fmt: skip
+                points, point, moved, moving, force, by_displacement, by_velocity
+            )
             for axis in range(3):
                 forces[3 * point + axis, sample] = force[axis]
                 changes[3 * point + axis, sample] = (
-                    by_both[1, axis, 0] * velocity[3 * point, sample]
-                    + by_both[1, axis, 1] * velocity[3 * point + 1, sample]
-                    + by_both[1, axis, 2] * velocity[3 * point + 2, sample]
+                    by_velocity[axis, 0] * moving[0]
+                    + by_velocity[axis, 1] * moving[1]
+                    + by_velocity[axis, 2] * moving[2]
                 )
             for entry in range(first, last):
-                tangents[entry, sample] = by_both[
-                    entries[entry, 2],
-                    entries[entry, 0] - 3 * point,
-                    entries[entry, 1] - 3 * point,
-                ]
+                row = entries[entry, 0] - 3 * point
+                column = entries[entry, 1] - 3 * point
+                if entries[entry, 2] == 0:
+                    tangents[entry, sample] = by_displacement[row, column]
+                else:
+                    tangents[entry, sample] = by_velocity[row, column]
         first = last
 
 

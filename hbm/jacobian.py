@@ -1,4 +1,4 @@
-"""Assembly of the Jacobian for the unknowns that are asked for (eqs. 18–19)."""
+"""Assembly of the Jacobian for the unknowns that are asked for (theory, eqs. 18–19)."""
 
 from __future__ import annotations
 
@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
 
-MEAN, COSINE, SINE = 0, 1, 2
-
 
 class Spectra(NamedTuple):
-    """Fourier coefficients of the tangents on y, shape (2H + 1, rank, rank) each."""
+    """Fourier coefficients of the tangents on y, shape (rank, rank, 2H + 1) each."""
 
     stiffness_cosine: Array
     """of ∂f/∂y [N/m]"""
@@ -24,15 +22,42 @@ class Spectra(NamedTuple):
     damping_sine: Array
 
 
+class Terms(NamedTuple):
+    """Orders of a Fourier series to solve for, by coordinate; shape (terms,) each."""
+
+    coordinate: NDArray[np.int64]
+    order: NDArray[np.int64]
+    cosine: NDArray[np.int64]
+    """place of the cosine (or mean) among the unknowns"""
+    sine: NDArray[np.int64]
+    """place of the sine among the unknowns; −1 for a mean"""
+    unknowns: NDArray[np.int64]
+    """flat place of each unknown among all coefficients, shape (unknowns,)"""
+
+
+def terms(active: NDArray[np.bool_]) -> Terms:
+    """Return the terms of ``active`` coefficients, shape (2H + 1, rank).
+
+    Cosine and sine of one order are active together.
+    """
+    place = np.cumsum(active.ravel()).reshape(active.shape) - 1
+    rows = [
+        (coordinate, order, place[max(2 * order - 1, 0), coordinate], sine)
+        for coordinate in range(active.shape[1])
+        for order in range(active.shape[0] // 2 + 1)
+        if active[2 * order, coordinate]
+        for sine in [place[2 * order, coordinate] if order else -1]
+    ]
+    table = np.array(rows, dtype=np.int64).reshape(-1, 4).T
+    coordinate, order, cosine, sine = np.ascontiguousarray(table)
+    return Terms(coordinate, order, cosine, sine, np.flatnonzero(active))
+
+
 @kernel
 def assemble(
-    spectra: Spectra,
-    elastic: Array,
-    viscous: Array,
-    frequency: float,
-    unknowns: NDArray[np.intp],
+    spectra: Spectra, elastic: Array, viscous: Array, frequency: float, terms: Terms
 ) -> Array:
-    """Return ∂R/∂y for some unknowns.
+    """Return ∂R/∂y of the terms.
 
     Parameters
     ----------
@@ -42,80 +67,64 @@ def assemble(
         Real and imaginary part of the condensed stiffness, ``(H + 1, rank, rank)``.
     frequency
         Excitation frequency [rad/s].
-    unknowns
-        Flat indices into coefficients of shape ``(2H + 1, rank)``, ``(unknowns,)``.
+    terms
+        What is solved for.
 
     Returns
     -------
     Shape ``(unknowns, unknowns + 1)``; the last column is left for ∂R/∂ω.
     """
-    size, rank = unknowns.size, elastic.shape[1]
+    size = terms.unknowns.size
     jacobian = np.zeros((size, size + 1))
-    for row in range(size):
-        place, a = divmod(unknowns[row], rank)
-        j, kind = (place + 1) // 2, _kind(place)
-        for column in range(size):
-            place, b = divmod(unknowns[column], rank)
-            k, other = (place + 1) // 2, _kind(place)
-            value = _product(
-                spectra.stiffness_cosine,
-                spectra.stiffness_sine,
-                a,
-                b,
-                j,
-                kind,
-                k,
-                other,
+    for row in range(terms.order.size):
+        a, j = terms.coordinate[row], terms.order[row]
+        top, bottom = terms.cosine[row], terms.sine[row]
+        for column in range(terms.order.size):
+            b, k = terms.coordinate[column], terms.order[column]
+            left, right = terms.cosine[column], terms.sine[column]
+            cc, cs, sc, ss = _product(
+                spectra.stiffness_cosine[a, b], spectra.stiffness_sine[a, b], j, k
             )
-            if other != MEAN:
-                # the rate of cos kθ is −kω sin kθ, that of sin kθ is kω cos kθ
-                turned = SINE if other == COSINE else COSINE
-                rate = -k * frequency if other == COSINE else k * frequency
-                value += rate * _product(
-                    spectra.damping_cosine,
-                    spectra.damping_sine,
-                    a,
-                    b,
-                    j,
-                    kind,
-                    k,
-                    turned,
-                )
+            vcc, vcs, vsc, vss = _product(
+                spectra.damping_cosine[a, b], spectra.damping_sine[a, b], j, k
+            )
+            # the rate of cos kθ is −kω sin kθ, that of sin kθ is kω cos kθ
+            rate = k * frequency
+            real, imaginary = 0.0, 0.0
             if j == k:
-                value += _linear(elastic[k, a, b], viscous[k, a, b], kind, other)
-            jacobian[row, column] = value
+                real, imaginary = elastic[k, a, b], viscous[k, a, b]
+            jacobian[top, left] = cc - rate * vcs + real
+            if right >= 0:
+                jacobian[top, right] = cs + rate * vcc + imaginary
+            if bottom >= 0:
+                jacobian[bottom, left] = sc - rate * vss - imaginary
+                if right >= 0:
+                    jacobian[bottom, right] = ss + rate * vsc + real
     return jacobian
 
 
 @kernel
-def _kind(place: int) -> int:
-    if place == 0:
-        return MEAN
-    return COSINE if place % 2 == 1 else SINE
-
-
-@kernel
-def _linear(elastic: float, viscous: float, kind: int, other: int) -> float:
-    """Return the part of one order of the structure (theory, eq. 18)."""
-    if kind == other:
-        return elastic
-    return viscous if kind == COSINE else -viscous
-
-
-@kernel
 def _product(
-    cosine: Array, sine: Array, a: int, b: int, j: int, kind: int, k: int, other: int
-) -> float:
-    """Return how a coefficient of k(θ) y(θ) follows from one of y (theory, eq. 19)."""
-    if other == MEAN:
-        return float(cosine[j, a, b] if kind != SINE else sine[j, a, b])
-    if kind == MEAN:
-        return 0.5 * float(cosine[k, a, b] if other == COSINE else sine[k, a, b])
-    apart = abs(j - k)
-    if kind == other:
-        near = cosine[apart, a, b] * (2.0 if apart == 0 else 1.0)
-        far = cosine[j + k, a, b]
-        return 0.5 * float(near + far if kind == COSINE else near - far)
-    near = sine[apart, a, b] if j >= k else -sine[apart, a, b]
-    far = sine[j + k, a, b]
-    return 0.5 * float(far - near if kind == COSINE else far + near)
+    cosine: Array, sine: Array, j: int, k: int
+) -> tuple[float, float, float, float]:
+    """Return how order j of k(θ) y(θ) follows from order k of y (theory, eq. 19).
+
+    By cosine from cosine, cosine from sine, sine from cosine, sine from sine; the mean
+    counts as cosine of order 0.
+    """
+    if j == 0:
+        if k == 0:
+            return cosine[0], 0.0, 0.0, 0.0
+        return 0.5 * cosine[k], 0.5 * sine[k], 0.0, 0.0
+    near_cosine, near_sine = cosine[abs(j - k)], sine[abs(j - k)]
+    if j == k:
+        near_cosine, near_sine = 2.0 * near_cosine, 0.0
+    elif j < k:
+        near_sine = -near_sine
+    far_cosine, far_sine = cosine[j + k], sine[j + k]
+    return (
+        0.5 * (near_cosine + far_cosine),
+        0.5 * (far_sine - near_sine),
+        0.5 * (far_sine + near_sine),
+        0.5 * (near_cosine - far_cosine),
+    )

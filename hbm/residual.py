@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.condensation import CondensedStructure, condense
 from hbm.fourier import FourierBasis, to_complex, to_real
-from hbm.jacobian import assemble
+from hbm.jacobian import Terms, assemble, terms
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
@@ -33,19 +32,18 @@ class HarmonicBalance:
         )
         self._force = np.zeros((fourier.harmonics + 1, problem.structure.dofs), complex)
         self._force[0], self._force[1] = problem.preload, -1j * problem.drive
+        self._terms = terms(np.ones((fourier.coefficients, self.rank), dtype=bool))
         self._gauge = self._free_positions(rest)
 
     def __call__(self, point: Array) -> tuple[Array, Array]:
         """Return the residual [N] and its Jacobian, (unknowns, unknowns + 1)."""
-        return self.evaluated(point, np.arange(point.size - 1))
+        return self.evaluated(point, self._terms)
 
-    def evaluated(
-        self, point: Array, unknowns: NDArray[np.intp]
-    ) -> tuple[Array, Array]:
-        """Return the whole residual, and the Jacobian of some rows and columns.
+    def evaluated(self, point: Array, chosen: Terms) -> tuple[Array, Array]:
+        """Return the whole residual [N], and its Jacobian for the chosen terms.
 
-        ``unknowns`` are flat indices of coefficients; the Jacobian has shape
-        ``(unknowns, unknowns + 1)``, its last column is the derivative by frequency.
+        The Jacobian has shape ``(unknowns, unknowns + 1)``; its last column is the
+        derivative by frequency.
         """
         coefficients, frequency = self.split(point)
         variable = self._variable(frequency)
@@ -60,9 +58,9 @@ class HarmonicBalance:
         residual[0] += self._gauge @ coefficients[0]
         elastic, viscous = stiffness.real.copy(), stiffness.imag.copy()
         elastic[0] += self._gauge
-        jacobian = assemble(contact.tangents, elastic, viscous, frequency, unknowns)
+        jacobian = assemble(contact.tangents, elastic, viscous, frequency, chosen)
         slope = to_real(change) + contact.by_frequency
-        jacobian[:, -1] = slope.ravel()[unknowns]
+        jacobian[:, -1] = slope.ravel()[chosen.unknowns]
         return residual.ravel(), jacobian
 
     def point(self, motion: Array, frequency: float) -> Array:
@@ -96,7 +94,7 @@ class HarmonicBalance:
         """
         start = np.zeros((self.fourier.coefficients, self.rank))
         start[0] = self.selection @ rest.displacement
-        tangent = self.contact(start, 1.0).tangents.stiffness_cosine[0]
+        tangent = self.contact(start, 1.0).tangents.stiffness_cosine[:, :, 0]
         held = self.condensed.stiffness + tangent
         sizes, directions = np.linalg.eigh((held + held.T) / 2.0)
         if self.rank == 0:

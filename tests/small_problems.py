@@ -1,17 +1,29 @@
-"""Small problems with known answers: a mass, a mass on a contact, a clamped beam."""
+"""Small problems with known answers, and marches of them.
+
+A mass, a mass on a contact, a clamped beam; a whole march in one call, and a dwell of
+whole periods whose last one has a first harmonic.
+"""
 
 import itertools
 
 import numpy as np
 
 from contact_tables import contact_points
+from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.frame import Beam, Frame, Node
 from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
+from microslip_mechanics.time_history import TimeHistory, joined
+from timedomain.integrate import MarchOptions, integrate
+from timedomain.start import Start
 
+ROWS = 20
+"""stored per period of a dwell"""
 NORMAL, TANGENT = 0, 1
 """the direction of a contact point along which :func:`mass_on_contact` moves"""
 
@@ -120,3 +132,49 @@ def _problem(
         drive=np.array([drive]),
         probes=Probes(("x",), np.eye(1)),
     )
+
+
+def from_rest(problem: Problem) -> Start:
+    """Return a start at rest under the preload."""
+    rest = static_equilibrium(problem).displacement
+    return Start(rest, np.zeros_like(rest))
+
+
+def marched(
+    problem: Problem,
+    history: LoadHistory,
+    options: MarchOptions,
+    *,
+    start: Start | None = None,
+    block: float = 0.1,
+) -> TimeHistory:
+    """Return the response to a load history, its blocks joined."""
+    blocks = integrate(problem, history, options, start=start, block=block)
+    return joined(list(blocks), "complete")
+
+
+def dwelled(
+    problem: Problem,
+    frequency: float,
+    *,
+    periods: int,
+    steps: int,
+    start: Start | None = None,
+) -> TimeHistory:
+    """March whole periods with ``steps`` each, a multiple of :data:`ROWS`."""
+    period = 2.0 * np.pi / frequency
+    return marched(
+        problem,
+        Dwell(frequency, periods * period),
+        MarchOptions(period / steps, store_every=steps // ROWS, tolerance=1e-13),
+        start=start,
+        block=periods * period,
+    )
+
+
+def last_harmonic(history: TimeHistory) -> ComplexArray:
+    """Return the complex first harmonic of each probe over the last period."""
+    phase = 2.0 * np.pi * np.arange(1, ROWS + 1) / ROWS
+    cycle = history.displacement[-ROWS:]
+    harmonic: ComplexArray = 2.0 / ROWS * np.exp(-1j * phase) @ cycle
+    return harmonic

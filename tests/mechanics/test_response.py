@@ -22,6 +22,7 @@ def response(coefficients: Array, frequency: float = FREQUENCY) -> PeriodicRespo
         friction_energy=1e-4 * frequency,
         damping_energy=1e-5 * frequency,
         residual=1e-9 * frequency,
+        outcome="converged",
         iterations=round(frequency / 100.0),
     )
 

@@ -1,0 +1,175 @@
+"""The march as a whole: divided steps, blocks, rows, options."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from contact_tables import contact_points
+from microslip_mechanics.excitation import Dwell, SweptSine
+from microslip_mechanics.time_history import TimeHistory, joined
+from rigs import rig_problem
+from small_problems import NORMAL, from_rest, marched, mass_on_contact, oscillator
+from timedomain.integrate import IntegrationError, MarchOptions, integrate
+from timedomain.start import Start
+
+
+def test_steps_that_do_not_converge_are_divided() -> None:
+    problem = rig_problem(friction__mu_dynamic=10.0, model="full")
+    dwell, start = Dwell(2.0 * np.pi * 135.0, 0.1), from_rest(problem)
+
+    coarse = marched(problem, dwell, MarchOptions(1e-3), start=start)
+
+    assert 0 < coarse.divided < 100
+    assert np.isfinite(coarse.displacement).all()
+
+
+def test_divided_steps_keep_the_energy_balance() -> None:
+    problem = rig_problem(friction__threshold_velocity=1e-8, model="B")
+    dwell, start = Dwell(2.0 * np.pi * 135.0, 0.004), from_rest(problem)
+
+    history = marched(problem, dwell, MarchOptions(), start=start)
+
+    # Nearly all of 160 steps are divided; one accepted out of balance would show.
+    assert history.divided > 100
+    assert np.abs(history.closing_error).max() < 1e-5 * history.of("input")[-1]
+
+
+def test_a_step_that_does_not_converge_in_any_parts_ends_the_march() -> None:
+    problem = rig_problem(friction__threshold_velocity=1e-8, model="B")
+    options = MarchOptions(1e-3, divisions=4)
+
+    text = (
+        r"^the step at t = 0 s does not converge, even in 16 parts: "
+        r"contact forces of [\d.]+ N; give a shorter time step, "
+        r"a larger threshold velocity or a softer contact$"
+    )
+    with pytest.raises(IntegrationError, match=text):
+        marched(
+            problem,
+            Dwell(2.0 * np.pi * 135.0, 0.1),
+            options,
+            start=from_rest(problem),
+        )
+
+
+def test_blocks_before_a_failure_stay_what_they_are() -> None:
+    problem = rig_problem(friction__threshold_velocity=1e-8, model="B")
+    sweep = SweptSine(
+        ramp=0.0, start=0.005, end=0.09, duration=0.1, lowest=130.0, highest=138.0
+    )
+    blocks: list[TimeHistory] = []
+
+    # Nothing moves until the drive begins; then no step of a millisecond succeeds.
+    with pytest.raises(IntegrationError, match=r"^the step at t = 0\.00\d s does not"):
+        blocks.extend(
+            integrate(
+                problem,
+                sweep,
+                MarchOptions(1e-3, store_every=1, divisions=4),
+                start=from_rest(problem),
+                block=1e-3,
+            )
+        )
+
+    history = joined(blocks, "failed")
+    assert 0.004 < history.time[-1] < 0.09
+    np.testing.assert_allclose(
+        history.normal_force, [[2.924, 2.747]] * len(blocks), rtol=1e-3
+    )
+
+
+@pytest.mark.parametrize("model", [{"model": "A"}, {"friction__mu_dynamic": 10.0}])
+def test_the_size_of_blocks_changes_no_bit(model: dict[str, object]) -> None:
+    problem = rig_problem(**model)
+    sweep = SweptSine(
+        ramp=0.01, start=0.02, end=0.09, duration=0.1, lowest=130.0, highest=138.0
+    )
+    options = MarchOptions(2e-4, store_every=3)
+
+    whole = marched(problem, sweep, options, block=1.0)
+    parts = marched(problem, sweep, options, block=0.0071)
+
+    for field in dataclasses.fields(TimeHistory):
+        np.testing.assert_array_equal(
+            getattr(whole, field.name), getattr(parts, field.name), field.name
+        )
+
+
+@pytest.mark.kernels
+@pytest.mark.parametrize("duration", [1.0, 0.7301, 1.0 / 3.0])
+@pytest.mark.parametrize("store_every", [1, 7])
+def test_rows_are_stored_at_even_times_up_to_exactly_the_end(
+    duration: float, store_every: int
+) -> None:
+    options = MarchOptions(0.01, store_every=store_every)
+
+    history = marched(oscillator(), Dwell(3.0, duration), options, block=0.2)
+
+    assert history.time_step <= 0.01
+    assert history.time[-1] == pytest.approx(duration, rel=1e-15)
+    rows = np.arange(1, len(history.time) + 1)
+    np.testing.assert_allclose(
+        history.time, rows * store_every * history.time_step, rtol=1e-14
+    )
+
+
+@pytest.mark.kernels
+def test_a_row_holds_the_motion_at_its_time() -> None:
+    problem, frequency = oscillator(preload=3.0), 5.0
+    every = marched(problem, Dwell(frequency, 1.0), MarchOptions(0.01, 1))
+
+    sparse = marched(problem, Dwell(frequency, 1.0), MarchOptions(0.01, 5))
+
+    np.testing.assert_array_equal(sparse.time, every.time[4::5])
+    np.testing.assert_array_equal(sparse.displacement, every.displacement[4::5])
+    np.testing.assert_array_equal(sparse.velocity, every.velocity[4::5])
+    np.testing.assert_array_equal(sparse.energy, every.energy[4::5])
+
+
+@pytest.mark.kernels
+def test_a_march_begins_unloaded_and_at_rest_if_nothing_else_is_said() -> None:
+    problem = oscillator(mass=2.0, damping=0.0, stiffness=0.5, preload=3.0, drive=0.0)
+
+    history = marched(problem, Dwell(1.0, 0.1), MarchOptions(1e-3, 1))
+
+    # From rest at x = 0 under 3 N: x = 6 (1 − cos t/2)
+    expected = 6.0 * (1.0 - np.cos(history.time / 2.0))
+    np.testing.assert_allclose(history.displacement[:, 0], expected, rtol=1e-6)
+    assert history.stored_at_start == 0.0
+
+
+@pytest.mark.kernels
+def test_a_block_at_rest_under_a_falling_load_stays_in_contact() -> None:
+    points = contact_points(stiffness=300.0, exponent=1.0, damping=0.0, friction=0)
+    problem = mass_on_contact(points, direction=NORMAL, preload=3.0)
+
+    history = marched(
+        problem, Dwell(1.0, 0.1), MarchOptions(1e-3, 1), start=from_rest(problem)
+    )
+
+    np.testing.assert_allclose(history.normal_force, 3.0, rtol=1e-9)
+    np.testing.assert_allclose(history.displacement, 0.01, rtol=1e-9)
+    np.testing.assert_allclose(history.of("contact"), 0.015, rtol=1e-9)
+
+
+def test_a_march_does_not_write_to_its_start() -> None:
+    start = Start(np.array([0.3]), np.array([1.0]))
+
+    marched(oscillator(), Dwell(1.0, 1.0), MarchOptions(0.01), start=start)
+
+    assert start.displacement[0] == 0.3
+    assert start.velocity[0] == 1.0
+
+
+@pytest.mark.parametrize("step", [0.0, -1e-5, np.nan])
+def test_a_time_step_that_is_not_positive_is_refused(step: float) -> None:
+    with pytest.raises(
+        ValueError, match=rf"^time step {step:g} s: give a positive one$"
+    ):
+        MarchOptions(step)
+
+
+def test_storing_less_than_every_step_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"^store every 0 steps: give at least 1$"):
+        MarchOptions(store_every=0)

@@ -68,7 +68,7 @@ class Quantity:
         except ValueError:
             raise ValueError(f"is not a number: give one{self._unit_hint()}") from None
         if unit.strip() not in UNITS[self.unit]:
-            raise ValueError(f"has the wrong unit{self._unit_hint()}")
+            raise ValueError(f"has the wrong unit: give a number{self._unit_hint()}")
         if not math.isfinite(number):
             raise ValueError("is not finite: give a finite number")
         return number * UNITS[self.unit][unit.strip()]

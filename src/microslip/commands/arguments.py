@@ -6,6 +6,12 @@ import argparse
 import sys
 from pathlib import Path
 
+from microslip_mechanics.errors import MicroslipError
+
+
+class OutputError(MicroslipError):
+    """Results have no place to go."""
+
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
     """Add the scene and its overrides."""
@@ -35,12 +41,22 @@ def add_output(parser: argparse.ArgumentParser, suffix: str) -> None:
 
 
 def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
-    """Return the paths of data and picture."""
+    """Return the paths of data and picture, in a folder that exists.
+
+    Raises
+    ------
+    OutputError
+        If it does not: better before the work than after it.
+    """
     chosen: Path | None = options.output
     if chosen is None:
         chosen = Path(f"{Path(options.scene).stem}-{suffix}")
     elif chosen.suffix in {".nc", ".png"}:
         chosen = chosen.with_suffix("")
+    if not chosen.parent.is_dir():
+        raise OutputError(
+            f"there is no folder {chosen.parent} to write to: make it first"
+        )
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
 
 

@@ -40,10 +40,10 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.store import Stored, save, save_figure
     from microslip.studies.curve import trace_curve, truncation_error
 
+    data, picture = arguments.outputs(options, "frc")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     traced = trace_curve(problem, scene.curve, watched(scene.curve))
-    data, picture = arguments.outputs(options, "frc")
     save(data, Stored(traced.curve, scene.text, arguments.command_line()))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     print(_table(traced))

@@ -33,6 +33,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.store import Stored, save, save_figure
     from microslip.studies.sweep import march_sweep, swept_sine
 
+    data, picture = arguments.outputs(options, "sweep")
     scene = load_scene(options.scene, options.overrides)
     history = march_sweep(
         problem_of(scene),
@@ -40,7 +41,6 @@ def _run(options: argparse.Namespace) -> int:
         scene.march,
         watched(scene.sweep.duration),
     )
-    data, picture = arguments.outputs(options, "sweep")
     save(data, Stored(history, scene.text, arguments.command_line()))
     save_figure(picture, sweep_figure(history, arguments.title(options)))
     print(_table(history))

@@ -71,6 +71,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.curve import trace_curve
 
+    _, picture = arguments.outputs(options, "verify")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))
@@ -85,7 +86,6 @@ def _run(options: argparse.Namespace) -> int:
         return arguments.ended("interrupted")
     finally:
         _report(orbits, sweeps)
-    _, picture = arguments.outputs(options, "verify")
     _draw(options, traced, orbits, sweeps, picture)
     print(f"picture in {picture}")
     return _verdict(options, orbits, sweeps)

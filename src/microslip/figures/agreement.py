@@ -44,7 +44,9 @@ def agreement_figure(
         panels[0, 0].plot(
             marched[0], 1e3 * marched[1][:, place], "o", color=colour, ms=4
         )
-    panels[0, 0].set_title("Curve and march on its orbits (dots)", loc="left")
+    panels[0, 0].set_title(
+        "Curve, and the march on its orbits (dots)", loc="left", fontsize="medium"
+    )
     _deviation(panels[0, 1], marched)
     _envelopes(panels[1, 0], curve, sweeps)
     _energy(panels[1, 1], energies)
@@ -80,6 +82,8 @@ def _energy(axes: Axes, energies: tuple[Array, Array]) -> None:
     axes.loglog(slower, 100.0 * np.abs(error), "o-", color=COLOURS[0], lw=WIDTH, ms=4)
     axes.set_xticks(slower, [f"{each:g}" for each in slower])
     axes.minorticks_off()
+    axes.set_yticks(100.0 * np.abs(error), [f"{100 * each:.3g}" for each in abs(error)])
+    axes.tick_params(axis="y", which="minor", left=False)
     framed(
         axes,
         x="sweep slower by",

@@ -30,7 +30,7 @@ class SweepAgreement:
     quasi_static: float
     """the curve's prediction of the same [J]"""
     envelope_error: float
-    """largest difference of envelope and curve, over the curve's peak"""
+    """mean difference of the cycles' peaks and the curve's, over their mean"""
     closing_error: float
     """of the energy balance, over the input"""
     envelope_frequency: Array
@@ -105,7 +105,7 @@ def sweep_agreement(
         slower,
         float(energy),
         quasi_static_energy(curve, sweep.rate * slower),
-        float(np.abs(envelope - predicted).max() / curve.peak.max()),
+        float(np.abs(envelope - predicted).mean() / predicted.mean()),
         float(np.abs(history.closing_error).max() / history.of("input").max()),
         frequency,
         envelope,
@@ -140,4 +140,5 @@ def _envelope(
     edges = np.flatnonzero(np.diff(cycle, prepend=cycle[0] - 1))
     high = np.maximum.reduceat(shown, edges, axis=0)
     low = np.minimum.reduceat(shown, edges, axis=0)
-    return hertz[edges], (high - low) / 2.0
+    # the last cycle is cut off
+    return hertz[edges[:-1]], (high - low)[:-1] / 2.0

@@ -1,4 +1,4 @@
-"""Time curve and sweep of each model in a warm process: python tests/benchmarks/warm.py.
+"""Time curve and sweep of each model, warm: python tests/benchmarks/warm.py.
 
 Seconds are this machine's, on this day; the ratios beside them carry further. Each pair
 is run in turn, three times, and the median is printed.

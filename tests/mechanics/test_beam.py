@@ -220,6 +220,19 @@ def test_element_leaves_rigid_motions_without_force_and_with_its_mass() -> None:
     assert inertia[2, 4] == pytest.approx(-total * LENGTH / 2.0, rel=1e-14, abs=0.0)
 
 
+def test_section_has_the_properties_of_a_steel_rectangle() -> None:
+    properties = (
+        SECTION.area,
+        SECTION.inertia_y,
+        SECTION.inertia_z,
+        SECTION.shear_modulus,
+    )
+
+    # 20 mm along y, 10 mm along z; G = E/2.6
+    expected = (2e-4, 2e-8 / 12.0, 8e-8 / 12.0, 8.076923076923077e10)
+    assert properties == pytest.approx(expected, rel=1e-14, abs=0.0)
+
+
 @pytest.mark.parametrize(
     ("ratio", "factor"),
     [(1.0, 0.1406), (1.2, 0.166), (1.5, 0.196), (2.0, 0.229), (3.0, 0.263),

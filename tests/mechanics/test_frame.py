@@ -111,6 +111,19 @@ def test_each_beam_is_damped_by_its_own_coefficient() -> None:
     assert np.all(np.diag(second)[6:] > 0.0)
 
 
+@pytest.mark.parametrize("lean", [2e-9, 0.5])
+def test_thickness_that_is_not_across_the_beam_is_refused(lean: float) -> None:
+    beam = Beam("a", "b", SECTION, np.array([lean, 0.0, 1.0]))
+    places = Node("a", np.zeros(3)), Node("b", np.array([0.2, 0.0, 0.0]))
+
+    with pytest.raises(
+        ValueError,
+        match=r"^beam a to b: thickness_direction \[.*\] is not perpendicular to "
+        r"the beam's axis$",
+    ):
+        Frame(places, (beam,)).structure()
+
+
 def test_ground_spring_pulls_back_along_its_direction_alone() -> None:
     frame = free_frame()
     direction = np.array([0.6, 0.0, 0.8])

@@ -64,6 +64,19 @@ def test_points_that_move_independently_are_their_own_coordinates() -> None:
     np.testing.assert_array_equal(selection, interface.displacement)
 
 
+def test_motions_in_the_plane_of_symmetry_and_across_it_stay_apart() -> None:
+    problem = rig_problem()
+    across = [name[-2:] in ("uz", "rx", "ry") for name in problem.structure.names]
+
+    _, selection = problem.interface.relative_motion()
+
+    moved = np.abs(selection)
+    in_plane = np.all(moved[:, across] <= 2e-15, axis=1)
+    out_of_plane = np.all(moved[:, np.invert(across)] <= 2e-15, axis=1)
+    assert np.all(in_plane != out_of_plane)
+    assert (in_plane.sum(), out_of_plane.sum()) == (6, 6)
+
+
 def test_work_of_contact_forces_is_the_same_in_both_coordinates() -> None:
     interface = rig_problem().interface
     random = np.random.default_rng(4)

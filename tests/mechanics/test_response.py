@@ -13,7 +13,9 @@ from microslip_mechanics.structure import Structure
 FREQUENCY = 850.0
 
 
-def response(coefficients: Array, frequency: float = FREQUENCY) -> PeriodicResponse:
+def response(
+    coefficients: Array, frequency: float = FREQUENCY, outcome: str = "converged"
+) -> PeriodicResponse:
     return PeriodicResponse(
         frequency,
         coefficients,
@@ -22,7 +24,7 @@ def response(coefficients: Array, frequency: float = FREQUENCY) -> PeriodicRespo
         friction_energy=1e-4 * frequency,
         damping_energy=1e-5 * frequency,
         residual=1e-9 * frequency,
-        outcome="converged",
+        outcome=outcome,
         iterations=round(frequency / 100.0),
     )
 
@@ -107,7 +109,11 @@ def test_peaks_between_samples_are_found_to_second_order(samples: int) -> None:
 
 def test_curve_keeps_the_order_and_the_numbers_of_its_points() -> None:
     frequencies = np.array([800.0, 900.0, 850.0])
-    points = [response(np.ones((3, 3)), frequency) for frequency in frequencies]
+    outcomes = ("converged", "the iteration limit was reached", "converged")
+    points = [
+        response(np.ones((3, 3)), frequency, outcome)
+        for frequency, outcome in zip(frequencies, outcomes, strict=True)
+    ]
 
     curve = response_curve(
         problem(np.eye(3)), points, "the step is too short", samples=8
@@ -122,6 +128,7 @@ def test_curve_keeps_the_order_and_the_numbers_of_its_points() -> None:
     np.testing.assert_array_equal(curve.iterations, [8.0, 9.0, 8.0])
     assert curve.probes == ("probe-0", "probe-1", "probe-2")
     assert curve.contacts == ("point",)
+    assert curve.outcome == outcomes
     assert curve.ending == "the step is too short"
 
 

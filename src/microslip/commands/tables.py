@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
 HEADER = """\
 Energy dissipated by friction over the sweep [J]: the paper's Tables 4 and 5
-                                  paper   microslip   ratio half step   closing   time
-                                    [J]         [J]           [%]         error    [s]\
+                                      paper  microslip   ratio half step  closing  time
+                                        [J]        [J]              [%]    error   [s]\
 """
 NOTES = """\
 half step: excess at the scene's time step over the value, which is that of half the
@@ -79,10 +79,10 @@ def _line(row: Row) -> str:
     paper = row.variant.paper
     own = math.isnan(paper)
     return (
-        f"{row.variant.name:32s} {'-' if own else format(paper, '.3f'):>6s} "
-        f"{row.energy:11.6f} {'-' if own else format(row.energy / paper, '.3f'):>7s} "
-        f"{_percent(row.half_step_change):>9s} {row.closing_error:9.1e} "
-        f"{row.seconds:6.1f}"
+        f"{row.variant.name:36s} {'-' if own else format(paper, '.3f'):>6s} "
+        f"{row.energy:10.6f} {'-' if own else format(row.energy / paper, '.3f'):>7s} "
+        f"{_percent(row.half_step_change):>9s} {row.closing_error:8.1e} "
+        f"{row.seconds:5.1f}"
     )
 
 

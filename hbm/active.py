@@ -96,5 +96,7 @@ def _coupling(balance: HarmonicBalance, frequency: float) -> NDArray[np.bool_]:
     orders = np.arange(1, balance.fourier.harmonics + 1)
     stiffness, _ = balance.condensed.dynamic_stiffness(1j * frequency * orders)
     size = np.abs(stiffness)
-    coupled: NDArray[np.bool_] = size > 1e-10 * size.max(axis=(1, 2), keepdims=True)
+    coupled: NDArray[np.bool_] = size > 1e-10 * size.max(
+        (1, 2), keepdims=True, initial=0.0
+    )
     return coupled

@@ -69,7 +69,8 @@ class HarmonicBalance:
 
     def split(self, point: Array) -> tuple[Array, float]:
         """Return the coefficients of y, shape (2H + 1, rank), and the frequency."""
-        return point[:-1].reshape(-1, self.rank), float(point[-1])
+        shape = (self.fourier.coefficients, self.rank)
+        return point[:-1].reshape(shape), float(point[-1])
 
     def motion(self, point: Array) -> Array:
         """Return the coefficients of the full motion u [m], shape (2H + 1, dofs)."""

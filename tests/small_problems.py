@@ -68,7 +68,9 @@ def sliding_block(
     **friction: float,
 ) -> Problem:
     """Return a block on one point with constant normal load, free to slide."""
-    points = contact_points(stiffness=0.0, damping=0.0, constant_load=True, **friction)
+    points = contact_points(
+        1, stiffness=0.0, damping=0.0, constant_load=True, **friction
+    )
     return mass_on_contact(
         points,
         direction=TANGENT,

@@ -9,11 +9,11 @@ import pytest
 from hbm.continuation import (
     ContinuationError,
     StepControl,
-    System,
     correct_at,
     tangent,
     trace,
 )
+from hbm.newton import System
 from microslip_mechanics.arrays import Array
 
 CONTROL = StepControl(initial=0.05, smallest=1e-5, largest=0.2, tolerance=1e-10)

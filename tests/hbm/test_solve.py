@@ -62,7 +62,8 @@ def linear_curve(
 
 
 def first_harmonic(response: PeriodicResponse) -> ComplexArray:
-    return to_complex(response.coefficients)[1]
+    harmonic: ComplexArray = to_complex(response.coefficients)[1]
+    return harmonic
 
 
 def dynamic_stiffness(problem: Problem, frequency: float) -> ComplexArray:

@@ -10,6 +10,7 @@ import pytest
 
 import microslip_mechanics
 
+PACKAGE = Path(microslip_mechanics.__file__).parent
 POWER = """
 from microslip_mechanics.contact.hunt_crossley import power
 print(power(2.0, 3.0), sum(power.stats.cache_hits.values()))
@@ -32,6 +33,7 @@ print(inspect.isfunction(power))
 def run(code: str, **environment: Path | str) -> list[str]:
     """Run code in a new process, warnings as errors; return the words it prints."""
     kept = {name: os.environ[name] for name in ("PATH", "HOME") if name in os.environ}
+    kept["PYTHONPATH"] = str(PACKAGE.parent)
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", code],
         env=kept | {name: str(value) for name, value in environment.items()},
@@ -64,7 +66,7 @@ def test_second_process_finds_the_machine_code_of_the_first(tmp_path: Path) -> N
 
 def test_edit_of_a_callee_in_another_file_reaches_its_caller(tmp_path: Path) -> None:
     package = tmp_path / "copy" / "microslip_mechanics"
-    shutil.copytree(Path(microslip_mechanics.__file__).parent, package)
+    shutil.copytree(PACKAGE, package)
     places = {"PYTHONPATH": package.parent, "XDG_CACHE_HOME": tmp_path / "cache"}
     callee, formula = package / "contact" / "hunt_crossley.py", "return law.stiffness *"
     text = callee.read_text(encoding="utf-8")
@@ -83,7 +85,7 @@ def test_unchanged_copy_of_the_package_shares_the_name_of_the_cache_folder(
     tmp_path: Path,
 ) -> None:
     package = tmp_path / "copy" / "microslip_mechanics"
-    shutil.copytree(Path(microslip_mechanics.__file__).parent, package)
+    shutil.copytree(PACKAGE, package)
 
     run(PLAIN, XDG_CACHE_HOME=tmp_path / "cache")
     run(PLAIN, XDG_CACHE_HOME=tmp_path / "cache", PYTHONPATH=package.parent)

@@ -136,7 +136,7 @@ def test_sliding_with_falling_friction_converges_with_second_order() -> None:
 
     # m v̇ = −N (µd + (µs − µd) exp(−v / V_str)): µd exp(v / V_str) + µs − µd decays.
     def level(velocity: float) -> float:
-        return FRICTION * np.exp(velocity / stribeck) + static - FRICTION
+        return float(FRICTION * np.exp(velocity / stribeck) + static - FRICTION)
 
     remaining = level(start) * np.exp(-FRICTION * LOAD * duration / (MASS * stribeck))
     exact = stribeck * np.log((remaining - static + FRICTION) / FRICTION)

@@ -1,0 +1,120 @@
+"""The sweep of the paper: its energies, and what it says about the contacts.
+
+Paper: tables 4 and 5 and section 5. The rig is one that fits the printed numbers, not a
+measured one, hence the tolerances: 12 % for macroslip, 25 % for the jammed rig.
+"""
+
+import functools
+
+import numpy as np
+import pytest
+
+from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.time_history import TimeHistory
+from rigs import rig_problem
+from small_problems import marched
+from timedomain.integrate import MarchOptions
+
+pytestmark = pytest.mark.slow
+
+SWEEP = SweptSine(1.0, 2.0, 8.0, 10.0, 125.0, 145.0)
+RIGS: dict[str, dict[str, object]] = {
+    "A": {"model": "A"},
+    "B": {"model": "B"},
+    "soft": {"contact__sigma": 3e-7},
+    "stiff": {},
+    "parallel": {"blade__fan": "0 deg"},
+}
+
+
+@functools.cache
+def swept(rig: str, law: str, time_step: float = 2.5e-5) -> TimeHistory:
+    problem = rig_problem(**RIGS[rig], friction__law=law)
+    return marched(problem, SWEEP, MarchOptions(time_step), block=1.0)
+
+
+def dissipated(rig: str, law: str, time_step: float = 2.5e-5) -> float:
+    return float(swept(rig, law, time_step).of("friction")[-1])
+
+
+def peaks(rig: str, law: str) -> np.ndarray:
+    """Return the largest normal force of each contact point over the sweep."""
+    peak: np.ndarray = swept(rig, law).normal_force.max(axis=0)
+    return peak
+
+
+@pytest.mark.parametrize(
+    ("rig", "law", "paper"),
+    [
+        ("A", "coulomb", 0.149),
+        ("B", "coulomb", 0.148),
+        ("soft", "coulomb", 0.143),
+        ("A", "gkf", 0.099),
+        ("B", "gkf", 0.099),
+        ("soft", "gkf", 0.102),
+    ],
+)
+def test_macroslip_dissipates_what_the_paper_prints(
+    rig: str, law: str, paper: float
+) -> None:
+    # Measured 0.1477, 0.1477, 0.1474; 0.0918, 0.0918, 0.1026.
+    assert dissipated(rig, law) == pytest.approx(paper, rel=0.12)
+
+
+def test_the_jammed_rig_dissipates_what_the_paper_prints() -> None:
+    # Measured 0.0075; the paper's 0.009 has one digit.
+    assert dissipated("stiff", "coulomb") == pytest.approx(0.009, rel=0.25)
+
+
+def test_jammed_with_falling_friction_half_as_much_is_dissipated() -> None:
+    # The paper prints 0.014, more than with Coulomb. Here sticking friction is a
+    # dashpot µN / V_lim, twice as strong with µs as with µd: creep takes half.
+    ratio = dissipated("stiff", "gkf") / dissipated("stiff", "coulomb")
+
+    assert ratio == pytest.approx(0.5, abs=0.05)
+
+
+def test_parallel_blades_do_not_jam() -> None:
+    assert dissipated("parallel", "coulomb") == pytest.approx(0.09, rel=0.05)
+
+
+@pytest.mark.parametrize("law", ["coulomb", "gkf"])
+def test_normal_forces_of_the_jammed_rig_grow_to_many_times_the_static_ones(
+    law: str,
+) -> None:
+    static = swept("stiff", law).normal_force[-1]
+
+    assert (peaks("stiff", law) / static.max()).max() > 8.0
+
+
+def test_falling_friction_lowers_the_normal_forces_of_the_jammed_rig() -> None:
+    assert peaks("stiff", "gkf").max() < peaks("stiff", "coulomb").max()
+
+
+def test_normal_forces_of_macroslip_stay_what_they_are_at_rest() -> None:
+    forces = swept("B", "coulomb").normal_force
+
+    # From the end of the ramp on: 2.924 N at face B, 2.747 N at face A.
+    driven = forces[swept("B", "coulomb").time > 1.0]
+    np.testing.assert_allclose(driven, [[2.924, 2.747]] * len(driven), rtol=1e-2)
+
+
+@pytest.mark.parametrize("law", ["coulomb", "gkf"])
+@pytest.mark.parametrize("rig", ["A", "soft", "stiff"])
+def test_half_the_time_step_changes_the_energy_by_less_than_half_a_per_cent(
+    rig: str, law: str
+) -> None:
+    whole, half = dissipated(rig, law), dissipated(rig, law, 1.25e-5)
+
+    # Measured 0.2 % for A with either law, 0.1 % and less for the full rig.
+    assert half == pytest.approx(whole, rel=0.005)
+
+
+@pytest.mark.parametrize("law", ["coulomb", "gkf"])
+@pytest.mark.parametrize("rig", ["A", "B", "soft", "stiff"])
+def test_the_energy_of_a_sweep_balances_to_a_ten_thousandth(rig: str, law: str) -> None:
+    history = swept(rig, law)
+
+    closing = np.abs(history.closing_error).max() / history.of("input")[-1]
+    assert closing < 2e-4  # measured 7e-5 for the jammed rig
+    assert history.divided == 0

@@ -1,0 +1,118 @@
+"""Fixtures: the command line in this process, small results, a limit on the time."""
+
+import signal
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from microslip.cli import main
+from microslip.scene_file import built_in_text
+from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.time_history import TimeHistory
+from timedomain.record import FLOWS, STORES
+
+PROBES = ("excited-blade", "follower-blade", "element", "element-to-excited")
+CONTACTS = ("B1", "B2", "A1")
+QUICK = {
+    'model = "full"': 'model = "A"',
+    'ramp = "1 s"': 'ramp = "5 ms"',
+    'start = "2 s"': 'start = "5 ms"',
+    'end = "8 s"': 'end = "10 ms"',
+    'duration = "10 s"': 'duration = "10 ms"',
+    'lowest = "125 Hz"\nhighest = "145 Hz"': 'lowest = "130 Hz"\nhighest = "130.2 Hz"',
+    "harmonics = 31": "harmonics = 1",
+    "samples = 1024": "samples = 16",
+}
+"""what makes the built-in scene quick: model A, a coarse curve, one cycle of a sweep"""
+
+
+@pytest.fixture
+def run(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> Callable[..., tuple[int, str, str]]:
+    """Return what runs a command in ``tmp_path``: status, output, error output."""
+    monkeypatch.chdir(tmp_path)
+
+    def ran(*arguments: str) -> tuple[int, str, str]:
+        capsys.readouterr()
+        try:
+            status = main(list(arguments))
+        except SystemExit as left:  # argparse: --help, wrong usage
+            status = int(left.code or 0)
+        return status, *capsys.readouterr()
+
+    return ran
+
+
+@pytest.fixture
+def quick_scene(tmp_path: Path) -> Path:
+    """Return a copy of the built-in scene in ``tmp_path`` that takes no time."""
+    text = built_in_text("two-blades")
+    for old, new in QUICK.items():
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    path = tmp_path / "quick.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def no_hang() -> Iterator[None]:
+    """End a test that does not end by itself."""
+
+    def stop(*_: object) -> None:
+        raise RuntimeError("the test hangs")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(20)
+    yield
+    signal.alarm(0)
+    signal.signal(signal.SIGALRM, before)
+
+
+@pytest.fixture
+def small_curve() -> ResponseCurve:
+    """Return a curve of four points whose numbers are all different."""
+    draw, points = np.random.default_rng(1), 4
+    of_probes = (points, len(PROBES))
+    return ResponseCurve(
+        frequency=2.0 * np.pi * np.array([130.0, 131.0, 133.0, 134.0]),
+        probes=PROBES,
+        amplitude=draw.uniform(1e-5, 1e-3, of_probes),
+        peak=draw.uniform(1e-5, 1e-3, of_probes),
+        velocity_peak=draw.uniform(1e-3, 1.0, of_probes),
+        contacts=CONTACTS,
+        normal_smallest=draw.uniform(0.1, 1.0, (points, len(CONTACTS))),
+        normal_largest=draw.uniform(1.0, 3.0, (points, len(CONTACTS))),
+        friction_energy=draw.uniform(1e-6, 1e-3, points),
+        damping_energy=draw.uniform(1e-9, 1e-8, points),
+        residual=draw.uniform(1e-12, 1e-9, points),
+        outcome=("converged",) * points,
+        iterations=np.array([7.0, 3.0, 4.0, 5.0]),
+        ending="complete",
+    )
+
+
+@pytest.fixture
+def small_history() -> TimeHistory:
+    """Return a history of six times whose numbers are all different."""
+    draw, times = np.random.default_rng(2), 6
+    energies = (*FLOWS, *STORES)
+    return TimeHistory(
+        time=np.linspace(0.1, 0.6, times),
+        probes=PROBES,
+        displacement=draw.normal(size=(times, len(PROBES))) * 1e-4,
+        velocity=draw.normal(size=(times, len(PROBES))),
+        contacts=CONTACTS,
+        normal_force=draw.uniform(0.0, 3.0, (times, len(CONTACTS))),
+        friction_power=draw.uniform(0.0, 1.0, times),
+        energies=energies,
+        energy=draw.uniform(0.0, 1e-3, (times, len(energies))),
+        stored_at_start=1.25e-7,
+        time_step=2.5e-5,
+        iterations=123,
+        divided=4,
+        ending="interrupted",
+    )

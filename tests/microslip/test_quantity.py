@@ -1,0 +1,122 @@
+"""Numbers of a scene: units, formats, ranges."""
+
+import math
+
+import pytest
+
+from microslip.quantity import UNITS, Quantity
+
+LENGTH = Quantity("m", 0.0, 10.0, positive=True)
+RATIO = Quantity("", 0.0, 0.5, positive=False)
+
+
+@pytest.mark.parametrize(
+    ("unit", "text", "value"),
+    [
+        ("m", "207.5 mm", 0.2075),
+        ("m", "0.2075 m", 0.2075),
+        ("m", "3 um", 3e-6),
+        ("m", "3 µm", 3e-6),
+        ("kg", "76 g", 0.076),
+        ("s", "25 us", 25e-6),
+        ("s", "2 ms", 2e-3),
+        ("Hz", "0.135 kHz", 135.0),
+        ("N", "250 mN", 0.25),
+        ("N/m", "10 N/mm", 1e4),
+        ("Pa", "210 GPa", 2.1e11),
+        ("kg/m^3", "7.8 g/cm^3", 7800.0),
+        ("kg m^2", "82.152 g mm^2", 8.2152e-8),
+        ("rad", "180 deg", math.pi),
+        ("m/s", "1 mm/s", 1e-3),
+    ],
+)
+def test_text_with_a_unit_is_read_in_si(unit: str, text: str, value: float) -> None:
+    kind = Quantity(unit, -math.inf, math.inf, positive=False)
+
+    read = kind.read(text)
+
+    assert read == pytest.approx(value, rel=1e-15, abs=0.0)
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_si_unit_itself_changes_nothing(unit: str) -> None:
+    kind = Quantity(unit, -math.inf, math.inf, positive=False)
+
+    read = kind.read(f"0.7 {unit}")
+
+    assert read == kind.read(0.7) == 0.7
+
+
+@pytest.mark.parametrize(
+    ("written", "value"),
+    [
+        (2, 2.0),
+        (2.5, 2.5),
+        ("+25e-1 m", 2.5),
+        ("  2.5   m ", 2.5),
+        ("2.5E0 m", 2.5),
+    ],
+)
+def test_number_may_be_written_in_any_usual_form(written: object, value: float) -> None:
+    read = LENGTH.read(written)
+
+    assert isinstance(read, float)
+    assert read == value
+
+
+def test_text_needs_a_unit_only_where_there_is_one() -> None:
+    assert RATIO.read("0.3") == 0.3
+    with pytest.raises(ValueError, match="wrong unit"):
+        LENGTH.read("0.2075")
+
+
+@pytest.mark.parametrize(
+    ("kind", "written", "words"),
+    [
+        (LENGTH, "207.5 Hz", "wrong unit"),
+        (LENGTH, "207.5 MM", "wrong unit"),
+        (LENGTH, "207.5 mm long", "wrong unit"),
+        (RATIO, "0.3 m", "without a unit"),
+        (RATIO, "0.3 %", "without a unit"),
+        (LENGTH, "long", "not a number"),
+        (LENGTH, "mm 207.5", "not a number"),
+        (LENGTH, "", "not a number"),
+        (LENGTH, "2,5 m", "not a number"),
+        (LENGTH, True, "not a number"),
+        (LENGTH, None, "not a number"),
+        (LENGTH, [1.0], "not a number"),
+        (LENGTH, {"value": 1.0}, "not a number"),
+        (LENGTH, math.nan, "not finite"),
+        (LENGTH, math.inf, "not finite"),
+        (LENGTH, "nan m", "not finite"),
+        (LENGTH, "1e400 mm", "not finite"),
+        (LENGTH, 0.0, "above 0 and at most 10 m"),
+        (LENGTH, "-1 mm", "above 0 and at most 10 m"),
+        (LENGTH, "10001 mm", "above 0 and at most 10 m"),
+        (RATIO, -1e-9, "at least 0 and at most 0.5"),
+        (RATIO, 0.7, "at least 0 and at most 0.5"),
+        (Quantity("kg", 0.0, math.inf, positive=True), 0.0, "must be above 0 kg"),
+        (Quantity("N", 0.0, math.inf, positive=False), -1, "must be at least 0 N"),
+    ],
+)
+def test_message_says_what_a_value_should_be(
+    kind: Quantity, written: object, words: str
+) -> None:
+    with pytest.raises(ValueError, match=words):
+        kind.read(written)
+
+
+def test_message_lists_the_units_that_fit() -> None:
+    with pytest.raises(ValueError, match='"m", "mm", "um"'):
+        LENGTH.read("3 inches")
+
+
+def test_bounds_themselves_are_inside_unless_the_value_must_be_positive() -> None:
+    assert RATIO.read(0.0) == 0.0
+    assert RATIO.read(0.5) == 0.5
+    assert LENGTH.read("10 m") == 10.0
+
+
+def test_whole_number_beyond_all_floats_is_out_of_range() -> None:
+    with pytest.raises(ValueError, match=r"range|finite"):
+        LENGTH.read(10**400)

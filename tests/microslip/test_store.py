@@ -1,0 +1,260 @@
+"""Result files: they come back bit for bit, explain themselves, and fail in words."""
+
+import dataclasses
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from scipy.io import netcdf_file
+
+from microslip.store import SCHEMAS, Result, Stored, StoreError, load, save, save_figure
+from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.time_history import TimeHistory
+
+SCENE = '# a scene\nscene = "two-blades"\n# --set model=A'
+COMMAND = "microslip frc two-blades --set model=A"
+
+
+@pytest.fixture(params=["curve", "history"])
+def result(
+    request: pytest.FixtureRequest,
+    small_curve: ResponseCurve,
+    small_history: TimeHistory,
+) -> Result:
+    """Return one result of each kind."""
+    return small_curve if request.param == "curve" else small_history
+
+
+@pytest.fixture
+def saved(result: Result, tmp_path: Path) -> Path:
+    """Return the file of a result."""
+    path = tmp_path / "result.nc"
+    save(path, Stored(result, SCENE, COMMAND))
+    return path
+
+
+def test_result_comes_back_bit_for_bit(result: Result, saved: Path) -> None:
+    stored = load(saved)
+
+    assert type(stored.result) is type(result)
+    assert (stored.scene, stored.command) == (SCENE, COMMAND)
+    for field in dataclasses.fields(result):
+        before, after = (getattr(each, field.name) for each in (result, stored.result))
+        assert type(after) is type(before), field.name
+        if isinstance(before, np.ndarray):
+            assert after.dtype == before.dtype, field.name
+            assert after.dtype.isnative, field.name
+            assert after.shape == before.shape, field.name
+            assert after.tobytes() == before.tobytes(), field.name
+        else:
+            assert after == before, field.name
+
+
+def test_every_field_is_a_variable_or_an_attribute(result: Result, saved: Path) -> None:
+    names = {field.name for field in dataclasses.fields(result)}
+
+    with netcdf_file(saved, "r", mmap=False) as file:
+        assert names < set(file.variables) | set(file._attributes)
+
+
+@pytest.mark.parametrize("value", [0.0, -0.0, 5e-324, 1e308, np.inf, -np.inf, np.nan])
+def test_no_number_is_too_special_for_a_file(
+    value: float, small_history: TimeHistory, tmp_path: Path
+) -> None:
+    power = np.array([value, *small_history.friction_power[1:]])
+    result = dataclasses.replace(small_history, friction_power=power)
+
+    save(tmp_path / "result.nc", Stored(result, SCENE, COMMAND))
+
+    stored = load(tmp_path / "result.nc").result
+    assert isinstance(stored, TimeHistory)
+    assert stored.friction_power.tobytes() == power.tobytes()
+
+
+def test_curve_of_one_point_comes_back(
+    small_curve: ResponseCurve, tmp_path: Path
+) -> None:
+    first = {
+        field.name: getattr(small_curve, field.name)[:1]
+        for field in dataclasses.fields(small_curve)
+        if field.name not in ("probes", "contacts", "ending")
+    }
+    one = dataclasses.replace(small_curve, **first, ending="interrupted")
+
+    save(tmp_path / "result.nc", Stored(one, SCENE, COMMAND))
+
+    stored = load(tmp_path / "result.nc").result
+    assert isinstance(stored, ResponseCurve)
+    np.testing.assert_array_equal(stored.amplitude, one.amplitude)
+    assert (stored.outcome, stored.ending) == (("converged",), "interrupted")
+
+
+@pytest.mark.parametrize(
+    "ending",
+    [
+        "complete",
+        "interrupted",
+        "the curve does not go on at parameter 823.1: " + "no step helps, " * 50,
+        "ein Körper driftet: µ = 0,3",
+    ],
+)
+def test_ending_comes_back_whatever_it_says(
+    ending: str, small_history: TimeHistory, tmp_path: Path
+) -> None:
+    result = dataclasses.replace(small_history, ending=ending)
+
+    save(tmp_path / "result.nc", Stored(result, SCENE, COMMAND))
+
+    assert load(tmp_path / "result.nc").result.ending == ending
+
+
+@pytest.mark.parametrize("text", ['length = "207500 µm"', "# Über die Schaufeln – β"])
+def test_scene_and_command_may_hold_any_letters(
+    text: str, small_curve: ResponseCurve, tmp_path: Path
+) -> None:
+    command = f"microslip frc Schaufel-für-Übung.toml --set '{text}'"
+
+    save(tmp_path / "result.nc", Stored(small_curve, text, command))
+
+    stored = load(tmp_path / "result.nc")
+    assert (stored.scene, stored.command) == (text, command)
+
+
+def test_attributes_tell_where_a_file_is_from(result: Result, saved: Path) -> None:
+    kind = {"ResponseCurve": "frequency response curve", "TimeHistory": "time history"}
+
+    with netcdf_file(saved, "r", mmap=False) as file:
+        assert file.kind.decode() == kind[type(result).__name__]
+        assert file.source.decode().startswith("microslip 0.")
+        assert file.command.decode() == COMMAND
+        assert file.scene.decode() == SCENE
+        assert file.ending.decode() == result.ending
+
+
+def test_variables_have_named_dimensions_units_and_a_meaning(
+    result: Result, saved: Path
+) -> None:
+    (schema,) = (schema for kind, schema in SCHEMAS.values() if type(result) is kind)
+
+    with netcdf_file(saved, "r", mmap=False) as file:
+        assert file.version_byte == 2
+        assert set(file.variables) == set(schema)
+        for name, (dimensions, unit, meaning) in schema.items():
+            variable = file.variables[name]
+            assert variable.dimensions == dimensions
+            assert variable.units.decode() == unit
+            assert variable.long_name.decode() == meaning
+            assert unit or variable.data.dtype.kind == "S"
+
+
+def test_dimensions_have_the_sizes_of_the_result(
+    small_curve: ResponseCurve, tmp_path: Path
+) -> None:
+    save(tmp_path / "result.nc", Stored(small_curve, SCENE, COMMAND))
+
+    with netcdf_file(tmp_path / "result.nc", "r", mmap=False) as file:
+        assert file.dimensions["point"] == len(small_curve.frequency)
+        assert file.dimensions["probe"] == len(small_curve.probes)
+        assert file.dimensions["contact"] == len(small_curve.contacts)
+
+
+def no_file(path: Path) -> None:
+    """Leave the path empty."""
+
+
+def folder(path: Path) -> None:
+    path.mkdir()
+
+
+def empty(path: Path) -> None:
+    path.write_bytes(b"")
+
+
+def text(path: Path) -> None:
+    path.write_text("a result about blades")
+
+
+def other_netcdf(path: Path) -> None:
+    with netcdf_file(path, "w") as file:
+        file.title = "somebody else's"
+
+
+def unknown_kind(path: Path) -> None:
+    with netcdf_file(path, "w") as file:
+        file.kind, file.scene, file.command = "mode shapes", SCENE, COMMAND
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (no_file, "there is no result file"),
+        (folder, "cannot be read: Is a directory"),
+        (empty, "is not a result file"),
+        (text, "is not a result file"),
+        (other_netcdf, "is not a result file"),
+        (unknown_kind, "'mode shapes', which this version does not know"),
+    ],
+)
+def test_file_that_is_no_result_is_told_in_words(
+    make: Callable[[Path], None], words: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "result.nc"
+    make(path)
+
+    with pytest.raises(StoreError, match=words) as caught:
+        load(path)
+    assert str(path) in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_truncated_file_is_told_in_words_wherever_it_is_cut(
+    saved: Path, tmp_path: Path
+) -> None:
+    whole, cut = saved.read_bytes(), tmp_path / "cut.nc"
+
+    for length in range(0, len(whole) - 8, 61):
+        cut.write_bytes(whole[:length])
+        with pytest.raises(StoreError, match=r"cut\.nc"):
+            load(cut)
+
+
+@pytest.mark.parametrize("missing", ["nowhere/result.nc", "file/result.nc", "folder"])
+def test_result_that_cannot_be_written_is_told_in_words(
+    missing: str, result: Result, tmp_path: Path
+) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").write_text("")
+
+    with pytest.raises(StoreError, match=f"{missing} cannot be written: "):
+        save(tmp_path / missing, Stored(result, SCENE, COMMAND))
+
+
+@pytest.mark.parametrize("name", ["nowhere/picture.png", "folder.png"])
+def test_picture_that_cannot_be_written_is_told_in_words(
+    name: str, tmp_path: Path
+) -> None:
+    (tmp_path / "folder.png").mkdir()
+
+    with pytest.raises(StoreError, match=f"{name} cannot be written: "):
+        save_figure(tmp_path / name, Figure())
+
+
+def test_picture_of_an_unknown_format_is_told_in_words(tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match=r"picture\.xyz .*\.png, \.pdf or \.svg"):
+        save_figure(tmp_path / "picture.xyz", Figure())
+
+
+@pytest.mark.parametrize(
+    ("ending", "start"),
+    [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml")],
+)
+def test_picture_has_the_format_of_its_ending(
+    ending: str, start: bytes, tmp_path: Path
+) -> None:
+    path = (tmp_path / "picture").with_suffix(ending)
+
+    save_figure(path, Figure(figsize=(1.0, 1.0)))
+
+    assert path.read_bytes().startswith(start)

@@ -241,8 +241,9 @@ def test_malformed_scene_ends_with_one_line_and_status_2(
 
     assert status == 2
     assert output == ""
+    message = one_line(error)
     for word in (str(path), *words):
-        assert word in one_line(error)
+        assert word in message
 
 
 @pytest.mark.parametrize("command", ["frc", "sweep", "verify", "explain"])
@@ -294,8 +295,9 @@ def test_wrong_override_ends_with_one_line_and_status_2(
     status, output, error = run("explain", "two-blades", "--set", override)
 
     assert (status, output) == (2, "")
+    message = one_line(error)
     for word in words:
-        assert word in one_line(error)
+        assert word in message
 
 
 @pytest.mark.parametrize(
@@ -306,7 +308,6 @@ def test_wrong_override_ends_with_one_line_and_status_2(
         ("folder", ("folder cannot be read", "directory")),
         ("mine.toml/scene", ("no scene file mine.toml/scene",)),
         ("x" * 5000, ("cannot be read", "too long")),
-        ("two\0blades", ()),
         ("two\nblades", ()),
         ("", ()),
     ],
@@ -320,8 +321,9 @@ def test_scene_that_is_no_file_ends_with_one_line_and_status_2(
     status, output, error = run("explain", source)
 
     assert (status, output) == (2, "")
+    message = one_line(error)
     for word in words:
-        assert word in one_line(error)
+        assert word in message
 
 
 def test_scene_without_permission_ends_with_one_line_and_status_2(

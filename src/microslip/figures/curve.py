@@ -13,6 +13,7 @@ from microslip.figures.style import (
     absolute,
     faces,
     framed,
+    label_lowest_row,
     readable,
     relative,
 )
@@ -29,8 +30,7 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     sliding_velocity(panels[0, 1], curve)
     dissipated_energy(panels[1, 0], curve)
     normal_forces(panels[1, 1], curve)
-    for axes in figure.axes:
-        axes.label_outer()
+    label_lowest_row(figure)
     figure.suptitle(title)
     return figure
 
@@ -95,6 +95,11 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
             )
     title = "Normal forces: range over a period, line at the largest"
     framed(axes, x=FREQUENCY, y="force [N]", title=title)
+    low, high = (
+        curve.normal_smallest.min(initial=0.0),
+        curve.normal_largest.max(initial=0),
+    )
+    axes.set_ylim(low, 1.05 * high if high > 0.0 else None)
     axes.legend(frameon=False, ncols=2)
 
 

@@ -11,6 +11,7 @@ from microslip.figures.style import (
     absolute,
     faces,
     framed,
+    label_lowest_row,
     readable,
     relative,
 )
@@ -40,8 +41,7 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
     energies(next(panels), history)
     for axes in panels:
         axes.remove()
-    for axes in figure.axes:
-        axes.label_outer()
+    label_lowest_row(figure)
     figure.suptitle(title)
     return figure
 
@@ -102,4 +102,4 @@ def energies(axes: Axes, history: TimeHistory) -> None:
     closing = abs(history.closing_error).max()
     title = f"Energy since the start (closing error {closing:.1e} J)"
     framed(axes, x=TIME, y="energy [J]", title=title)
-    axes.legend(frameon=False, loc="center right")
+    axes.legend(frameon=False, loc="center left", fontsize="small")

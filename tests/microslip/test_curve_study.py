@@ -1,0 +1,211 @@
+"""The study of a curve: its upward branch, its energy, its truncation error."""
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+from microslip.rigs import problem_of
+from microslip.scene_file import Scene, load_scene
+from microslip.studies.curve import (
+    followed_upwards,
+    quasi_static_energy,
+    shown_points,
+    trace_curve,
+    truncation_error,
+)
+from microslip.studies.verify import spread
+from microslip_mechanics.response import ResponseCurve
+
+
+@pytest.fixture
+def scene(quick_scene: Path) -> Scene:
+    """Return model A on a curve narrow enough to be traced at once."""
+    return load_scene(str(quick_scene), ["curve.harmonics=5", "curve.samples=256"])
+
+
+def curve_with(
+    template: ResponseCurve, hertz: ArrayLike, energy: ArrayLike
+) -> ResponseCurve:
+    """Return a curve of given frequencies [Hz] and energies per period [J]."""
+    return dataclasses.replace(
+        template,
+        frequency=2.0 * np.pi * np.asarray(hertz),
+        friction_energy=np.asarray(energy),
+    )
+
+
+def test_upward_sweep_follows_all_of_a_curve_without_folds(
+    small_curve: ResponseCurve,
+) -> None:
+    followed = followed_upwards(small_curve)
+
+    assert followed.tolist() == [0, 1, 2, 3]
+
+
+def test_upward_sweep_jumps_from_the_first_fold_over_the_curve_between(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz = [1.0, 2.0, 4.0, 3.0, 2.5, 3.5, 5.0, 6.0]
+    folded = curve_with(small_curve, hertz, np.zeros(8))
+
+    followed = followed_upwards(folded)
+
+    assert followed.tolist() == [0, 1, 2, 6, 7]
+
+
+def test_upward_sweep_jumps_over_a_second_fold_too(small_curve: ResponseCurve) -> None:
+    hertz = [1.0, 3.0, 2.0, 2.9, 5.0, 4.0, 4.5, 6.0]
+    folded = curve_with(small_curve, hertz, np.zeros(8))
+
+    followed = followed_upwards(folded)
+
+    assert followed.tolist() == [0, 1, 4, 7]
+
+
+def test_energy_of_a_slow_sweep_is_the_integral_along_the_upward_branch(
+    small_curve: ResponseCurve,
+) -> None:
+    # 2 J up to the fold at 4 Hz, 9 J on the branch between, 1 J after the jump
+    hertz = [1.0, 2.0, 4.0, 3.0, 2.5, 4.0, 6.0]
+    folded = curve_with(small_curve, hertz, [2.0, 2.0, 2.0, 9.0, 9.0, 1.0, 1.0])
+
+    energy = quasi_static_energy(folded, rate=0.5)
+
+    # ∫ E df = 2 (4 − 1) + 1 (6 − 4), over the rate
+    assert energy == pytest.approx((6.0 + 2.0) / 0.5, rel=1e-12)
+
+
+def test_energy_of_a_slow_sweep_is_exact_for_a_linear_course(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz = np.array([125.0, 125.5, 130.0, 144.0, 145.0])
+    linear = curve_with(small_curve, hertz, 1e-3 * (hertz - 125.0))
+
+    energy = quasi_static_energy(linear, rate=np.log(145.0 / 125.0) / 6.0)
+
+    exact = 1e-3 * 20.0**2 / 2.0 * 6.0 / np.log(145.0 / 125.0)
+    assert energy == pytest.approx(exact, rel=1e-12)
+
+
+def test_energy_of_a_slow_sweep_is_what_its_periods_dissipate(
+    small_curve: ResponseCurve,
+) -> None:
+    start, end, duration, joule = 125.0, 145.0, 60.0, 1e-4
+    hertz = np.linspace(start, end, 50)
+    constant = curve_with(small_curve, hertz, np.full(50, joule))
+    rate = np.log(end / start) / duration
+
+    energy = quasi_static_energy(constant, rate)
+
+    # an exponential sweep passes (end − start) / rate periods
+    time = np.linspace(0.0, duration, 100_001)
+    periods = np.trapezoid(start * np.exp(rate * time), time)
+    assert energy == pytest.approx(joule * periods, rel=1e-6)
+
+
+def test_shown_points_hold_both_ends_and_the_largest(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz = np.linspace(125.0, 145.0, 500)
+    curve = curve_with(small_curve, hertz, np.zeros(500))
+
+    places = shown_points(curve, largest=123)
+
+    assert {0, 123, 499} <= set(places)
+    assert places == sorted(places)
+    assert len(places) == 12
+
+
+def test_curve_of_few_points_is_shown_whole(small_curve: ResponseCurve) -> None:
+    assert shown_points(small_curve, largest=2) == [0, 1, 2, 3]
+
+
+def test_traced_curve_runs_from_end_to_end_of_the_scene(scene: Scene) -> None:
+    problem = problem_of(scene)
+
+    traced = trace_curve(problem, scene.curve)
+
+    hertz = traced.curve.frequency / (2.0 * np.pi)
+    assert hertz[[0, -1]] == pytest.approx([130.0, 130.2], rel=1e-12)
+    assert traced.curve.ending == "complete"
+    assert len(traced.responses) == len(hertz)
+    assert traced.curve.probes == problem.probes.names
+    np.testing.assert_allclose(traced.rest.normal_force, [2.924, 2.747], rtol=2e-4)
+
+
+def test_watch_sees_every_point_of_a_curve(scene: Scene) -> None:
+    seen: list[float] = []
+
+    def watch(responses):  # type: ignore[no-untyped-def]
+        for response in responses:
+            seen.append(response.frequency)
+            yield response
+
+    traced = trace_curve(problem_of(scene), scene.curve, watch)
+
+    assert seen == traced.curve.frequency.tolist()
+
+
+@pytest.mark.parametrize("model", ["A", "B"])
+def test_truncation_error_falls_as_harmonics_are_added(
+    model: str, quick_scene: Path
+) -> None:
+    sliding = [f"model={model}", "curve.lowest=134.6", "curve.highest=134.7"]
+
+    errors = []
+    for harmonics in (1, 5, 15):
+        counts = [f"curve.harmonics={harmonics}", "curve.samples=1024"]
+        scene = load_scene(str(quick_scene), [*sliding, *counts])
+        problem = problem_of(scene)
+        traced = trace_curve(problem, scene.curve)
+        errors.append(truncation_error(problem, traced, scene.curve))
+
+    assert errors[0] > errors[1] > errors[2]
+    assert errors[2] < 0.01
+
+
+def test_truncation_error_of_a_sticking_rig_is_nothing(scene: Scene) -> None:
+    problem = problem_of(scene)
+    traced = trace_curve(problem, scene.curve)
+
+    error = truncation_error(problem, traced, scene.curve)
+
+    assert error < 1e-6
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 12])
+def test_spread_holds_both_ends_and_the_peak(count: int, scene: Scene) -> None:
+    traced = trace_curve(problem_of(scene), scene.curve)
+    amplitude = np.concatenate([np.linspace(1, 9, 20), np.linspace(8, 2, 100)])[
+        : len(traced.responses)
+    ]
+    peaked = dataclasses.replace(
+        traced.curve, amplitude=np.outer(amplitude, np.ones(len(traced.curve.probes)))
+    )
+
+    chosen = spread(dataclasses.replace(traced, curve=peaked), count)
+
+    frequencies = [response.frequency for response in chosen]
+    assert frequencies == sorted(frequencies)
+    assert chosen[0] is traced.responses[0]
+    assert traced.responses[int(amplitude.argmax())] in chosen
+    assert chosen[-1] is traced.responses[-1]
+    assert count <= len(chosen) <= count + 2
+
+
+def test_spread_leaves_out_what_an_upward_sweep_jumps_over(scene: Scene) -> None:
+    traced = trace_curve(problem_of(scene), scene.curve)
+    points = len(traced.responses)
+    frequency = traced.curve.frequency.copy()
+    frequency[points // 2 :] -= frequency[points // 2] - frequency[points // 4]
+    frequency[-1] = traced.curve.frequency[-1]
+    folded = dataclasses.replace(traced.curve, frequency=frequency)
+
+    chosen = spread(dataclasses.replace(traced, curve=folded), points)
+
+    places = [traced.responses.index(response) for response in chosen]
+    assert set(places) <= set(followed_upwards(folded).tolist())
+    assert points // 2 not in places

@@ -1,0 +1,262 @@
+"""Figures: the data that they show, labels with units, no screen."""
+
+import re
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike
+
+from microslip.figures import curve as curves
+from microslip.figures import sweep as sweeps
+from microslip.figures.agreement import agreement_figure
+from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.time_history import TimeHistory
+
+UNIT = re.compile(r" \[.+\]$")
+
+
+@pytest.fixture
+def axes() -> Axes:
+    """Return axes without a screen."""
+    return Figure().subplots()
+
+
+def check_lines(lines: list[Line2D], x: ArrayLike, ys: list[ArrayLike]) -> None:
+    """Check that each line shows ``x`` and its own ``y``, in order."""
+    assert len(lines) == len(ys)
+    for line, y in zip(lines, ys, strict=True):
+        np.testing.assert_allclose(np.asarray(line.get_xdata()), x, rtol=1e-12)
+        np.testing.assert_allclose(np.asarray(line.get_ydata()), y, rtol=1e-12)
+
+
+def legend(axes: Axes) -> list[str]:
+    """Return the texts of the legend."""
+    drawn = axes.get_legend()
+    assert drawn is not None
+    return [text.get_text() for text in drawn.get_texts()]
+
+
+def check_labels(figure: Figure) -> None:
+    """Check that every panel says what it shows, and in which unit."""
+    FigureCanvasAgg(figure).draw()
+    bottom: dict[int, Axes] = {}
+    for axes in figure.axes:
+        title = axes.get_title(loc="left")
+        assert title
+        assert UNIT.search(axes.get_ylabel()), title
+        assert axes.yaxis.get_tick_params()["labelleft"], title
+        place = axes.get_subplotspec()
+        assert place is not None
+        bottom[place.colspan.start] = axes
+    for axes in bottom.values():
+        title = axes.get_title(loc="left")
+        assert UNIT.search(axes.get_xlabel()), title
+        assert axes.xaxis.get_tick_params()["labelbottom"], title
+
+
+def test_frequency_response_shows_absolute_motions_in_millimetres(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.frequency_response(axes, small_curve)
+
+    hertz = [130.0, 131.0, 133.0, 134.0]
+    check_lines(list(axes.lines), hertz, [*1e3 * small_curve.amplitude.T[:3]])
+    assert legend(axes) == ["excited blade", "follower blade", "element"]
+    assert axes.get_xlabel() == "excitation frequency [Hz]"
+    assert axes.get_ylabel() == "amplitude [mm]"
+    assert axes.get_ylim()[0] == 0.0
+
+
+def test_sliding_velocity_shows_relative_motions(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.sliding_velocity(axes, small_curve)
+
+    hertz = curves.hertz(small_curve)
+    check_lines(list(axes.lines), hertz, [small_curve.velocity_peak[:, 3]])
+    assert legend(axes) == ["element to excited"]
+    assert axes.get_ylabel() == "velocity [m/s]"
+    assert axes.get_yscale() == "log"
+
+
+def test_dissipated_energy_shows_friction_and_contact_damping_in_millijoules(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.dissipated_energy(axes, small_curve)
+
+    energies = [1e3 * small_curve.friction_energy, 1e3 * small_curve.damping_energy]
+    check_lines(list(axes.lines), curves.hertz(small_curve), energies)
+    assert legend(axes) == ["friction", "normal contact damping"]
+    assert axes.get_ylabel() == "energy [mJ]"
+
+
+def test_normal_forces_show_the_range_of_every_point(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.normal_forces(axes, small_curve)
+
+    hertz = curves.hertz(small_curve)
+    check_lines(list(axes.lines), hertz, [*small_curve.normal_largest.T])
+    assert legend(axes) == ["B1", "B2", "A1"]
+    assert axes.get_ylabel() == "force [N]"
+    low = small_curve.normal_smallest
+    for place, band in enumerate(axes.collections):
+        (path,) = band.get_paths()
+        shown = np.asarray(path.vertices)
+        assert shown[:, 1].min() == pytest.approx(low[:, place].min())
+        assert shown[:, 1].max() == pytest.approx(
+            small_curve.normal_largest[:, place].max()
+        )
+
+
+def test_curve_figure_has_four_labelled_panels(small_curve: ResponseCurve) -> None:
+    figure = curves.curve_figure(small_curve, "two-blades, model=A")
+
+    check_labels(figure)
+    assert len(figure.axes) == 4
+    assert figure.get_suptitle() == "two-blades, model=A"
+
+
+def test_curve_that_folds_back_is_drawn_as_it_was_traced(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    small_curve.frequency[:] = 2.0 * np.pi * np.array([130.0, 132.0, 131.0, 133.0])
+
+    curves.frequency_response(axes, small_curve)
+
+    shown = np.asarray(axes.lines[0].get_xdata())
+    np.testing.assert_allclose(shown, [130.0, 132.0, 131.0, 133.0])
+
+
+def test_displacement_shows_one_probe_in_millimetres(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.displacement(axes, small_history, 1, "C0")
+
+    moved = 1e3 * small_history.displacement[:, 1]
+    check_lines(list(axes.lines), small_history.time, [moved])
+    assert "follower blade" in axes.get_title(loc="left")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time [s]", "displacement [mm]")
+
+
+def test_relative_velocity_shows_one_probe(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.relative_velocity(axes, small_history, 3)
+
+    check_lines(list(axes.lines), small_history.time, [small_history.velocity[:, 3]])
+    assert "element to excited" in axes.get_title(loc="left")
+    assert axes.get_ylabel() == "velocity [m/s]"
+
+
+def test_normal_force_shows_the_points_of_one_face(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.normal_force(axes, small_history, "B", [0, 1])
+
+    check_lines(
+        list(axes.lines), small_history.time, [*small_history.normal_force.T[:2]]
+    )
+    assert legend(axes) == ["B1", "B2"]
+    assert axes.get_ylabel() == "force [N]"
+
+
+def test_friction_power_is_shown_negative_as_in_the_paper(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.friction_power(axes, small_history)
+
+    power = -small_history.friction_power
+    check_lines(list(axes.lines), small_history.time, [power])
+    assert axes.get_ylabel() == "power [W]"
+
+
+def test_energies_show_all_flows_with_their_totals(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.energies(axes, small_history)
+
+    check_lines(list(axes.lines), small_history.time, [*small_history.energy.T[:4]])
+    names = ("input", "friction", "normal damping", "structural damping")
+    totals = small_history.energy[-1, :4]
+    assert legend(axes) == [
+        f"{name}: {total:.4g} J" for name, total in zip(names, totals, strict=True)
+    ]
+    assert axes.get_ylabel() == "energy [J]"
+    closing = np.abs(small_history.closing_error).max()
+    assert f"{closing:.1e} J" in axes.get_title(loc="left")
+
+
+def test_sweep_figure_has_a_labelled_panel_for_each_thing_to_see(
+    small_history: TimeHistory,
+) -> None:
+    figure = sweeps.sweep_figure(small_history, "two-blades")
+
+    check_labels(figure)
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    # two blades, one slip, two faces, power, energies
+    assert len(titles) == len(set(titles)) == 7
+    assert figure.get_suptitle() == "two-blades"
+
+
+def test_sweep_figure_shows_both_blades_on_one_scale(
+    small_history: TimeHistory,
+) -> None:
+    figure = sweeps.sweep_figure(small_history, "two-blades")
+
+    limits = [axes.get_ylim() for axes in figure.axes[:2]]
+    largest = 1e3 * np.abs(small_history.displacement[:, :2]).max()
+    assert limits[0] == limits[1]
+    assert limits[0] == pytest.approx((-1.05 * largest, 1.05 * largest))
+
+
+def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
+    small_curve: ResponseCurve,
+) -> None:
+    frequency, deviation = np.array([130.0, 133.0]), np.array([1e-4, 2e-3])
+    marched = np.arange(8.0).reshape(2, 4) * 1e-4
+    swept = np.linspace(130.0, 134.0, 9)
+    slower, error = np.array([1.0, 4.0, 10.0]), np.array([0.4, -0.1, 0.05])
+
+    figure = agreement_figure(
+        small_curve,
+        (frequency, marched, deviation),
+        [("1 x as long", swept, 1e-4 * swept), ("4 x as long", swept, 2e-4 * swept)],
+        (slower, error),
+        "two-blades",
+    )
+
+    check_labels_of_agreement(figure)
+    response, deviations, envelopes, energies = figure.axes
+    check_lines(list(response.lines)[3:], frequency, [*1e3 * marched.T[:3]])
+    check_lines(list(deviations.lines), frequency, [100.0 * deviation])
+    check_lines(list(envelopes.lines)[:2], swept, [0.1 * swept, 0.2 * swept])
+    hertz = curves.hertz(small_curve)
+    check_lines(list(envelopes.lines)[2:], hertz, [1e3 * small_curve.peak[:, 0]])
+    assert legend(envelopes) == ["1 x as long", "4 x as long", "curve"]
+    check_lines(list(energies.lines), slower, [[40.0, 10.0, 5.0]])
+
+
+def check_labels_of_agreement(figure: Figure) -> None:
+    """Check the labels where each panel has a frequency or a factor of its own."""
+    FigureCanvasAgg(figure).draw()
+    *others, energies = figure.axes
+    for axes in others:
+        assert UNIT.search(axes.get_xlabel())
+    for axes in figure.axes:
+        assert UNIT.search(axes.get_ylabel())
+    assert energies.get_xlabel() == "sweep slower by"
+
+
+def test_agreement_without_sweeps_is_drawn_too(small_curve: ResponseCurve) -> None:
+    nothing = np.zeros(0)
+    marched = (np.array([130.0]), np.full((1, 4), 1e-4), np.array([1e-3]))
+
+    figure = agreement_figure(small_curve, marched, [], (nothing, nothing), "title")
+
+    check_labels_of_agreement(figure)
+    assert legend(figure.axes[2]) == ["curve"]

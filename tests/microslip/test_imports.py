@@ -1,0 +1,104 @@
+"""What a command does not need is never loaded: checked in new processes."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from microslip.store import Stored, save
+from microslip_mechanics.response import ResponseCurve
+
+SCREEN = {"matplotlib.pyplot", "tkinter"}
+"""needs a display, or looks for one"""
+PROBE = """
+import json, sys
+from microslip.cli import main
+try:
+    status = main(sys.argv[1:])
+except SystemExit as left:
+    status = left.code
+print()
+print(json.dumps([status, sorted(sys.modules)]))
+"""
+
+
+def loaded_by(*arguments: str, folder: Path) -> set[str]:
+    """Return the modules that a command loads."""
+    ended = subprocess.run(
+        [sys.executable, "-c", PROBE, *arguments],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    status, modules = json.loads(ended.stdout.splitlines()[-1])
+    assert status == 0, ended.stderr
+    return set(modules)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--help",),
+        ("--version",),
+        *[(command, "--help") for command in ("frc", "sweep", "verify", "tables")],
+        ("scenes",),
+        ("scenes", "two-blades"),
+    ],
+    ids=" ".join,
+)
+def test_help_and_scenes_load_no_numbers(
+    arguments: tuple[str, ...], tmp_path: Path
+) -> None:
+    modules = loaded_by(*arguments, folder=tmp_path)
+
+    heavy = {"numpy", "scipy", "numba", "matplotlib", "pyfftw", "tqdm"}
+    assert not heavy & modules
+    assert not {"hbm", "timedomain"} & modules
+
+
+def test_frc_does_not_load_the_time_domain(quick_scene: Path, tmp_path: Path) -> None:
+    modules = loaded_by("frc", str(quick_scene), folder=tmp_path)
+
+    assert {"hbm", "pyfftw"} <= modules
+    assert not {"timedomain", *SCREEN} & modules
+    assert (tmp_path / "quick-frc.nc").is_file()
+
+
+def test_sweep_does_not_load_harmonic_balance(
+    quick_scene: Path, tmp_path: Path
+) -> None:
+    modules = loaded_by("sweep", str(quick_scene), folder=tmp_path)
+
+    assert "timedomain" in modules
+    assert not {"hbm", "pyfftw", *SCREEN} & modules
+    assert (tmp_path / "quick-sweep.nc").is_file()
+
+
+def test_plot_loads_no_solver(small_curve: ResponseCurve, tmp_path: Path) -> None:
+    save(tmp_path / "result.nc", Stored(small_curve, "", ""))
+
+    modules = loaded_by("plot", "result.nc", folder=tmp_path)
+
+    assert "matplotlib" in modules
+    assert not {"hbm", "timedomain", "pyfftw"} & modules
+
+
+def test_tables_load_no_harmonic_balance(tmp_path: Path) -> None:
+    probe = (
+        "import microslip.studies.tables, json, sys; print(json.dumps([*sys.modules]))"
+    )
+
+    ended = subprocess.run(
+        [sys.executable, "-c", probe],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+
+    modules = set(json.loads(ended.stdout))
+    assert "timedomain" in modules
+    assert not {"hbm", "pyfftw"} & modules

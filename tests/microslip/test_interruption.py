@@ -1,0 +1,212 @@
+"""What was computed is kept: interrupted, stuck, and stopped before the first point."""
+
+import itertools
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from hbm.continuation import ContinuationError
+from hbm.solve import frequency_response
+from microslip.store import load
+from microslip_mechanics.response import PeriodicResponse, ResponseCurve
+from microslip_mechanics.time_history import TimeHistory
+from timedomain.integrate import IntegrationError, integrate
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+CURVE = "microslip.studies.curve.frequency_response"
+MARCH = "microslip.studies.sweep.integrate"
+
+
+def curve_until(points: int, end: BaseException) -> Callable[..., object]:
+    """Return a solver whose curve ends after some points."""
+
+    def solved(*arguments: object) -> Iterator[PeriodicResponse]:
+        yield from itertools.islice(frequency_response(*arguments), points)  # type: ignore[arg-type]
+        raise end
+
+    return solved
+
+
+def march_until(blocks: int, end: BaseException) -> Callable[..., object]:
+    """Return an integrator whose march ends after some blocks of a millisecond."""
+
+    def solved(*arguments: object) -> Iterator[TimeHistory]:
+        yield from itertools.islice(integrate(*arguments, block=1e-3), blocks)  # type: ignore[arg-type]
+        raise end
+
+    return solved
+
+
+@pytest.mark.parametrize("points", [1, 3])
+@pytest.mark.parametrize(
+    ("end", "ending", "status"),
+    [
+        (KeyboardInterrupt(), "interrupted", 130),
+        (
+            ContinuationError("stuck at a fold: try less"),
+            "stuck at a fold: try less",
+            1,
+        ),
+    ],
+    ids=["interrupted", "stuck"],
+)
+def test_points_before_the_end_of_a_curve_are_kept(
+    points: int,
+    end: BaseException,
+    ending: str,
+    status: int,
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(CURVE, curve_until(points, end))
+
+    ended, output, error = run("frc", str(quick_scene))
+
+    assert ended == status
+    assert error == f"microslip: {ending}; what was computed is kept\n"
+    assert f"{points} points in quick-frc.nc" in output
+    assert "truncation error" not in output
+    curve = load(tmp_path / "quick-frc.nc").result
+    assert isinstance(curve, ResponseCurve)
+    assert curve.ending == ending
+    assert len(curve.frequency) == points
+    assert curve.frequency[0] / (2.0 * np.pi) == pytest.approx(130.0)
+    assert (tmp_path / "quick-frc.png").is_file()
+
+
+@pytest.mark.parametrize("blocks", [1, 3])
+@pytest.mark.parametrize(
+    ("end", "ending", "status"),
+    [
+        (KeyboardInterrupt(), "interrupted", 130),
+        (IntegrationError("stuck at 3 ms: try less"), "stuck at 3 ms: try less", 1),
+    ],
+    ids=["interrupted", "stuck"],
+)
+def test_times_before_the_end_of_a_march_are_kept(
+    blocks: int,
+    end: BaseException,
+    ending: str,
+    status: int,
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(MARCH, march_until(blocks, end))
+
+    ended, output, error = run("sweep", str(quick_scene))
+
+    assert ended == status
+    assert error == f"microslip: {ending}; what was computed is kept\n"
+    history = load(tmp_path / "quick-sweep.nc").result
+    assert isinstance(history, TimeHistory)
+    assert history.ending == ending
+    assert history.time[-1] == pytest.approx(1e-3 * blocks)
+    assert f"{len(history.time)} times in quick-sweep.nc" in output
+    assert (tmp_path / "quick-sweep.png").is_file()
+
+
+@pytest.mark.parametrize(
+    ("command", "name", "solver"),
+    [("frc", CURVE, curve_until), ("sweep", MARCH, march_until)],
+)
+def test_interruption_before_the_first_result_leaves_no_file(
+    command: str,
+    name: str,
+    solver: Callable[..., Callable[..., object]],
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(name, solver(0, KeyboardInterrupt()))
+
+    status, output, error = run(command, str(quick_scene))
+
+    assert (status, output) == (130, "")
+    assert error == "microslip: interrupted before there was a result\n"
+    assert list(tmp_path.iterdir()) == [quick_scene]
+
+
+@pytest.mark.parametrize(
+    "end", [KeyboardInterrupt(), ContinuationError("stuck: try more harmonics")]
+)
+def test_curve_is_kept_when_its_error_is_not_found(
+    end: BaseException,
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def ends(*_: object) -> float:
+        raise end
+
+    monkeypatch.setattr("microslip.studies.curve.truncation_error", ends)
+
+    _, output, error = run("frc", str(quick_scene))
+
+    assert "points in quick-frc.nc" in output
+    assert "before there was a result" not in error
+    assert len(error.splitlines()) == 1
+    assert load(tmp_path / "quick-frc.nc").result.ending == "complete"
+
+
+@pytest.mark.parametrize(
+    ("name", "solver"), [(CURVE, curve_until), (MARCH, march_until)]
+)
+def test_interrupted_verification_has_status_130_and_no_verdict(
+    name: str,
+    solver: Callable[..., Callable[..., object]],
+    run: Run,
+    quick_scene: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(name, solver(2, KeyboardInterrupt()))
+    few = ("--frequencies", "1", "--periods", "2", "--slower", "1")
+
+    status, output, error = run("verify", str(quick_scene), *few)
+
+    assert status == 130
+    assert "agree" not in output.lower()
+    assert "microslip: interrupted" in error
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", ["frc", "sweep"])
+def test_interrupt_from_the_keyboard_keeps_what_was_computed(
+    command: str, tmp_path: Path
+) -> None:
+    long = ("--set=curve.lowest=1", "--set=curve.highest=1000", "--set=model=A")
+    screen, terminal = pty.openpty()
+    shown = b""
+
+    with subprocess.Popen(
+        [sys.executable, "-m", "microslip", command, "two-blades", *long],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=terminal,
+    ) as process:
+        os.close(terminal)
+        # the bar counts up: at work
+        while not re.search(rb" [1-9]\d*%\|", shown):
+            shown += os.read(screen, 1000)
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=60)
+
+    assert process.returncode == 130
+    assert f"two-blades-{command}.nc" in output.decode()
+    assert load(tmp_path / f"two-blades-{command}.nc").result.ending == "interrupted"
+    assert (tmp_path / f"two-blades-{command}.png").is_file()
+    os.close(screen)

@@ -73,6 +73,18 @@ def no_hang() -> Iterator[None]:
 
 
 @pytest.fixture
+def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out the pictures, which take longest."""
+
+    def undrawn(*_: object) -> None:
+        return
+
+    for name in ("figures.curve.curve_figure", "figures.sweep.sweep_figure"):
+        monkeypatch.setattr(f"microslip.{name}", undrawn)
+    monkeypatch.setattr("microslip.store.save_figure", undrawn)
+
+
+@pytest.fixture
 def small_curve() -> ResponseCurve:
     """Return a curve of four points whose numbers are all different."""
     draw, points = np.random.default_rng(1), 4

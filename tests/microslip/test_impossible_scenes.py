@@ -57,18 +57,6 @@ IMPOSSIBLE = [
 """overrides"""
 
 
-@pytest.fixture
-def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave out what takes longest and does not depend on the physics."""
-
-    def undrawn(*_: object) -> None:
-        return
-
-    for name in ("figures.curve.curve_figure", "figures.sweep.sweep_figure"):
-        monkeypatch.setattr(f"microslip.{name}", undrawn)
-    monkeypatch.setattr("microslip.store.save_figure", undrawn)
-
-
 def sets(*overrides: str) -> list[str]:
     """Return the arguments that override values of a scene."""
     return [f"--set={each}" for each in overrides]
@@ -170,15 +158,5 @@ def test_curve_of_as_many_harmonics_as_a_scene_may_have_ends(
     arguments = sets("curve.harmonics=512", "curve.samples=4096")
 
     ended = run("frc", str(quick_scene), *arguments)
-
-    check_result_or_one_line(ended)
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("no_picture")
-def test_curve_of_as_many_elements_as_a_scene_may_have_ends(
-    run: Run, quick_scene: Path
-) -> None:
-    ended = run("frc", str(quick_scene), *sets("blade.elements=200"))
 
     check_result_or_one_line(ended)

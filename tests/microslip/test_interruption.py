@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+import termios
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TypeAlias
@@ -183,30 +184,42 @@ def test_interrupted_verification_has_status_130_and_no_verdict(
     assert "microslip: interrupted" in error
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("command", ["frc", "sweep"])
-def test_interrupt_from_the_keyboard_keeps_what_was_computed(
-    command: str, tmp_path: Path
-) -> None:
-    long = ("--set=curve.lowest=1", "--set=curve.highest=1000", "--set=model=A")
-    screen, terminal = pty.openpty()
+def wait_for_progress(screen: int) -> None:
+    """Wait until the bar on a terminal has begun to move."""
     shown = b""
+    while not re.search(rb" [1-9]\d*%\|", shown):
+        shown += os.read(screen, 1000)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("command", "long"),
+    [
+        ("frc", ("curve.harmonics=150", "friction.law=gkf")),
+        ("sweep", ("sweep.duration=1000", "model=A")),
+    ],
+)
+def test_interrupt_from_the_keyboard_keeps_what_was_computed(
+    command: str, long: tuple[str, ...], tmp_path: Path
+) -> None:
+    screen, terminal = pty.openpty()
+    termios.tcsetwinsize(terminal, (24, 80))
+    result = tmp_path / f"two-blades-{command}.nc"
 
     with subprocess.Popen(
-        [sys.executable, "-m", "microslip", command, "two-blades", *long],
+        [sys.executable, "-m", "microslip", command, "two-blades"]
+        + [f"--set={each}" for each in long],
         cwd=tmp_path,
         stdout=subprocess.PIPE,
         stderr=terminal,
     ) as process:
         os.close(terminal)
-        # the bar counts up: at work
-        while not re.search(rb" [1-9]\d*%\|", shown):
-            shown += os.read(screen, 1000)
+        wait_for_progress(screen)
         process.send_signal(signal.SIGINT)
         output, _ = process.communicate(timeout=60)
+    os.close(screen)
 
     assert process.returncode == 130
-    assert f"two-blades-{command}.nc" in output.decode()
-    assert load(tmp_path / f"two-blades-{command}.nc").result.ending == "interrupted"
-    assert (tmp_path / f"two-blades-{command}.png").is_file()
-    os.close(screen)
+    assert result.name in output.decode()
+    assert load(result).result.ending == "interrupted"
+    assert result.with_suffix(".png").is_file()

@@ -1,0 +1,140 @@
+"""What a scene keeps and leaves out, counted."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import pytest
+
+from microslip.scene_file import built_in_text, load_scene
+from microslip.studies.explain import Pruned, pruned
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+COARSE = ("curve.harmonics=3", "curve.samples=64")
+
+
+def counted(*overrides: str, source: str = "two-blades") -> dict[str, Pruned]:
+    """Return what a scene keeps, by name."""
+    found = pruned(load_scene(source, [*COARSE, *overrides]))
+    return {each.what: each for each in found}
+
+
+@pytest.mark.parametrize(
+    ("model", "dofs", "points"), [("full", 54, 8), ("B", 51, 2), ("A", 51, 2)]
+)
+def test_models_keep_what_their_rotations_and_faces_need(
+    model: str, dofs: int, points: int
+) -> None:
+    found = counted(f"model={model}")
+
+    freedoms, contacts = found["degrees of freedom"], found["contact points"]
+    assert (freedoms.kept, freedoms.whole) == (dofs, 54)
+    assert model in freedoms.reason
+    assert (contacts.kept, contacts.whole) == (points, 8)
+
+
+@pytest.mark.parametrize(
+    ("model", "law", "kept"),
+    [
+        ("full", "coulomb", 8),
+        ("full", "none", 0),
+        ("B", "gkf", 2),
+        ("A", "coulomb", 0),
+        ("A", "none", 0),
+    ],
+)
+def test_normal_loads_vary_only_where_friction_sees_them(
+    model: str, law: str, kept: int
+) -> None:
+    loads = counted(f"model={model}", f"friction.law={law}")[
+        "variable normal loads of friction"
+    ]
+
+    assert loads.kept == kept
+    assert loads.whole == (8 if model == "full" else 2)
+
+
+@pytest.mark.parametrize(("law", "kept"), [("coulomb", 1), ("gkf", 1), ("none", 0)])
+def test_only_the_law_of_the_scene_is_called(law: str, kept: int) -> None:
+    laws = counted(f"friction.law={law}")["friction laws called"]
+
+    assert (laws.kept, laws.whole) == (kept, 2)
+
+
+@pytest.mark.parametrize(
+    ("model", "law", "kept"),
+    [
+        # per point: 2 normal, 4 of friction by velocity, 4 by the normal motion
+        ("full", "coulomb", 8 * 10),
+        ("full", "none", 8 * 2),
+        ("B", "gkf", 2 * 10),
+        ("A", "gkf", 2 * 6),
+    ],
+)
+def test_tangents_are_those_that_the_laws_can_have(
+    model: str, law: str, kept: int
+) -> None:
+    tangents = counted(f"model={model}", f"friction.law={law}")["tangents per sample"]
+
+    assert tangents.kept == kept
+    assert tangents.whole == 18 * (8 if model == "full" else 2)
+
+
+@pytest.mark.parametrize("stiffness", [0, 10])
+def test_rope_without_stiffness_is_no_spring(stiffness: int) -> None:
+    spring = counted(f"rope.stiffness={stiffness}")["springs to ground"]
+
+    assert (spring.kept, spring.whole) == (int(stiffness > 0), 1)
+    assert ("no rope" in spring.reason) == (stiffness == 0)
+
+
+def test_scene_without_a_rope_has_no_spring(tmp_path: Path) -> None:
+    text = built_in_text("two-blades")
+    start, end = text.index("[rope]"), text.index("[contact]")
+    path = tmp_path / "free.toml"
+    path.write_text(text[:start] + text[end:], encoding="utf-8")
+
+    spring = counted(source=str(path))["springs to ground"]
+
+    assert (spring.kept, spring.whole) == (0, 1)
+
+
+@pytest.mark.parametrize("model", ["full", "B", "A"])
+def test_solvers_carry_the_six_relative_motions_at_the_most(model: str) -> None:
+    found = counted(f"model={model}")
+
+    step, balance = (
+        found["unknowns of a time step"],
+        found["coordinates of harmonic balance"],
+    )
+    assert step.kept == balance.kept
+    assert step.kept <= 12
+    assert step.whole == balance.whole == found["degrees of freedom"].kept
+
+
+def test_symmetry_leaves_out_about_half_of_the_unknowns() -> None:
+    unknowns = counted("model=full")["unknowns of harmonic balance"]
+
+    coordinates = counted("model=full")["coordinates of harmonic balance"].kept
+    assert unknowns.whole == 7 * coordinates
+    assert 0.4 < unknowns.kept / unknowns.whole < 0.7
+
+
+def test_nothing_keeps_more_than_there_is() -> None:
+    for model in ("full", "B", "A"):
+        for each in counted(f"model={model}").values():
+            assert 0 <= each.kept <= each.whole, each
+            assert each.reason
+
+
+def test_command_prints_a_line_for_each_with_its_reason(run: Run) -> None:
+    sets = [f"--set={each}" for each in (*COARSE, "model=A")]
+
+    status, output, error = run("explain", "two-blades", *sets)
+
+    assert (status, error) == (0, "")
+    for each in counted("model=A").values():
+        (line,) = (line for line in output.splitlines() if line.startswith(each.what))
+        numbers = line.removeprefix(each.what).split(maxsplit=2)
+        assert numbers == [str(each.kept), str(each.whole - each.kept), each.reason]
+    assert "imports, by command" in output

@@ -1,0 +1,105 @@
+"""The study of a sweep: the scene's load history, slower ones, parts and wholes."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from microslip.rigs import problem_of
+from microslip.scene_file import Scene, load_scene
+from microslip.studies.sweep import march_sweep, march_whole, swept_sine
+from microslip_mechanics.time_history import TimeHistory
+from timedomain.integrate import IntegrationError, integrate
+
+MARCH = "microslip.studies.sweep.integrate"
+
+
+@pytest.fixture
+def scene(quick_scene: Path) -> Scene:
+    """Return a sweep of ten milliseconds."""
+    return load_scene(str(quick_scene))
+
+
+def test_load_history_is_that_of_the_scene() -> None:
+    sweep = swept_sine(load_scene("two-blades").sweep)
+
+    assert (sweep.ramp, sweep.start, sweep.end, sweep.duration) == (1.0, 2.0, 8.0, 10.0)
+    assert (sweep.lowest, sweep.highest) == (125.0, 145.0)
+
+
+@pytest.mark.parametrize("slower", [0.5, 1.0, 4.0, 10.0])
+def test_slower_sweep_is_longer_between_its_ends_only(slower: float) -> None:
+    table = load_scene("two-blades").sweep
+
+    sweep, own = swept_sine(table, slower=slower), swept_sine(table)
+
+    assert (sweep.ramp, sweep.start) == (own.ramp, own.start)
+    assert sweep.end - sweep.start == pytest.approx(6.0 * slower)
+    assert sweep.duration - sweep.end == pytest.approx(2.0)
+    assert sweep.rate == pytest.approx(own.rate / slower)
+
+
+def test_march_stores_what_the_scene_asks_for(scene: Scene) -> None:
+    problem = problem_of(scene)
+
+    history = march_sweep(problem, swept_sine(scene.sweep), scene.march)
+
+    assert history.ending == "complete"
+    assert history.time_step == pytest.approx(25e-6)
+    np.testing.assert_allclose(np.diff(history.time), 250e-6)
+    assert history.time[-1] == pytest.approx(0.01)
+    assert history.probes == problem.probes.names
+    assert history.contacts == ("B1", "A1")
+
+
+def test_watch_sees_every_block_of_a_march(scene: Scene) -> None:
+    seen: list[float] = []
+
+    def watch(blocks):  # type: ignore[no-untyped-def]
+        for block in blocks:
+            seen.append(block.time[-1])
+            yield block
+
+    history = march_sweep(
+        problem_of(scene), swept_sine(scene.sweep), scene.march, watch
+    )
+
+    assert seen[-1] == history.time[-1]
+
+
+@pytest.mark.parametrize(
+    ("end", "ending"),
+    [
+        (KeyboardInterrupt(), "interrupted"),
+        (IntegrationError("stuck at 3 ms"), "stuck at 3 ms"),
+    ],
+)
+def test_part_of_a_march_is_no_whole(
+    end: BaseException,
+    ending: str,
+    scene: Scene,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def stops(*arguments: object) -> Iterator[TimeHistory]:
+        yield from integrate(*arguments)  # type: ignore[arg-type]
+        raise end
+
+    monkeypatch.setattr(MARCH, stops)
+    problem, sweep = problem_of(scene), swept_sine(scene.sweep)
+
+    part = march_sweep(problem, sweep, scene.march)
+
+    assert part.ending == ending
+    with pytest.raises(type(end)) as caught:
+        march_whole(problem, sweep, scene.march)
+    assert str(caught.value) == str(end)
+
+
+def test_whole_march_is_the_march(scene: Scene) -> None:
+    problem, sweep = problem_of(scene), swept_sine(scene.sweep)
+
+    whole = march_whole(problem, sweep, scene.march)
+
+    marched = march_sweep(problem, sweep, scene.march)
+    np.testing.assert_array_equal(whole.energy, marched.energy)

@@ -1,0 +1,267 @@
+"""The study of agreement: envelopes, energies, rates, and the command's verdict."""
+
+import dataclasses
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from microslip.rigs import problem_of
+from microslip.scene_file import Scene, load_scene
+from microslip.studies.curve import quasi_static_energy, trace_curve
+from microslip.studies.sweep import march_whole, swept_sine
+from microslip.studies.verify import (
+    SweepAgreement,
+    falls,
+    orbits,
+    rate_of,
+    spread,
+    sweep_agreement,
+)
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+
+ORBITS = ("--frequencies", "3", "--periods", "30", "--slower")
+BAND = ("curve.highest=131", "curve.harmonics=2", "curve.samples=32")
+SWEEP = (
+    "sweep.ramp=0.01",
+    "sweep.start=0.02",
+    "sweep.end=0.1",
+    "sweep.duration=0.1",
+    "sweep.lowest=130",
+    "sweep.highest=131",
+)
+
+
+def sets(*overrides: str) -> list[str]:
+    """Return the arguments that override values of a scene."""
+    return [f"--set={each}" for each in overrides]
+
+
+@pytest.fixture
+def scene(quick_scene: Path) -> Scene:
+    """Return model A where it sticks, with a sweep of ten cycles."""
+    return load_scene(str(quick_scene), [*BAND, *SWEEP])
+
+
+def agreed(slower: float, energy_error: float, envelope: float) -> SweepAgreement:
+    """Return an agreement with given errors."""
+    nothing = np.zeros(0)
+    return SweepAgreement(
+        slower=slower,
+        energy=2.0 * (1.0 + energy_error),
+        quasi_static=2.0,
+        envelope_error=envelope,
+        closing_error=0.0,
+        envelope_frequency=nothing,
+        envelope=nothing,
+    )
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 2.0])
+def test_rate_is_the_exponent_by_which_the_difference_falls(exponent: float) -> None:
+    found = [
+        agreed(slower, sign * 0.4 * slower**-exponent, 0.1)
+        for slower, sign in ((1.0, 1), (4.0, 1), (10.0, -1))
+    ]
+
+    assert rate_of(found) == pytest.approx(exponent, rel=1e-9)
+
+
+def test_energy_error_is_relative_to_the_slow_sweep() -> None:
+    assert agreed(1.0, 0.25, 0.1).energy_error == pytest.approx(0.25)
+    assert agreed(1.0, -0.25, 0.1).energy_error == pytest.approx(-0.25)
+
+
+@pytest.mark.parametrize(
+    ("errors", "envelopes", "approach"),
+    [
+        ((0.4, 0.2, 0.1), (0.3, 0.2, 0.1), True),
+        ((0.4, -0.2, 0.1), (0.3, 0.2, 0.1), True),
+        ((0.4, 0.2, 0.2), (0.3, 0.2, 0.1), False),
+        ((0.4, 0.1, 0.2), (0.3, 0.2, 0.1), False),
+        ((0.4, 0.2, 0.1), (0.3, 0.3, 0.1), False),
+        ((0.1, -0.2, 0.05), (0.3, 0.2, 0.1), False),
+        ((0.4,), (0.3,), True),
+        ((), (), True),
+    ],
+)
+def test_sweeps_agree_when_every_slower_one_is_closer(
+    errors: tuple[float, ...], envelopes: tuple[float, ...], approach: bool
+) -> None:
+    found = [
+        agreed(slower, error, envelope)
+        for slower, error, envelope in zip(
+            (1.0, 4.0, 10.0), errors, envelopes, strict=False
+        )
+    ]
+
+    assert falls(found) is approach
+
+
+def test_march_stays_on_the_orbits_it_began_on(scene: Scene) -> None:
+    problem = problem_of(scene)
+    traced = trace_curve(problem, scene.curve)
+    chosen = spread(traced, 3)
+
+    found = list(orbits(problem, chosen, periods=10, steps_per_period=600))
+
+    assert [each.frequency for each in found] == [each.frequency for each in chosen]
+    for each, response in zip(found, chosen, strict=True):
+        place = traced.responses.index(response)
+        amplitude = traced.curve.amplitude[place]
+        np.testing.assert_allclose(each.predicted, amplitude, rtol=1e-9)
+        assert each.deviation[:3].max() < 1e-3
+
+
+def test_sweep_is_compared_with_the_curve_at_its_own_rate(scene: Scene) -> None:
+    problem = problem_of(scene)
+    curve = trace_curve(problem, scene.curve).curve
+
+    found = sweep_agreement(scene, problem, curve, slower=2.0)
+
+    sweep = swept_sine(scene.sweep, slower=2.0)
+    history = march_whole(problem, sweep, scene.march)
+    driven = history.time >= sweep.start - 1e-12
+    friction = history.of("friction")
+    # per length of the scene's sweep
+    energy = (friction[-1] - np.interp(sweep.start, history.time, friction)) / 2.0
+    assert found.energy == pytest.approx(energy, rel=1e-9)
+    expected = quasi_static_energy(curve, swept_sine(scene.sweep).rate)
+    assert found.quasi_static == pytest.approx(expected, rel=1e-9)
+    largest = np.abs(history.displacement[driven]).max(axis=0)
+    assert (found.envelope.max(axis=0) <= largest * (1.0 + 1e-9)).all()
+    assert (found.envelope.max(axis=0) > 0.8 * largest).all()
+
+
+def test_envelope_has_a_point_for_each_cycle_of_the_drive(scene: Scene) -> None:
+    problem = problem_of(scene)
+    curve = trace_curve(problem, scene.curve).curve
+
+    found = sweep_agreement(scene, problem, curve, slower=1.0)
+
+    # 0.08 s at about 130.5 Hz are 10.4 cycles; the last one is cut off
+    assert found.envelope.shape == (10, len(curve.probes))
+    assert (np.diff(found.envelope_frequency) > 0.0).all()
+    assert 130.0 <= found.envelope_frequency[0] < 130.05
+    assert found.closing_error < 1e-3
+
+
+def test_verification_agrees_within_a_loose_tolerance(
+    run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    arguments = (str(quick_scene), *sets(*BAND), *ORBITS)
+
+    status, output, error = run("verify", *arguments)
+
+    assert (status, error) == (0, "")
+    assert "agree: largest deviation of an amplitude" in output
+    assert "tolerance 1 %" in output
+    assert (tmp_path / "quick-verify.png").is_file()
+    rows = [line.split() for line in output.splitlines() if line[:2] == " 1"]
+    assert len(rows) == 3
+    assert float(rows[0][0]) == pytest.approx(130.0)
+    assert float(rows[-1][0]) == pytest.approx(131.0)
+
+
+def test_verification_disagrees_within_an_absurd_tolerance(
+    run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    arguments = (str(quick_scene), *sets(*BAND), "--tolerance", "1e-12", *ORBITS)
+
+    status, output, _ = run("verify", *arguments)
+
+    assert status == 1
+    assert "DISAGREE: largest deviation of an amplitude" in output
+    assert (tmp_path / "quick-verify.png").is_file()
+
+
+@pytest.mark.parametrize(("approach", "status"), [(True, 0), (False, 1)])
+def test_verdict_of_the_sweeps_decides_the_status_too(
+    approach: bool,
+    status: int,
+    run: Run,
+    quick_scene: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def found(
+        scene: Scene, *arguments: object, slower: float, **others: object
+    ) -> SweepAgreement:
+        made = sweep_agreement(scene, *arguments, slower=slower, **others)  # type: ignore[arg-type]
+        error = 0.4 / slower if approach else 0.4 * slower
+        return dataclasses.replace(
+            made, energy=made.quasi_static * (1.0 + error), envelope_error=error
+        )
+
+    monkeypatch.setattr("microslip.studies.verify.sweep_agreement", found)
+    few = ("--frequencies", "1", "--periods", "2", "--slower", "2", "1")
+
+    ended, output, _ = run("verify", str(quick_scene), *sets(*BAND, *SWEEP), *few)
+
+    assert ended == status
+    word = "agree: energy and envelope" if approach else "DISAGREE: energy and envelope"
+    assert word in output
+    falling = 1.0 if approach else -1.0
+    assert f"the difference falls as duration^{-falling:.2f}" in output.replace(
+        "^--", "^"
+    )
+
+
+@pytest.mark.usefixtures("no_hang")
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--periods", "1", "--slower"),
+        ("--slower", "0"),
+        ("--slower", "-1"),
+        ("--slower", "nan"),
+        ("--slower", "inf"),
+        ("--slower", "1", "1"),
+        ("--tolerance", "nan", "--slower"),
+        ("--tolerance", "-1", "--slower"),
+        ("--slower", "1", "--set=friction.law=none"),
+        ("--slower", "1", "--set=friction.mu_dynamic=0"),
+        ("--slower", "1", "--set=march.store_every=1000"),
+        ("--slower", "--set=excitation.force=0"),
+    ],
+    ids=" ".join,
+)
+def test_verification_of_what_cannot_be_compared_ends_with_a_result_or_one_line(
+    arguments: tuple[str, ...], run: Run, quick_scene: Path
+) -> None:
+    few = ("--frequencies", "1", "--periods", "2")
+
+    status, output, error = run(
+        "verify", str(quick_scene), *sets(*BAND, *SWEEP), *few, *arguments
+    )
+
+    assert status in (0, 1, 2)
+    assert "nan" not in output
+    if status == 2:
+        assert "error: " in error or error.startswith("microslip: ")
+    elif error:
+        assert error.startswith("microslip: ")
+        assert len(error.splitlines()) == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", ["A", "B"])
+def test_sweeps_approach_the_curve_of_the_built_in_scene(model: str, run: Run) -> None:
+    few = ("--frequencies", "3", "--periods", "60", "--slower", "1", "4")
+
+    status, output, error = run("verify", "two-blades", f"--set=model={model}", *few)
+
+    assert (status, error) == (0, "")
+    assert "DISAGREE" not in output
+
+
+def test_quasi_static_energy_of_the_rate_does_not_depend_on_slowness() -> None:
+    table = load_scene("two-blades").sweep
+
+    rates = [swept_sine(table, slower=slower).rate * slower for slower in (1.0, 10.0)]
+
+    assert rates[0] == pytest.approx(rates[1])
+    assert rates[0] == pytest.approx(math.log(145.0 / 125.0) / 6.0)

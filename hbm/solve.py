@@ -92,7 +92,7 @@ def _restricted(
     Where an equation that is left out no longer holds, all unknowns take over.
     """
     active = ActiveUnknowns(balance, moving(balance, start))
-    metric = _metric(abs(options.end - options.start) / 10.0)
+    metric = _metric(balance.rank, abs(options.end - options.start) / 10.0)
     before, accepted = None, start
     for correction in trace(
         active, active.restricted(start), options.end, metric=metric, control=control
@@ -151,11 +151,16 @@ def _force_scale(problem: Problem) -> float:
     return float(min((size for size in sizes if size > 0.0), default=1.0))
 
 
-def _metric(frequency_scale: float) -> Metric:
-    """Measure arc by the change relative to the motion, and by frequency."""
+def _metric(means: int, frequency_scale: float) -> Metric:
+    """Measure arc by relative changes of mean motion and vibration, and by frequency.
+
+    The first ``means`` unknowns are mean values: a preload makes them large, and must
+    not hide the vibration.
+    """
 
     def metric(point: Array) -> Array:
-        scale = np.full(point.size, float(np.linalg.norm(point[:-1])) + 1e-12)
+        scale = np.full(point.size, float(np.linalg.norm(point[means:-1])) + 1e-15)
+        scale[:means] = float(np.linalg.norm(point[:means])) + 1e-15
         scale[-1] = frequency_scale
         return scale
 

@@ -1,10 +1,12 @@
-"""Tables of contact points for tests."""
+"""Tables of contact points for tests, and motions that reach each of their regions."""
 
 import itertools
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
     COULOMB,
     FRICTIONLESS,
@@ -17,6 +19,12 @@ FRICTION_LAWS = {
     "coulomb": COULOMB,
     "gkf": GENERAL_KINETIC,
 }
+Motion = tuple[Array, Array]
+"""relative displacement and velocity of each point, each (points, 3)"""
+
+Region = Callable[[ContactPoints, np.random.Generator], Motion]
+"""draws one motion for each point of a table"""
+
 TYPES = {"clamped": bool, "friction": np.int64, "constant_load": bool}
 
 
@@ -66,3 +74,77 @@ def every_combination(friction: int) -> ContactPoints:
         constant_load=constant_load,
         stribeck_exponent=np.resize((0.7, 1.0, 2.0), len(exponent)),
     )
+
+
+def sizes(points: ContactPoints, motion: Motion) -> tuple[Array, Array]:
+    """Return the spring's force and the damper's force per approach in contact."""
+    depth = np.maximum(motion[0][:, 0], 0.0)
+    return (
+        points.stiffness * depth**points.exponent,
+        points.damping * depth**points.damping_exponent,
+    )
+
+
+def moving(points: ContactPoints, random: np.random.Generator, speed: Array) -> Motion:
+    """Return random motions in contact with the given sliding speeds, (points,)."""
+    count = len(points.load)
+    displacement = random.normal(size=(count, 3))
+    displacement[:, 0] = 10.0 ** random.uniform(-6.0, 0.5, count)
+    angle = random.uniform(0.0, 2.0 * np.pi, count)
+    approach = random.normal(size=count)
+    return displacement, np.stack(
+        [approach, speed * np.cos(angle), speed * np.sin(angle)], axis=1
+    )
+
+
+def sticking(points: ContactPoints, random: np.random.Generator) -> Motion:
+    share = 10.0 ** random.uniform(-6.0, -0.01, len(points.load))
+    return moving(points, random, share * points.threshold)
+
+
+def slipping(points: ContactPoints, random: np.random.Generator) -> Motion:
+    share = 10.0 ** random.uniform(0.01, 3.0, len(points.load))
+    return moving(points, random, share * points.threshold)
+
+
+def around_the_threshold(points: ContactPoints, random: np.random.Generator) -> Motion:
+    share = 1.0 + random.choice([-1e-4, 1e-4], len(points.load))
+    return moving(points, random, share * points.threshold)
+
+
+def separated(points: ContactPoints, random: np.random.Generator) -> Motion:
+    displacement, velocity = slipping(points, random)
+    displacement[:, 0] *= -1.0
+    return displacement, velocity
+
+
+def around_the_surface(points: ContactPoints, random: np.random.Generator) -> Motion:
+    displacement, velocity = slipping(points, random)
+    displacement[:, 0] = random.choice([-1e-12, 1e-12], len(points.load))
+    return displacement, velocity
+
+
+def around_zero_force(points: ContactPoints, random: np.random.Generator) -> Motion:
+    motion = slipping(points, random)
+    spring, damper = sizes(points, motion)
+    share = 1.0 + random.choice([-1e-3, 1e-3], len(points.load))
+    motion[1][:, 0] = -share * spring / damper
+    return motion
+
+
+def pulling(points: ContactPoints, random: np.random.Generator) -> Motion:
+    motion = slipping(points, random)
+    spring, damper = sizes(points, motion)
+    motion[1][:, 0] = -random.uniform(1.1, 5.0, len(points.load)) * spring / damper
+    return motion
+
+
+REGIONS = [
+    sticking,
+    slipping,
+    around_the_threshold,
+    separated,
+    around_the_surface,
+    around_zero_force,
+    pulling,
+]

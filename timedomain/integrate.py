@@ -152,10 +152,9 @@ class _March:
                 return iterations
             for array, old in zip((*self._state, *self._meters), before, strict=True):
                 array[:] = old
-        largest = np.abs(self._state.forces).max()
         raise IntegrationError(
             f"the step at t = {step * self._step:.6g} s does not converge, even "
-            f"in {parts} parts: contact forces of {largest:.3g} N; "
+            f"in {parts} parts: "
             "give a shorter time step, a larger threshold velocity or a softer contact"
         )
 

@@ -39,8 +39,13 @@ class Agreement:
 
     @property
     def deviation(self) -> Array:
-        """Relative difference of the amplitude of each probe, shape (probes,)."""
-        return np.abs(self.marched / self.predicted - 1.0)
+        """Relative difference of the amplitude of each probe, shape (probes,).
+
+        A probe that moves by less than a hundredth of the largest amplitude is measured
+        by that hundredth: how far nothing differs from nothing says nothing.
+        """
+        size = np.maximum(self.predicted, 0.01 * self.predicted.max())
+        return np.abs(self.marched - self.predicted) / size
 
 
 def march_periods(
@@ -83,7 +88,7 @@ def agreement(
     amplitudes = np.abs((rotation * cycles).sum(axis=1))
     size = predicted.max()
     away = np.abs(cycles - orbit).max(axis=(1, 2)) / size
-    tail = max(1, len(amplitudes) // 10)
+    tail = min(max(1, len(amplitudes) // 10), len(amplitudes) - 1)
     drift = np.abs(amplitudes[-1] - amplitudes[-1 - tail]).max() / size
     closing = np.abs(history.closing_error).max() / np.abs(history.of("input")).max()
     return Agreement(

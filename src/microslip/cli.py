@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import sys
+import warnings
 
 from microslip.commands import explain, frc, plot, scenes, sweep, tables, verify
 from microslip.quantity import SceneError
@@ -21,15 +23,22 @@ def main(arguments: list[str] | None = None) -> int:
     # Small matrices: threads of the linear algebra cost more than they bring.
     for library in ("OPENBLAS", "MKL", "OMP"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
-    options = _parser().parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else arguments
+    options = _parser().parse_args(words)
+    options.command = shlex.join(["microslip", *words])
     try:
-        return int(options.run(options))
+        with warnings.catch_warnings():
+            # an overflow ends the command instead of running on with nonsense
+            warnings.simplefilter("error", RuntimeWarning)
+            return int(options.run(options))
     except SceneError as error:
-        print(f"microslip: {error}", file=sys.stderr)
-        return 2
-    except MicroslipError as error:
-        print(f"microslip: {error}", file=sys.stderr)
-        return 1
+        return _failed(str(error), 2)
+    except (MicroslipError, ValueError) as error:
+        return _failed(str(error), 1)
+    except (ArithmeticError, RuntimeWarning) as error:
+        return _failed(f"numbers out of range ({error}): check the scene's values", 1)
+    except MemoryError:
+        return _failed("not enough memory: give a longer time step or less data", 1)
     except KeyboardInterrupt:
         print("microslip: interrupted before there was a result", file=sys.stderr)
         return 130
@@ -37,6 +46,12 @@ def main(arguments: list[str] | None = None) -> int:
         # the reader of our output left, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+
+
+def _failed(reason: str, status: int) -> int:
+    """Print why in one line; return the status."""
+    print("microslip:", " ".join(reason.split()), file=sys.stderr)
+    return status
 
 
 def _parser() -> argparse.ArgumentParser:

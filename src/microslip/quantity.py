@@ -57,9 +57,13 @@ class Quantity:
             )
         if isinstance(value, str):
             return self._with_unit(value)
-        if not math.isfinite(value):
+        try:
+            number = float(value)
+        except OverflowError:
+            raise ValueError(f"is out of range: {self._range()}") from None
+        if not math.isfinite(number):
             raise ValueError("is not finite: give a finite number")
-        return float(value)
+        return number
 
     def _with_unit(self, text: str) -> float:
         first, _, unit = text.strip().partition(" ")

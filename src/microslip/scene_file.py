@@ -88,7 +88,7 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
         text = _read(path)
     try:
         document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:
         raise SceneError(f"{source}: not valid TOML: {error}") from None
     for override in overrides:
         _apply(document, override)
@@ -119,7 +119,7 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
         )
     try:
         value = tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):
         value = text.strip()
     place = document
     for table in tables:
@@ -131,7 +131,7 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
 
 def _scene(source: str, document: dict[str, typing.Any], text: str) -> Scene:
     kind = document.pop("scene", None)
-    if kind not in RIGS:
+    if not isinstance(kind, str) or kind not in RIGS:
         raise SceneError(
             f"{source}: scene = {kind!r}: name the kind of scene at the top, "
             f"one of {', '.join(RIGS)}"

@@ -87,8 +87,8 @@ def save(path: Path, stored: Stored) -> None:
     )
     try:
         with netcdf_file(path, "w", version=2) as file:
-            for name, text in _attributes(kind, stored).items():
-                setattr(file, name, text)
+            for name, value in _attributes(kind, stored).items():
+                setattr(file, name, value)
             for name, (dimensions, unit, meaning) in schema.items():
                 values = _plain(getattr(stored.result, name))
                 _dimensions(file, dimensions, values.shape)
@@ -141,19 +141,28 @@ def load(path: Path) -> Stored:
         ) from None
 
 
-def _attributes(kind: str, stored: Stored) -> dict[str, str | int | float]:
+def _attributes(kind: str, stored: Stored) -> dict[str, object]:
     """Return the global attributes of the file."""
-    made: dict[str, str | int | float] = {
+    made: dict[str, object] = {
         "kind": kind,
         "source": f"microslip {version('microslip')}",
         "command": stored.command,
         "scene": stored.scene,
     }
     for field in dataclasses.fields(stored.result):
-        value = getattr(stored.result, field.name)
-        if isinstance(value, (str, int, float)):
-            made[field.name] = value
-    return made
+        made[field.name] = getattr(stored.result, field.name)
+    return {name: _attribute(value) for name, value in made.items() if _single(value)}
+
+
+def _single(value: object) -> bool:
+    return isinstance(value, (str, int, float))
+
+
+def _attribute(value: object) -> object:
+    """Return UTF-8 bytes or a number of full precision."""
+    if isinstance(value, str):
+        return value.encode()
+    return np.float64(value) if isinstance(value, float) else value
 
 
 def _plain(value: object) -> np.ndarray:

@@ -61,15 +61,20 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
         state, pseudo_time = state + step, pseudo_time * 2.0
         energy, forces, gradient, hessian = trial
         residual = float(np.abs(gradient).max()) / load
-        if residual <= tolerance:
+        if residual <= tolerance + _rounding(problem, state) / load:
             return StaticState(state, forces, residual, iteration)
-        if np.abs(state).max() > 1.0:
+        if not np.abs(state).max() <= 1.0:
             break
     raise StaticError(
-        f"the static preload (largest load {load:g} N) has no equilibrium in contact: "
-        f"after {iteration} steps the largest displacement is "
-        f"{np.abs(state).max():.3g} m or rad; check direction and size of the preload"
+        f"the static preload (largest load {load:g} N) has no equilibrium in contact "
+        f"after {iteration} steps: check its direction and size, and the contact"
     )
+
+
+def _rounding(problem: Problem, state: Array) -> float:
+    """Return the force that rounding alone leaves unbalanced [N]."""
+    terms = np.abs(problem.structure.stiffness) @ np.abs(state)
+    return float(4.0 * np.finfo(float).eps * terms.max())
 
 
 def _potential(problem: Problem, state: Array) -> tuple[float, Array, Array, Array]:

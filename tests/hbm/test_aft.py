@@ -136,6 +136,33 @@ def test_normal_forces_range_from_the_smallest_to_the_largest_penetration() -> N
     assert cycle.normal_largest == pytest.approx(3.0 * (3.0 * AMPLITUDE) ** 2)
 
 
+def test_each_point_has_its_own_forces_and_energies_add_up() -> None:
+    fourier, rng = FourierBasis(2, 32), np.random.default_rng(4)
+    stiffness = [3.0, 5.0]
+    motion = rng.standard_normal((5, 6))
+
+    both = AlternatingFrequencyTime(
+        contact_points(2, stiffness=stiffness), np.eye(6), fourier
+    )
+    alone = [
+        AlternatingFrequencyTime(contact_points(stiffness=each), np.eye(3), fourier)
+        for each in stiffness
+    ]
+
+    cycle = both.cycle(motion, FREQUENCY)
+    cycles = [
+        each.cycle(motion[:, 3 * place : 3 * place + 3], FREQUENCY)
+        for place, each in enumerate(alone)
+    ]
+    for place, each in enumerate(cycles):
+        assert cycle.normal_smallest[place] == each.normal_smallest[0]
+        assert cycle.normal_largest[place] == each.normal_largest[0]
+    assert cycle.friction == pytest.approx(sum(each.friction for each in cycles))
+    assert cycle.normal_damping == pytest.approx(
+        sum(each.normal_damping for each in cycles)
+    )
+
+
 def test_force_on_the_coordinates_is_that_of_the_points_brought_back() -> None:
     points = contact_points(2, stiffness=[3.0, 5.0])
     rng = np.random.default_rng(6)

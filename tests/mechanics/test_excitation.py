@@ -69,11 +69,12 @@ def test_drive_is_zero_outside_the_sweep() -> None:
 
 
 def test_preload_grows_linearly_and_then_stays() -> None:
-    time = np.array([-0.5, 0.0, 0.25, 0.5, 1.0, 2.0, 10.0])
+    sweep = replace(SWEEP, ramp=2.0)
+    time = np.array([-0.5, 0.0, 0.25, 0.5, 1.0, 2.0, 2.5, 10.0])
 
-    preload = SWEEP.factors(time)[:, 0]
+    preload = sweep.factors(time)[:, 0]
 
-    np.testing.assert_array_equal(preload, [0.0, 0.0, 0.25, 0.5, 1.0, 1.0, 1.0])
+    np.testing.assert_array_equal(preload, [0, 0, 0.125, 0.25, 0.5, 1.0, 1.0, 1.0])
 
 
 def test_preload_without_ramp_is_full_from_the_start() -> None:
@@ -108,7 +109,8 @@ def test_times_in_the_wrong_order_are_refused(times: dict[str, float]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("lowest", "highest"), [(0.0, 145.0), (125.0, -1.0), (float("nan"), 145.0)]
+    ("lowest", "highest"),
+    [(0.0, 145.0), (125.0, 0.0), (125.0, -1.0), (float("nan"), 145.0)],
 )
 def test_frequencies_that_are_not_positive_are_refused(
     lowest: float, highest: float

@@ -96,6 +96,12 @@ def test_damping_comes_from_the_beams_and_not_from_bodies_or_springs() -> None:
     np.testing.assert_allclose(damping, expected, rtol=1e-13, atol=1e-15)
 
 
+def test_frame_is_undamped_unless_told_otherwise() -> None:
+    damping = free_frame().structure().damping
+
+    np.testing.assert_array_equal(damping, 0.0)
+
+
 def test_each_beam_is_damped_by_its_own_coefficient() -> None:
     first, second, both = (
         damped(free_frame(), alphas, 0.0).structure().damping
@@ -111,9 +117,12 @@ def test_each_beam_is_damped_by_its_own_coefficient() -> None:
     assert np.all(np.diag(second)[6:] > 0.0)
 
 
-@pytest.mark.parametrize("lean", [2e-9, 0.5])
-def test_thickness_that_is_not_across_the_beam_is_refused(lean: float) -> None:
-    beam = Beam("a", "b", SECTION, np.array([lean, 0.0, 1.0]))
+@pytest.mark.parametrize("lean", [-0.5, -2e-9, 2e-9, 0.5])
+@pytest.mark.parametrize("size", [0.01, 1.0, 100.0])
+def test_thickness_that_is_not_across_the_beam_is_refused(
+    lean: float, size: float
+) -> None:
+    beam = Beam("a", "b", SECTION, size * np.array([lean, 0.0, 1.0]))
     places = Node("a", np.zeros(3)), Node("b", np.array([0.2, 0.0, 0.0]))
 
     with pytest.raises(

@@ -1,11 +1,24 @@
 """The force of a contact point: values, exact tangents, powers, energy."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
-from contact_tables import FRICTION_LAWS, contact_points, every_combination
+from contact_tables import (
+    FRICTION_LAWS,
+    REGIONS,
+    Motion,
+    Region,
+    around_the_surface,
+    around_the_threshold,
+    around_zero_force,
+    contact_points,
+    every_combination,
+    pulling,
+    separated,
+    sizes,
+    slipping,
+    sticking,
+)
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.hunt_crossley import spring_force
 from microslip_mechanics.contact.law import (
@@ -21,9 +34,6 @@ from microslip_mechanics.contact.law import (
 )
 
 pytestmark = pytest.mark.kernels
-
-Motion = tuple[Array, Array]
-"""relative displacement and velocity of each point, each (points, 3)"""
 
 SLIDING = [COULOMB, GENERAL_KINETIC]
 
@@ -44,81 +54,6 @@ def written(points: ContactPoints, motion: Motion) -> tuple[Array, Array, Array]
             by_velocity[point],
         )
     return force, by_displacement, by_velocity
-
-
-def sizes(points: ContactPoints, motion: Motion) -> tuple[Array, Array]:
-    """Return the spring's force and the damper's force per approach in contact."""
-    depth = np.maximum(motion[0][:, 0], 0.0)
-    return (
-        points.stiffness * depth**points.exponent,
-        points.damping * depth**points.damping_exponent,
-    )
-
-
-def moving(points: ContactPoints, random: np.random.Generator, speed: Array) -> Motion:
-    """Return random motions in contact with the given sliding speeds, (points,)."""
-    count = len(points.load)
-    displacement = random.normal(size=(count, 3))
-    displacement[:, 0] = 10.0 ** random.uniform(-6.0, 0.5, count)
-    angle = random.uniform(0.0, 2.0 * np.pi, count)
-    approach = random.normal(size=count)
-    return displacement, np.stack(
-        [approach, speed * np.cos(angle), speed * np.sin(angle)], axis=1
-    )
-
-
-def sticking(points: ContactPoints, random: np.random.Generator) -> Motion:
-    share = 10.0 ** random.uniform(-6.0, -0.01, len(points.load))
-    return moving(points, random, share * points.threshold)
-
-
-def slipping(points: ContactPoints, random: np.random.Generator) -> Motion:
-    share = 10.0 ** random.uniform(0.01, 3.0, len(points.load))
-    return moving(points, random, share * points.threshold)
-
-
-def around_the_threshold(points: ContactPoints, random: np.random.Generator) -> Motion:
-    share = 1.0 + random.choice([-1e-4, 1e-4], len(points.load))
-    return moving(points, random, share * points.threshold)
-
-
-def separated(points: ContactPoints, random: np.random.Generator) -> Motion:
-    displacement, velocity = slipping(points, random)
-    displacement[:, 0] *= -1.0
-    return displacement, velocity
-
-
-def around_the_surface(points: ContactPoints, random: np.random.Generator) -> Motion:
-    displacement, velocity = slipping(points, random)
-    displacement[:, 0] = random.choice([-1e-12, 1e-12], len(points.load))
-    return displacement, velocity
-
-
-def around_zero_force(points: ContactPoints, random: np.random.Generator) -> Motion:
-    motion = slipping(points, random)
-    spring, damper = sizes(points, motion)
-    share = 1.0 + random.choice([-1e-3, 1e-3], len(points.load))
-    motion[1][:, 0] = -share * spring / damper
-    return motion
-
-
-def pulling(points: ContactPoints, random: np.random.Generator) -> Motion:
-    motion = slipping(points, random)
-    spring, damper = sizes(points, motion)
-    motion[1][:, 0] = -random.uniform(1.1, 5.0, len(points.load)) * spring / damper
-    return motion
-
-
-REGIONS = [
-    sticking,
-    slipping,
-    around_the_threshold,
-    separated,
-    around_the_surface,
-    around_zero_force,
-    pulling,
-]
-Region = Callable[[ContactPoints, np.random.Generator], Motion]
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)
@@ -250,6 +185,42 @@ def test_coulomb_friction_is_mu_times_load_times_the_regularised_direction(
     speed = np.hypot(motion[1][:, 1], motion[1][:, 2])
     load = np.where(points.constant_load, 1.7, np.maximum(force[:, 0], 0.0))
     factor = 0.3 * load / np.maximum(speed, points.threshold)
+    np.testing.assert_allclose(
+        force[:, 1:], factor[:, None] * motion[1][:, 1:], rtol=1e-13, atol=1e-15
+    )
+
+
+@pytest.mark.parametrize("region", [sticking, slipping, around_the_threshold])
+def test_general_kinetic_friction_is_stribecks_coefficient_times_load(
+    region: Region,
+) -> None:
+    random = np.random.default_rng(15)
+    count = 60
+    dynamic, static, stribeck, exponent, threshold, viscous, load = random.uniform(
+        0.2, 1.5, (7, count)
+    )
+    points = contact_points(
+        count,
+        friction=GENERAL_KINETIC,
+        dynamic=dynamic,
+        static=static,
+        stribeck=stribeck,
+        stribeck_exponent=exponent,
+        viscous=viscous,
+        threshold=threshold,
+        constant_load=random.choice([False, True], count),
+        load=load,
+    )
+    motion = region(points, random)
+
+    force, *_ = written(points, motion)
+
+    speed = np.hypot(motion[1][:, 1], motion[1][:, 2])
+    fading = np.exp(-((speed / stribeck) ** exponent))
+    size = dynamic + (static - dynamic) * fading
+    normal = np.where(points.constant_load, load, np.maximum(force[:, 0], 0.0))
+    drag = np.where(normal > 0.0, viscous, 0.0)
+    factor = size * normal / np.maximum(speed, threshold) + drag
     np.testing.assert_allclose(
         force[:, 1:], factor[:, None] * motion[1][:, 1:], rtol=1e-13, atol=1e-15
     )

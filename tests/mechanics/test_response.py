@@ -79,18 +79,31 @@ def test_response_repeats_after_one_turn_of_the_phase() -> None:
 
 def test_curve_shows_first_harmonic_peak_and_velocity_of_each_probe() -> None:
     coefficients = np.zeros((7, 3))
-    coefficients[:, 0] = [9.0, 2.0, 0.0, 0.0, 0.0, 0.5, 0.0]  # 9 + 2 cos + ½ cos 3
+    coefficients[:, 0] = [9.0, 2.0, 0.0, 0.5, 0.0, 0.0, 0.0]  # 9 + 2 cos + ½ cos 2
     coefficients[:, 1] = [-4.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.25]  # −4 + 3 sin + ¼ sin 3
     coefficients[:, 2] = [0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0]  # 4 sin
-    watched = problem(np.array([[1.0, 0, 0], [0, 1, 0], [1.5, 0, 1]]))
+    watched = problem(np.array([[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [1.5, 0, 1]]))
 
     curve = response_curve(watched, [response(coefficients)], "complete", samples=64)
 
-    np.testing.assert_allclose(curve.amplitude, [[2.0, 3.0, 5.0]], rtol=1e-14)
-    np.testing.assert_allclose(curve.peak[:, :2], [[2.5, 2.75]], rtol=1e-14)
-    assert curve.velocity_peak[0, 1] == pytest.approx(
+    np.testing.assert_allclose(curve.amplitude, [[2.0, 2.0, 3.0, 5.0]], rtol=1e-14)
+    np.testing.assert_allclose(curve.peak[:, :3], [[2.5, 2.5, 2.75]], rtol=1e-14)
+    assert curve.velocity_peak[0, 2] == pytest.approx(
         3.75 * FREQUENCY, rel=1e-14, abs=0.0
     )
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_velocity_peak_counts_in_both_directions(sign: float) -> None:
+    coefficients = np.zeros((5, 3))
+    coefficients[:, 0] = sign * np.array([0.0, 0.0, 3.0, 0.0, 0.25])  # 3 sin + ¼ sin 2
+
+    curve = response_curve(
+        problem(np.eye(1, 3)), [response(coefficients)], "complete", samples=64
+    )
+
+    expected = 3.5 * FREQUENCY
+    assert curve.velocity_peak[0, 0] == pytest.approx(expected, rel=1e-14, abs=0.0)
 
 
 @pytest.mark.parametrize("samples", [64, 256, 1024])

@@ -195,6 +195,19 @@ def test_results_without_a_place_are_refused_before_the_work(
     assert list(tmp_path.iterdir()) == [quick_scene]
 
 
+@pytest.mark.parametrize("name", ["cost$_$", "Schaufel für Übung", "two.blades"])
+def test_any_name_of_a_scene_will_do(
+    name: str, run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    quick_scene.rename(tmp_path / f"{name}.toml")
+
+    status, _, error = run("frc", f"{name}.toml")
+
+    assert (status, error) == (0, "")
+    assert (tmp_path / f"{name}-frc.nc").is_file()
+    assert (tmp_path / f"{name}-frc.png").is_file()
+
+
 def test_scene_without_equilibrium_has_status_1_and_no_file(
     run: Run, quick_scene: Path, tmp_path: Path
 ) -> None:

@@ -120,24 +120,36 @@ def test_times_before_the_end_of_a_march_are_kept(
 
 
 @pytest.mark.parametrize(
-    ("command", "name", "solver"),
+    ("command", "name", "ended"),
     [("frc", CURVE, curve_until), ("sweep", MARCH, march_until)],
 )
-def test_interruption_before_the_first_result_leaves_no_file(
+@pytest.mark.parametrize(
+    ("end", "ending", "status"),
+    [
+        (KeyboardInterrupt(), "interrupted before there was a result", 130),
+        (ContinuationError("stuck: try less"), "stuck: try less", 1),
+        (IntegrationError("stuck: try less"), "stuck: try less", 1),
+    ],
+    ids=["interrupted", "stuck curve", "stuck march"],
+)
+def test_end_before_the_first_result_leaves_no_file(
     command: str,
     name: str,
-    solver: Callable[..., Callable[..., object]],
+    ended: Callable[..., Callable[..., object]],
+    end: BaseException,
+    ending: str,
+    status: int,
     run: Run,
     quick_scene: Path,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(name, solver(0, KeyboardInterrupt()))
+    monkeypatch.setattr(name, ended(0, end))
 
-    status, output, error = run(command, str(quick_scene))
+    left, output, error = run(command, str(quick_scene))
 
-    assert (status, output) == (130, "")
-    assert error == "microslip: interrupted before there was a result\n"
+    assert (left, output) == (status, "")
+    assert error == f"microslip: {ending}\n"
     assert list(tmp_path.iterdir()) == [quick_scene]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from pathlib import Path
 
@@ -53,16 +54,13 @@ def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
         chosen = Path(f"{Path(options.scene).stem}-{suffix}")
     elif chosen.suffix in {".nc", ".png"}:
         chosen = chosen.with_suffix("")
+    if not chosen.name:
+        raise OutputError(f"{chosen} is a folder: give a file name for the results")
     if not chosen.parent.is_dir():
         raise OutputError(
             f"there is no folder {chosen.parent} to write to: make it first"
         )
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
-
-
-def command_line() -> str:
-    """Return the command as it was typed."""
-    return " ".join(["microslip", *sys.argv[1:]])
 
 
 def title(options: argparse.Namespace) -> str:
@@ -79,3 +77,11 @@ def ended(ending: str) -> int:
         return 0
     print(f"microslip: {ending}; what was computed is kept", file=sys.stderr)
     return 130 if ending == "interrupted" else 1
+
+
+def positive(text: str) -> float:
+    """Read a positive finite number from the command line."""
+    number = float(text)
+    if not (number > 0.0 and math.isfinite(number)):
+        raise argparse.ArgumentTypeError(f"{text} is not positive and finite")
+    return number

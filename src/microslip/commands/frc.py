@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from microslip.progress import Watch
     from microslip.scene_file import Curve
     from microslip.studies.curve import Traced
+    from microslip_mechanics.problem import Problem
     from microslip_mechanics.static import StaticState
 
 HEADER = """\
@@ -38,24 +39,38 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.store import Stored, save, save_figure
-    from microslip.studies.curve import trace_curve, truncation_error
+    from microslip.studies.curve import trace_curve
 
     data, picture = arguments.outputs(options, "frc")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     traced = trace_curve(problem, scene.curve, watched(scene.curve))
-    save(data, Stored(traced.curve, scene.text, arguments.command_line()))
+    save(data, Stored(traced.curve, scene.text, options.command))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     print(_table(traced))
     print(_rest(problem.interface.names, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
-    if traced.curve.ending == "complete":
-        error = truncation_error(problem, traced, scene.curve)
-        print(
-            f"truncation error about {100.0 * error:.2g} % of the largest amplitude "
-            "(solved again with twice the harmonics and samples)"
-        )
-    return arguments.ended(traced.curve.ending)
+    if traced.curve.ending != "complete":
+        return arguments.ended(traced.curve.ending)
+    return _error(problem, traced, scene.curve)
+
+
+def _error(problem: Problem, traced: Traced, curve: Curve) -> int:
+    """Print an estimate of the truncation error; return the exit status."""
+    from hbm.continuation import ContinuationError
+    from microslip.studies.curve import truncation_error
+
+    try:
+        error = truncation_error(problem, traced, curve)
+    except ContinuationError as cause:
+        return arguments.ended(f"the truncation error is not known: {cause}")
+    except KeyboardInterrupt:
+        return arguments.ended("interrupted")
+    print(
+        f"truncation error about {100.0 * error:.2g} % of the largest amplitude "
+        "(solved again with twice the harmonics and samples)"
+    )
+    return 0
 
 
 def watched(curve: Curve) -> Watch:

@@ -41,7 +41,7 @@ def _run(options: argparse.Namespace) -> int:
         scene.march,
         watched(scene.sweep.duration),
     )
-    save(data, Stored(history, scene.text, arguments.command_line()))
+    save(data, Stored(history, scene.text, options.command))
     save_figure(picture, sweep_figure(history, arguments.title(options)))
     print(_table(history))
     print(f"{len(history.time)} times in {data}, picture in {picture}")

@@ -7,6 +7,8 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from microslip.commands import arguments
+
 if TYPE_CHECKING:
     from microslip.studies.tables import Row
 
@@ -49,30 +51,35 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.progress import shown
     from microslip.studies.tables import PAPER, SENSITIVITIES, rows
 
+    if options.csv is not None and not options.csv.parent.is_dir():
+        raise arguments.OutputError(f"there is no folder {options.csv.parent}")
     variants = (*PAPER, *SENSITIVITIES)
-    done = iter(range(1, len(variants) + 1))
     found: list[Row] = []
-    status = 0
     try:
         for row in shown(
             rows("two-blades", variants, halve=not options.quick),
             total=len(variants),
-            done=lambda _: next(done),
+            done=lambda _: len(found) + 1.0,
             unit="sweeps",
             name="tables",
         ):
             found.append(row)  # noqa: PERF402  (what is there must be kept)
     except KeyboardInterrupt:
-        status = 130
+        return arguments.ended("interrupted")
+    finally:
+        _print(found)
+        if options.csv is not None:
+            _write(options.csv, found)
+    return 0
+
+
+def _print(found: list[Row]) -> None:
     print(HEADER)
     for row in found:
         print(_line(row))
     if found:
         print(_jamming(found[0]))
     print(NOTES)
-    if options.csv is not None:
-        _write(options.csv, found)
-    return status
 
 
 def _line(row: Row) -> str:

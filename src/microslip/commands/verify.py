@@ -41,16 +41,16 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     arguments.add_output(parser, "verify")
     for name, kind, default, meaning in (
         ("--frequencies", _count, 9, "orbits along the curve"),
-        ("--periods", _count, 200, "length of each march in periods"),
+        ("--periods", _several, 200, "length of each march in periods"),
         ("--steps", _count, 600, "time steps per period"),
-        ("--tolerance", float, 0.01, "relative deviation of amplitudes"),
+        ("--tolerance", arguments.positive, 0.01, "relative deviation of amplitudes"),
     ):
         parser.add_argument(
             name, type=kind, default=default, help=f"{meaning} (default: {default})"
         )
     parser.add_argument(
         "--slower",
-        type=float,
+        type=arguments.positive,
         nargs="*",
         default=[1.0, 4.0, 10.0],
         metavar="FACTOR",
@@ -66,7 +66,15 @@ def _count(text: str) -> int:
     return number
 
 
+def _several(text: str) -> int:
+    number = int(text)
+    if number < 2:
+        raise argparse.ArgumentTypeError(f"{number} is too few: give at least 2")
+    return number
+
+
 def _run(options: argparse.Namespace) -> int:
+    from microslip.quantity import SceneError
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.studies.curve import trace_curve
@@ -74,6 +82,11 @@ def _run(options: argparse.Namespace) -> int:
     _, picture = arguments.outputs(options, "verify")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
+    if not problem.drive.any():
+        raise SceneError(
+            f"{options.scene}: [excitation] force = 0: nothing vibrates, so there is "
+            "nothing to verify: give a force"
+        )
     traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))
     if traced.curve.ending != "complete":
         return arguments.ended(traced.curve.ending)
@@ -127,7 +140,7 @@ def _sweeps(
     from microslip.studies.sweep import swept_sine
     from microslip.studies.verify import sweep_agreement
 
-    for slower in sorted(options.slower):
+    for slower in sorted(set(options.slower)):
         length = swept_sine(scene.sweep, slower=slower).duration
         watch = sweep.watched(length, f"sweep, {slower:g} times as long")
         found.append(
@@ -156,8 +169,9 @@ def _report(orbits: list[Agreement], sweeps: list[SweepAgreement]) -> None:
             f" {100.0 * each.energy_error:9.2f} % {100.0 * each.envelope_error:7.1f} %"
             f" {each.closing_error:14.1e}"
         )
-    if len(sweeps) > 1:
-        print(f"the difference falls as duration^-{rate_of(sweeps):.2f}")
+    rate = rate_of(sweeps)
+    if rate is not None:
+        print(f"the difference falls as duration^-{rate:.2f}")
 
 
 def _draw(

@@ -79,7 +79,9 @@ def _envelopes(
 
 def _energy(axes: Axes, energies: tuple[Array, Array]) -> None:
     slower, error = energies
-    axes.loglog(slower, 100.0 * np.abs(error), "o-", color=COLOURS[0], lw=WIDTH, ms=4)
+    axes.plot(slower, 100.0 * np.abs(error), "o-", color=COLOURS[0], lw=WIDTH, ms=4)
+    if slower.size and np.all(error != 0.0):
+        axes.set(xscale="log", yscale="log")
     axes.set_xticks(slower, [f"{each:g}" for each in slower])
     axes.minorticks_off()
     axes.set_yticks(100.0 * np.abs(error), [f"{100 * each:.3g}" for each in abs(error)])

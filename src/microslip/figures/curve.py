@@ -13,7 +13,6 @@ from microslip.figures.style import (
     absolute,
     faces,
     framed,
-    label_lowest_row,
     readable,
     relative,
 )
@@ -30,7 +29,6 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     sliding_velocity(panels[0, 1], curve)
     dissipated_energy(panels[1, 0], curve)
     normal_forces(panels[1, 1], curve)
-    label_lowest_row(figure)
     figure.suptitle(title)
     return figure
 
@@ -55,13 +53,15 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
 def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the largest relative velocity in time, logarithmically."""
     for colour, place in zip(COLOURS, relative(curve.probes), strict=False):
-        axes.semilogy(
+        axes.plot(
             hertz(curve),
             curve.velocity_peak[:, place],
             color=colour,
             linewidth=WIDTH * 1.5,
             label=readable(curve.probes[place]),
         )
+    if (curve.velocity_peak[:, relative(curve.probes)] > 0.0).all():
+        axes.set_yscale("log")
     framed(axes, x=FREQUENCY, y="velocity [m/s]", title="Largest relative velocity")
     axes.legend(frameon=False)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Okabe and Ito's palette: told apart by colour-blind readers too"""
@@ -23,14 +22,6 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.margins(x=0.0)
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
-
-
-def label_lowest_row(figure: Figure) -> None:
-    """Keep the labels of the shared x axis in the lowest row of panels only."""
-    for axes in figure.axes:
-        place = axes.get_subplotspec()
-        if place is not None and not place.is_last_row():
-            axes.set_xlabel("")
 
 
 def absolute(probes: Iterable[str]) -> list[int]:

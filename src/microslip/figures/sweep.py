@@ -11,7 +11,6 @@ from microslip.figures.style import (
     absolute,
     faces,
     framed,
-    label_lowest_row,
     readable,
     relative,
 )
@@ -41,7 +40,8 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
     energies(next(panels), history)
     for axes in panels:
         axes.remove()
-    label_lowest_row(figure)
+    for axes in figure.axes[-2:]:
+        axes.tick_params(labelbottom=True)
     figure.suptitle(title)
     return figure
 

@@ -66,7 +66,8 @@ def truncation_error(problem: Problem, traced: Traced, curve: Curve) -> float:
     )
     fine = response_curve(problem, [finer], "complete", samples=2 * curve.samples)
     coarse = traced.curve.amplitude[place]
-    return float(np.abs(fine.amplitude[0] - coarse).max() / coarse.max())
+    change = np.abs(fine.amplitude[0] - coarse).max()
+    return float(change / coarse.max()) if change > 0.0 else 0.0
 
 
 def shown_points(curve: ResponseCurve, largest: int, count: int = 11) -> list[int]:

@@ -41,6 +41,8 @@ class SweepAgreement:
     @property
     def energy_error(self) -> float:
         """Relative difference of the energies."""
+        if self.quasi_static == 0.0:
+            return 0.0 if self.energy == 0.0 else float("inf")
         return self.energy / self.quasi_static - 1.0
 
 
@@ -59,7 +61,7 @@ def spread(traced: Traced, count: int) -> list[PeriodicResponse]:
     )
     wanted = np.linspace(arc[0], arc[-1], count)
     chosen = {int(np.abs(arc - place).argmin()) for place in wanted}
-    chosen.add(int(amplitude.argmax()))
+    chosen |= {0, int(amplitude.argmax()), len(places) - 1}
     return [traced.responses[places[place]] for place in sorted(chosen)]
 
 
@@ -115,14 +117,22 @@ def sweep_agreement(
 def falls(agreements: list[SweepAgreement]) -> bool:
     """Return whether energies and envelopes come closer each time the sweep slows."""
     return all(
-        abs(after.energy_error) < abs(before.energy_error)
+        (
+            abs(after.energy_error) < abs(before.energy_error)
+            or after.energy_error == 0.0
+        )
         and after.envelope_error < before.envelope_error
         for before, after in itertools.pairwise(agreements)
     )
 
 
-def rate_of(agreements: list[SweepAgreement]) -> float:
-    """Return the exponent by which the energies' difference falls with duration."""
+def rate_of(agreements: list[SweepAgreement]) -> float | None:
+    """Return the exponent by which the energies' difference falls with duration.
+
+    None where there are less than two sweeps, or no difference.
+    """
+    if len(agreements) < 2 or any(each.energy_error == 0.0 for each in agreements):
+        return None
     slower = np.log([each.slower for each in agreements])
     error = np.log([abs(each.energy_error) for each in agreements])
     return float(-np.polyfit(slower, error, 1)[0])

@@ -45,7 +45,8 @@ class Agreement:
         by that hundredth: how far nothing differs from nothing says nothing.
         """
         size = np.maximum(self.predicted, 0.01 * self.predicted.max())
-        return np.abs(self.marched - self.predicted) / size
+        deviation: Array = np.abs(self.marched - self.predicted) / size
+        return deviation
 
 
 def march_periods(

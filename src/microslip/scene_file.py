@@ -118,9 +118,10 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
             f"--set {override}: give table.key=value, such as contact.sigma=3e-7"
         )
     try:
-        value = tomllib.loads(f"value = {text}")["value"]
+        parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
-        value = text.strip()
+        parsed = {}
+    value = parsed["value"] if len(parsed) == 1 else text.strip()
     place = document
     for table in tables:
         place = place.setdefault(table, {})

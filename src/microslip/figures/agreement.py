@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.curve import FREQUENCY, frequency_response, hertz
-from microslip.figures.style import COLOURS, WIDTH, absolute, framed, readable
+from microslip.figures.style import COLOURS, WIDTH, absolute, framed, literal, readable
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import ResponseCurve
 
@@ -50,7 +50,7 @@ def agreement_figure(
     _deviation(panels[0, 1], marched)
     _envelopes(panels[1, 0], curve, sweeps)
     _energy(panels[1, 1], energies)
-    figure.suptitle(title)
+    figure.suptitle(literal(title))
     return figure
 
 

@@ -13,6 +13,7 @@ from microslip.figures.style import (
     absolute,
     faces,
     framed,
+    literal,
     readable,
     relative,
 )
@@ -29,7 +30,7 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     sliding_velocity(panels[0, 1], curve)
     dissipated_energy(panels[1, 0], curve)
     normal_forces(panels[1, 1], curve)
-    figure.suptitle(title)
+    figure.suptitle(literal(title))
     return figure
 
 

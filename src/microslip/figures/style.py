@@ -42,6 +42,11 @@ def faces(contacts: Iterable[str]) -> dict[str, list[int]]:
     return found
 
 
+def literal(text: str) -> str:
+    """Return a text in which dollars are dollars, not formulas."""
+    return text.replace("$", r"\$")
+
+
 def readable(name: str) -> str:
     """Return a probe's name as words."""
     return name.replace("-", " ")

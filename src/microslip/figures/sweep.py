@@ -11,6 +11,7 @@ from microslip.figures.style import (
     absolute,
     faces,
     framed,
+    literal,
     readable,
     relative,
 )
@@ -42,7 +43,7 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
         axes.remove()
     for axes in figure.axes[-2:]:
         axes.tick_params(labelbottom=True)
-    figure.suptitle(title)
+    figure.suptitle(literal(title))
     return figure
 
 

@@ -282,7 +282,7 @@ def test_every_command_reads_scenes_alike(
         ("blade.length=1e400", ("[blade] length", "not finite")),
         ("blade.length=1 kg", ("[blade] length", "1 kg", "unit")),
         ("blade.length='a'\nx", ("[blade] length", "not a number")),
-        ("blade.length=0.2\nwidth=1", ("blade.length",)),
+        ("blade.length=0.2\nwidth=1", ("[blade] length", "not a number")),
         ("curve.harmonics=512", ("[curve] samples = 1024", "at least 2050")),
         ("scene=[1]", ("scene", "two-blades")),
         ("scene=disc", ("scene", "disc", "two-blades")),

@@ -19,6 +19,14 @@ class Probes:
     rows: Array
     """shape (probes, dofs)"""
 
+    def __post_init__(self) -> None:
+        """Check that each row has a name."""
+        if self.rows.ndim != 2 or len(self.rows) != len(self.names):
+            raise ValueError(
+                f"probe rows have shape {self.rows.shape}, but there are "
+                f"{len(self.names)} names: give one row for each"
+            )
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:

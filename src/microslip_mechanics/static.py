@@ -55,7 +55,8 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
         matrix = problem.structure.mass / pseudo_time**2 + hessian
         step = np.linalg.solve(matrix, -gradient)
         trial = _potential(problem, state + step)
-        if trial[0] > energy + 1e-12 * abs(energy):
+        noise = _rounding(problem, state) * np.abs(state).sum()
+        if trial[0] > energy + 1e-12 * abs(energy) + noise:
             pseudo_time *= 0.25
             continue
         state, pseudo_time = state + step, pseudo_time * 2.0

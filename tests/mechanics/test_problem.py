@@ -62,3 +62,8 @@ def test_load_with_a_value_that_is_not_finite_is_refused(
 
     with pytest.raises(ValueError, match=r"^a load holds a value that is not finite$"):
         problem(**{name: load})
+
+
+def test_probes_without_a_row_each_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"shape \(1, 4\), but there are 2 names"):
+        Probes(("tip", "root"), np.ones((1, DOFS)))

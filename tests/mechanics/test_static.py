@@ -202,3 +202,14 @@ def test_preload_that_drives_the_wedge_out_has_no_equilibrium(model: str) -> Non
         static_equilibrium(inward)
 
     assert isinstance(failure.value, MicroslipError)
+
+
+@pytest.mark.parametrize("elements", [16, 30, 60])
+@pytest.mark.parametrize("model", ["full", "B"])
+def test_fine_meshes_have_the_same_totals(model: str, elements: int) -> None:
+    problem = rig_problem(model=model, blade__elements=elements)
+
+    forces = static_equilibrium(problem).normal_force
+
+    half = len(forces) // 2
+    assert forces[half:].sum() == pytest.approx(1 / np.tan(np.radians(20)), rel=1e-6)

@@ -53,6 +53,16 @@ def test_march_stores_what_the_scene_asks_for(scene: Scene) -> None:
     assert history.contacts == ("B1", "A1")
 
 
+def test_march_that_stores_rarely_takes_no_shorter_steps(quick_scene: Path) -> None:
+    # 400 steps of 25 µs
+    scene = load_scene(str(quick_scene), ["march.store_every=10000"])
+
+    history = march_sweep(problem_of(scene), swept_sine(scene.sweep), scene.march)
+
+    assert history.time_step == pytest.approx(25e-6)
+    assert history.time.tolist() == [0.01]
+
+
 def test_watch_sees_every_block_of_a_march(scene: Scene) -> None:
     seen: list[float] = []
 

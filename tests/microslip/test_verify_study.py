@@ -224,7 +224,7 @@ def test_verdict_of_the_sweeps_decides_the_status_too(
         ("--tolerance", "-1", "--slower"),
         ("--slower", "1", "--set=friction.law=none"),
         ("--slower", "1", "--set=friction.mu_dynamic=0"),
-        ("--slower", "1", "--set=march.store_every=1000"),
+        ("--slower", "1", "--set=march.store_every=10000"),
         ("--slower", "--set=excitation.force=0"),
     ],
     ids=" ".join,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -70,9 +70,11 @@ def integrate(
     IntegrationError
         If a step does not converge even when it is divided; what was yielded stays.
     """
-    stride = options.store_every
-    rows = int(np.ceil(history.duration / options.time_step / stride - 1e-9))
+    steps = max(1, int(np.ceil(history.duration / options.time_step - 1e-9)))
+    stride = min(options.store_every, steps)
+    rows = -(-steps // stride)
     step = history.duration / (rows * stride)
+    options = replace(options, store_every=stride)
     marching = _March(problem, history, options, step, start or at_rest(problem))
     per_block = max(1, round(block / (step * stride)))
     for first in range(0, rows, per_block):

@@ -167,7 +167,7 @@ def test_truncation_error_is_the_change_under_twice_the_resolution(
 
     place = int(traced.curve.amplitude.max(axis=1).argmax())
     hertz = float(traced.curve.frequency[place] / (2.0 * np.pi))
-    finer = resonance(quick_scene, 14, 1024, min(hertz, 134.69))
+    finer = resonance(quick_scene, 15, 1024, min(hertz, 134.69))
     other = trace_curve(problem, finer.curve).curve.amplitude
     at = 0 if hertz < 134.69 else -1
     change = np.abs(other[at] - traced.curve.amplitude[place]).max()

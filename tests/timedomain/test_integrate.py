@@ -41,7 +41,7 @@ def test_a_step_that_does_not_converge_in_any_parts_ends_the_march() -> None:
 
     text = (
         r"^the step at t = 0 s does not converge, even in 16 parts: "
-        r"contact forces of [\d.]+ N; give a shorter time step, "
+        r"give a shorter time step, "
         r"a larger threshold velocity or a softer contact$"
     )
     with pytest.raises(IntegrationError, match=text):

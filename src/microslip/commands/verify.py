@@ -87,6 +87,14 @@ def _run(options: argparse.Namespace) -> int:
             f"{options.scene}: [excitation] force = 0: nothing vibrates, so there is "
             "nothing to verify: give a force"
         )
+    curve, swept = scene.curve, scene.sweep
+    covered = curve.lowest <= swept.lowest and swept.highest <= curve.highest
+    if options.slower and not covered:
+        raise SceneError(
+            f"{options.scene}: [curve] {curve.lowest:g} to {curve.highest:g} Hz does "
+            f"not cover [sweep] {swept.lowest:g} to {swept.highest:g} Hz: give it the "
+            "sweep's range, or leave the sweeps out by --slower without a value"
+        )
     traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))
     if traced.curve.ending != "complete":
         return arguments.ended(traced.curve.ending)

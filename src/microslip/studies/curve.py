@@ -61,7 +61,7 @@ def truncation_error(problem: Problem, traced: Traced, curve: Curve) -> float:
         problem,
         traced.rest,
         traced.responses[place],
-        harmonics=2 * curve.harmonics,
+        harmonics=2 * curve.harmonics + 1,
         samples=2 * curve.samples,
     )
     fine = response_curve(problem, [finer], "complete", samples=2 * curve.samples)

@@ -13,10 +13,15 @@ from microslip.scene_file import Scene
 from microslip.studies.curve import Traced, followed_upwards, quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 from timedomain.verify import Agreement, agreement, march_periods
+
+
+class StudyError(MicroslipError):
+    """Solvers that cannot be compared as asked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +150,12 @@ def _envelope(
     driven = (history.time >= start) & (history.time <= end)
     hertz = frequency[driven]
     shown = history.displacement[driven]
-    spacing = history.time[1] - history.time[0]
+    spacing = np.diff(history.time).max(initial=0.0)
+    if len(history.time) < 2 or spacing * hertz.max(initial=0.0) > 0.25:
+        raise StudyError(
+            "the sweep is stored too rarely to see its cycles: give a smaller "
+            "march.store_every"
+        )
     cycle = np.floor(np.cumsum(hertz) * spacing).astype(int)
     edges = np.flatnonzero(np.diff(cycle, prepend=cycle[0] - 1))
     high = np.maximum.reduceat(shown, edges, axis=0)

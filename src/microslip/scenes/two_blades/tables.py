@@ -13,7 +13,7 @@ class Blade:
     """Both blades; only the excited one leans."""
 
     length: float = quantity("m", positive=True, highest=10.0)
-    elements: int = quantity(lowest=1, highest=200)
+    elements: int = quantity(lowest=1, highest=100)
     width: float = quantity("m", positive=True, highest=1.0)
     thickness: float = quantity("m", positive=True, highest=1.0)
     young_modulus: float = quantity("Pa", lowest=1e6, highest=2e12)

@@ -188,8 +188,9 @@ def test_interrupted_verification_has_status_130_and_no_verdict(
 ) -> None:
     monkeypatch.setattr(name, solver(2, KeyboardInterrupt()))
     few = ("--frequencies", "1", "--periods", "2", "--slower", "1")
+    range_of_curve = ("--set=sweep.lowest=130 Hz", "--set=sweep.highest=130.2 Hz")
 
-    status, output, error = run("verify", str(quick_scene), *few)
+    status, output, error = run("verify", str(quick_scene), *few, *range_of_curve)
 
     assert status == 130
     assert "agree" not in output.lower()

@@ -265,3 +265,12 @@ def test_quasi_static_energy_of_the_rate_does_not_depend_on_slowness() -> None:
 
     assert rates[0] == pytest.approx(rates[1])
     assert rates[0] == pytest.approx(math.log(145.0 / 125.0) / 6.0)
+
+
+def test_a_sweep_beyond_the_curve_is_refused(run: Run, quick_scene: Path) -> None:
+    arguments = sets("curve.highest=131", "sweep.lowest=130", "sweep.highest=132")
+
+    status, output, error = run("verify", str(quick_scene), "--slower=1", *arguments)
+
+    assert (status, output) == (2, "")
+    assert "[curve] 130 to 131 Hz does not cover [sweep] 130 to 132 Hz" in error

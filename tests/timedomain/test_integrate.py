@@ -14,6 +14,23 @@ from timedomain.integrate import IntegrationError, MarchOptions, integrate
 from timedomain.start import Start
 
 
+@pytest.mark.parametrize("law", ["coulomb", "gkf"])
+@pytest.mark.parametrize("model", ["A", "full"])
+def test_a_step_takes_about_two_newton_iterations(model: str, law: str) -> None:
+    problem = rig_problem(model=model, friction__law=law)
+
+    history = marched(
+        problem,
+        Dwell(2.0 * np.pi * 135.0, 0.1),
+        MarchOptions(),
+        start=from_rest(problem),
+    )
+
+    # Measured 1.0 to 2.0; with a tangent that is wrong by half more than thirty.
+    assert history.iterations / 4000 < 2.5
+    assert history.divided == 0
+
+
 def test_steps_that_do_not_converge_are_divided() -> None:
     problem = rig_problem(friction__mu_dynamic=10.0, model="full")
     dwell, start = Dwell(2.0 * np.pi * 135.0, 0.1), from_rest(problem)

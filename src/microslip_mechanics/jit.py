@@ -23,15 +23,15 @@ def kernel(function: Function) -> Function:
 
     Numba's disk cache watches the file of the compiled function alone: a caller
     keeps the old machine code of a callee that was edited in another file. Hence
-    the cache folder is named after the content of this package, the only one whose
-    kernels are called from other files. No fast-math: results must not differ
-    between machines more than rounding makes them.
+    the cache folder is named after the content of all files whose kernels a kernel
+    may call: those of this package and those beside its own. No fast-math: results
+    must not differ between machines more than rounding makes them.
     """
     options = config.__dict__
     if options["DISABLE_JIT"]:
         return function
     dispatcher = numba.njit(error_model="numpy", nogil=True)(function)
-    folder = _cache_folder()
+    folder = _cache_folder(Path(function.__code__.co_filename).parent)
     if folder is None:
         return cast("Function", dispatcher)
     shared, options["CACHE_DIR"] = options["CACHE_DIR"], str(folder)
@@ -43,15 +43,24 @@ def kernel(function: Function) -> Function:
 
 
 @functools.cache
-def _cache_folder() -> Path | None:
+def _cache_folder(package: Path) -> Path | None:
     """Return a writable folder for machine code, or None where there is none."""
-    content = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.rglob("*.py")):
-        content.update(source.read_bytes())
     try:
         home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-        folder = Path(home) / "microslip" / content.hexdigest()[:16]
+        folder = Path(home) / "microslip" / _content(package)
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, RuntimeError):
         return None
     return folder if os.access(folder, os.W_OK) else None
+
+
+def _content(package: Path) -> str:
+    """Return a name for the content of the ground floor and one package."""
+    ground = Path(__file__).parent
+    sources = sorted(ground.rglob("*.py"))
+    if not package.is_relative_to(ground):
+        sources += sorted(package.glob("*.py"))
+    content = hashlib.sha256()
+    for source in sources:
+        content.update(source.read_bytes())
+    return content.hexdigest()[:16]

@@ -9,8 +9,11 @@ from pathlib import Path
 import pytest
 
 import microslip_mechanics
+import timedomain
 
 PACKAGE = Path(microslip_mechanics.__file__).parent
+TIMEDOMAIN = Path(timedomain.__file__).parent
+TESTS = Path(__file__).parents[1]
 POWER = """
 from microslip_mechanics.contact.hunt_crossley import power
 print(power(2.0, 3.0), sum(power.stats.cache_hits.values()))
@@ -22,6 +25,33 @@ flags = {"clamped": bool, "friction": np.int64, "constant_load": bool}
 types = [flags.get(name, float) for name in ContactPoints._fields]
 points = ContactPoints(*(np.ones(1, type) for type in types))
 print(contact_energy(points, 0, 2.0))
+"""
+LENDER = """
+from microslip_mechanics.jit import kernel
+
+
+@kernel
+def lent(number: float) -> float:
+    return 2.0 * number
+"""
+BORROWER = """
+from lending.lender import lent
+from microslip_mechanics.jit import kernel
+
+
+@kernel
+def borrowed(number: float) -> float:
+    return lent(number)
+"""
+BORROWED = """
+from lending.borrower import borrowed
+print(borrowed(3.0), sum(borrowed.stats.cache_hits.values()))
+"""
+MARCH = """
+from microslip_mechanics.excitation import Dwell
+from small_problems import marched, oscillator
+from timedomain.integrate import MarchOptions
+print(marched(oscillator(), Dwell(1.0, 1.0), MarchOptions(0.1)).of("kinetic")[-1])
 """
 PLAIN = """
 import inspect
@@ -35,7 +65,7 @@ def run(code: str, **environment: Path | str) -> list[str]:
     kept = {name: os.environ[name] for name in ("PATH", "HOME") if name in os.environ}
     kept["PYTHONPATH"] = str(PACKAGE.parent)
     done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code],
+        [sys.executable, "-P", "-W", "error", "-c", code],
         env=kept | {name: str(value) for name, value in environment.items()},
         capture_output=True,
         text=True,
@@ -79,6 +109,49 @@ def test_edit_of_a_callee_in_another_file_reaches_its_caller(tmp_path: Path) -> 
     assert before == ["2.0"]
     assert after == ["10.0"]
     assert len(list((tmp_path / "cache" / "microslip").iterdir())) == 2
+
+
+def test_edit_of_a_neighbour_in_another_package_reaches_its_caller(
+    tmp_path: Path,
+) -> None:
+    folder = tmp_path / "lending"
+    folder.mkdir()
+    lender = folder / "lender.py"
+    lender.write_text(LENDER, encoding="utf-8")
+    (folder / "borrower.py").write_text(BORROWER, encoding="utf-8")
+    places: dict[str, Path | str] = {
+        "PYTHONPATH": f"{tmp_path}{os.pathsep}{PACKAGE.parent}",
+        "XDG_CACHE_HOME": tmp_path / "cache",
+    }
+
+    before, again = (run(BORROWED, **places) for _ in range(2))
+    lender.write_text(LENDER.replace("2.0", "5.0"), encoding="utf-8")
+    after = run(BORROWED, **places)
+
+    assert before == ["6.0", "0"]
+    assert again == ["6.0", "1"]
+    assert after == ["15.0", "0"]
+
+
+@pytest.mark.slow
+def test_edit_of_the_record_reaches_the_march(tmp_path: Path) -> None:
+    copies = tmp_path / "copy"
+    for package in (PACKAGE, TIMEDOMAIN):
+        shutil.copytree(package, copies / package.name)
+    places: dict[str, Path | str] = {
+        "PYTHONPATH": f"{copies}{os.pathsep}{TESTS}",
+        "XDG_CACHE_HOME": tmp_path / "cache",
+    }
+    record, formula = copies / "timedomain" / "record.py", "= 0.5 * np.dot(velocity"
+    text = record.read_text(encoding="utf-8")
+
+    (before,) = run(MARCH, **places)
+    edited = text.replace(formula, formula.replace("0.5", "5.0"))
+    record.write_text(edited, encoding="utf-8")
+    (after,) = run(MARCH, **places)
+
+    assert text.count(formula) == 1
+    assert float(after) == pytest.approx(10.0 * float(before), rel=1e-12)
 
 
 def test_unchanged_copy_of_the_package_shares_the_name_of_the_cache_folder(

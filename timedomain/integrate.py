@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -15,6 +16,9 @@ from microslip_mechanics.time_history import TimeHistory
 from timedomain.newmark import Operators, march
 from timedomain.record import FLOWS, STORES, accumulate, row_length, store
 from timedomain.start import Start, at_rest, first_state, meters, stored_energy
+
+MOST_DIVISIONS = 20
+"""a step in a million parts"""
 
 
 class IntegrationError(MicroslipError):
@@ -35,11 +39,21 @@ class MarchOptions:
     """how often a step that does not converge is halved"""
 
     def __post_init__(self) -> None:
-        """Check the step."""
-        if not self.time_step > 0.0:
-            raise ValueError(f"time step {self.time_step:g} s: give a positive one")
-        if self.store_every < 1:
+        """Check that each option is a number that a march can use."""
+        if not 0.0 < self.time_step < math.inf:
+            raise ValueError(
+                f"time step {self.time_step:g} s: give a positive finite one"
+            )
+        if not 1 <= self.store_every < math.inf:
             raise ValueError(f"store every {self.store_every} steps: give at least 1")
+        if not 0.0 < self.tolerance < 1.0:
+            raise ValueError(
+                f"tolerance {self.tolerance:g}: give one between 0 and 1, such as 1e-9"
+            )
+        if not 1 <= self.divisions <= MOST_DIVISIONS:
+            raise ValueError(
+                f"{self.divisions} divisions of a step: give 1 to {MOST_DIVISIONS}"
+            )
 
 
 def integrate(
@@ -67,16 +81,21 @@ def integrate(
 
     Raises
     ------
+    ValueError
+        If the block has no length.
     IntegrationError
         If a step does not converge even when it is divided; what was yielded stays.
     """
+    if not 0.0 < block < math.inf:
+        raise ValueError(f"block of {block:g} s: give a positive finite length")
     steps = max(1, int(np.ceil(history.duration / options.time_step - 1e-9)))
     stride = min(options.store_every, steps)
     rows = -(-steps // stride)
-    step = history.duration / (rows * stride)
     options = replace(options, store_every=stride)
-    marching = _March(problem, history, options, step, start or at_rest(problem))
-    per_block = max(1, round(block / (step * stride)))
+    marching = _March(
+        problem, history, options, rows * stride, start or at_rest(problem)
+    )
+    per_block = max(1, round(block * rows / history.duration))
     for first in range(0, rows, per_block):
         count = min(per_block, rows - first)
         yield marching.block(first * stride, count * stride)
@@ -90,13 +109,14 @@ class _March:
         problem: Problem,
         history: LoadHistory,
         options: MarchOptions,
-        step: float,
+        steps: int,
         start: Start,
     ) -> None:
         self._problem, self._history = problem, history
-        self._options, self._step = options, step
+        self._options, self._steps = options, steps
+        self._step = history.duration / steps
         self._shapes = np.stack([problem.preload, problem.drive], axis=1)
-        self._operators = _operators(problem, self._shapes, step)
+        self._operators = _operators(problem, self._shapes, self._step)
         self._state = first_state(problem, history, start)
         self._meters = meters(problem, self._shapes)
         self._stored_at_start = stored_energy(problem, self._state)
@@ -108,7 +128,7 @@ class _March:
         stride, points = self._options.store_every, self._problem.interface.points
         probes = len(self._problem.probes.names)
         rows = np.empty((count // stride, row_length(probes, len(points.load))))
-        times = (first + 1 + np.arange(count)) * self._step
+        times = self._times(first + np.arange(1.0, count + 1.0))
         factors = self._history.factors(times)
         done, iterations, divided = 0, 0, 0
         while True:
@@ -138,7 +158,7 @@ class _March:
         before = [array.copy() for array in (*self._state, *self._meters)]
         for halvings in range(1, self._options.divisions + 1):
             parts = 2**halvings
-            times = (step + np.arange(1, parts + 1) / parts) * self._step
+            times = self._times(step + np.arange(1.0, parts + 1.0) / parts)
             operators = _operators(self._problem, self._shapes, self._step / parts)
             done, iterations = march(
                 operators,
@@ -159,6 +179,10 @@ class _March:
             f"in {parts} parts: "
             "give a shorter time step, a larger threshold velocity or a softer contact"
         )
+
+    def _times(self, steps: Array) -> Array:
+        """Return the times after so many steps; the last is exactly the duration."""
+        return self._history.duration * (steps / self._steps)
 
     def _measure(self, factors: Array, step: float) -> None:
         points = self._problem.interface.points

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -41,17 +42,18 @@ class SweptSine:
     """frequency at the end [Hz]"""
 
     def __post_init__(self) -> None:
-        """Check the order of the times."""
-        if not 0.0 <= self.ramp <= self.start < self.end <= self.duration:
+        """Check the order of the times, and the frequencies."""
+        ordered = 0.0 <= self.ramp <= self.start < self.end <= self.duration
+        if not (ordered and self.duration < math.inf):
             raise ValueError(
                 f"ramp {self.ramp:g} s, start {self.start:g} s, end {self.end:g} s, "
                 f"duration {self.duration:g} s: "
-                "give 0 <= ramp <= start < end <= duration"
+                "give finite times, 0 <= ramp <= start < end <= duration"
             )
-        if not (self.lowest > 0.0 and self.highest > 0.0):
+        if not (0.0 < self.lowest < math.inf and 0.0 < self.highest < math.inf):
             raise ValueError(
                 f"frequencies {self.lowest:g} and {self.highest:g} Hz: "
-                "give positive ones"
+                "give positive finite ones"
             )
         if self.lowest == self.highest:
             raise ValueError(
@@ -87,6 +89,17 @@ class Dwell:
     """[rad/s]"""
     duration: float
     """[s]"""
+
+    def __post_init__(self) -> None:
+        """Check that both are positive and finite."""
+        if not 0.0 < self.frequency < math.inf:
+            raise ValueError(
+                f"frequency {self.frequency:g} rad/s: give a positive finite one"
+            )
+        if not 0.0 < self.duration < math.inf:
+            raise ValueError(
+                f"duration {self.duration:g} s: give a positive finite one"
+            )
 
     def factors(self, time: Array) -> Array:
         """Return the factors of preload and drive, shape (times, 2)."""

@@ -95,13 +95,17 @@ def test_preload_without_ramp_is_full_from_the_start() -> None:
         {"end": 11.0},
         {"duration": 7.0},
         {"start": float("nan")},
+        {"duration": float("inf")},
+        {"end": float("inf"), "duration": float("inf")},
     ],
 )
-def test_times_in_the_wrong_order_are_refused(times: dict[str, float]) -> None:
+def test_times_that_are_infinite_or_in_the_wrong_order_are_refused(
+    times: dict[str, float],
+) -> None:
     given = {"ramp": 1.0, "start": 2.0, "end": 8.0, "duration": 10.0} | times
     message = (
         "ramp {ramp:g} s, start {start:g} s, end {end:g} s, duration {duration:g} s: "
-        "give 0 <= ramp <= start < end <= duration"
+        "give finite times, 0 <= ramp <= start < end <= duration"
     ).format(**given)
 
     with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
@@ -110,12 +114,18 @@ def test_times_in_the_wrong_order_are_refused(times: dict[str, float]) -> None:
 
 @pytest.mark.parametrize(
     ("lowest", "highest"),
-    [(0.0, 145.0), (125.0, 0.0), (125.0, -1.0), (float("nan"), 145.0)],
+    [
+        (0.0, 145.0),
+        (125.0, 0.0),
+        (125.0, -1.0),
+        (float("nan"), 145.0),
+        (125.0, float("inf")),
+    ],
 )
-def test_frequencies_that_are_not_positive_are_refused(
+def test_frequencies_that_are_not_positive_and_finite_are_refused(
     lowest: float, highest: float
 ) -> None:
-    message = f"frequencies {lowest:g} and {highest:g} Hz: give positive ones"
+    message = f"frequencies {lowest:g} and {highest:g} Hz: give positive finite ones"
 
     with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
         replace(SWEEP, lowest=lowest, highest=highest)
@@ -137,3 +147,15 @@ def test_dwell_holds_the_preload_and_drives_a_sine_from_rest() -> None:
     assert factors.shape == (1001, 2)
     np.testing.assert_array_equal(factors[:, 0], 1.0)
     np.testing.assert_array_equal(factors[:, 1], np.sin(850.0 * time))
+
+
+@pytest.mark.parametrize("wrong", [0.0, -2.0, np.nan, np.inf])
+@pytest.mark.parametrize(("name", "unit"), [("frequency", "rad/s"), ("duration", "s")])
+def test_dwell_that_is_not_positive_and_finite_is_refused(
+    name: str, unit: str, wrong: float
+) -> None:
+    given = {"frequency": 850.0, "duration": 2.0} | {name: wrong}
+
+    text = f"^{name} {wrong:g} {unit}: give a positive finite one$"
+    with pytest.raises(ValueError, match=text):
+        Dwell(**given)

@@ -156,29 +156,11 @@ def _newton(
     """
     half = 0.5 * operators.step
     compliance = operators.compliance
-    guess = free - np.dot(compliance, state.reaction)
-    scale = _norm(free) + 1e-300
     tangent = np.empty_like(compliance)
-    reaction = _reaction(
-        operators,
-        points,
-        state,
-        displacement + half**2 * guess,
-        velocity + half * guess,
-        tangent,
-        tangents,
-    )
-    residual = guess - free + np.dot(compliance, reaction)
-    size = _norm(residual)
-    for iteration in range(NEWTON_LIMIT):
-        if size <= tolerance * (scale + _norm(guess)):
-            return reaction, iteration
-        matrix = np.dot(compliance, tangent)
-        for i in range(guess.size):
-            matrix[i, i] += 1.0
-        change = residual.copy()
-        if not solve_in_place(matrix, change):
-            return reaction, -1
+    guess = free - np.dot(compliance, state.reaction)
+    change = np.zeros_like(guess)
+    scale, size = _norm(free) + 1e-300, np.inf
+    for iteration in range(NEWTON_LIMIT + 1):
         shrink, reached = 1.0, np.inf
         for _ in range(HALVINGS):
             trial = guess - shrink * change
@@ -199,6 +181,14 @@ def _newton(
         if not reached < size:
             return reaction, -1
         guess, size = trial, reached
+        if size <= tolerance * (scale + _norm(guess)):
+            return reaction, iteration
+        matrix = np.dot(compliance, tangent)
+        for i in range(guess.size):
+            matrix[i, i] += 1.0
+        change = residual.copy()
+        if not solve_in_place(matrix, change):
+            return reaction, -1
     return reaction, -1
 
 

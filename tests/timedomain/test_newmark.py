@@ -1,5 +1,10 @@
 """Order of the march on smooth arcs: free, sticking, sliding, pressed together."""
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 import scipy.integrate
@@ -17,6 +22,20 @@ pytestmark = pytest.mark.kernels
 MASS, LOAD, FRICTION = 2.0, 1.7, 0.3
 STEPS = (32, 64, 128, 256)
 """few enough for a march without compiled kernels"""
+ONE_ITERATION = """
+from contact_tables import contact_points
+from microslip_mechanics.excitation import Dwell
+from small_problems import NORMAL, from_rest, marched, mass_on_contact
+from timedomain import newmark
+from timedomain.integrate import MarchOptions
+newmark.NEWTON_LIMIT = 1
+points = contact_points(stiffness=300.0, exponent=1.0, damping=0.0, friction=0)
+problem = mass_on_contact(points, direction=NORMAL, preload=3.0, drive=0.5)
+history = marched(
+    problem, Dwell(1.0, 0.1), MarchOptions(0.01), start=from_rest(problem)
+)
+print(history.iterations, history.divided)
+"""
 
 
 def last(problem: Problem, steps: int, *, duration: float, start: Start) -> np.ndarray:
@@ -201,3 +220,18 @@ def test_hunt_crossley_contact_rebounds_with_second_order() -> None:
 
     measured = order(problem, exact, duration=duration, start=moving(0.02, 0.5))
     assert measured == pytest.approx(2.0, abs=0.1)
+
+
+def test_the_last_iteration_may_converge() -> None:
+    # Without compiled kernels, so that the limit can be changed. The contact is
+    # linear: one iteration solves a step.
+    done = subprocess.run(
+        [sys.executable, "-c", ONE_ITERATION],
+        cwd=Path(__file__).parents[1],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+
+    assert done.stdout.split() == ["10", "0"]

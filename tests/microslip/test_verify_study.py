@@ -267,6 +267,16 @@ def test_quasi_static_energy_of_the_rate_does_not_depend_on_slowness() -> None:
     assert rates[0] == pytest.approx(math.log(145.0 / 125.0) / 6.0)
 
 
+@pytest.mark.parametrize("slower", ["1000.1", "1e300"])
+def test_a_sweep_of_more_than_a_thousand_times_is_refused(
+    slower: str, run: Run, quick_scene: Path
+) -> None:
+    status, output, error = run("verify", str(quick_scene), "--slower", "1", slower)
+
+    assert (status, output) == (2, "")
+    assert f"{slower} times as long is too long: give at most 1000" in error
+
+
 def test_a_sweep_beyond_the_curve_is_refused(run: Run, quick_scene: Path) -> None:
     arguments = sets("curve.highest=131", "sweep.lowest=130", "sweep.highest=132")
 

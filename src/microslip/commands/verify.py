@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
     from timedomain.verify import Agreement
 
+SLOWEST = 1000.0
+"""times the length of the scene's sweep"""
 ORBITS = """\
 steady state: march started on the orbit that harmonic balance found
 frequency  amplitude [mm]   deviation [%]                   distance from orbit  drift
@@ -50,11 +52,12 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         )
     parser.add_argument(
         "--slower",
-        type=arguments.positive,
+        type=_slowness,
         nargs="*",
         default=[1.0, 4.0, 10.0],
         metavar="FACTOR",
-        help="lengths of the sweeps over that of the scene (default: 1 4 10)",
+        help="lengths of the sweeps over that of the scene, at most "
+        f"{SLOWEST:g} (default: 1 4 10)",
     )
     parser.set_defaults(run=_run)
 
@@ -70,6 +73,15 @@ def _several(text: str) -> int:
     number = int(text)
     if number < 2:
         raise argparse.ArgumentTypeError(f"{number} is too few: give at least 2")
+    return number
+
+
+def _slowness(text: str) -> float:
+    number = arguments.positive(text)
+    if number > SLOWEST:
+        raise argparse.ArgumentTypeError(
+            f"{text} times as long is too long: give at most {SLOWEST:g}"
+        )
     return number
 
 

@@ -18,7 +18,6 @@ from microslip_mechanics.time_history import TimeHistory
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-NAME_LENGTH = 32
 Result: TypeAlias = ResponseCurve | TimeHistory
 Schema: TypeAlias = dict[str, tuple[tuple[str, ...], str, str]]
 """for each variable its dimensions, unit and meaning"""
@@ -89,8 +88,8 @@ def save(path: Path, stored: Stored) -> None:
         with netcdf_file(path, "w", version=2) as file:
             for name, value in _attributes(kind, stored).items():
                 setattr(file, name, value)
-            for name, (dimensions, unit, meaning) in schema.items():
-                values = _plain(getattr(stored.result, name))
+            for name, values in _columns(stored.result, schema).items():
+                dimensions, unit, meaning = schema[name]
                 _dimensions(file, dimensions, values.shape)
                 variable = file.createVariable(name, values.dtype, dimensions)
                 variable[:] = values
@@ -165,11 +164,25 @@ def _attribute(value: object) -> object:
     return np.float64(value) if isinstance(value, float) else value
 
 
-def _plain(value: object) -> np.ndarray:
+def _columns(result: Result, schema: Schema) -> dict[str, np.ndarray]:
+    """Return what the file holds of each variable; those without content are left out.
+
+    A dimension of length zero would be netCDF 3's sign for an unlimited one.
+    """
+    found = {name: getattr(result, name) for name in schema}
+    names = [
+        each for value in found.values() if isinstance(value, tuple) for each in value
+    ]
+    longest = max((len(name.encode()) for name in names), default=0)
+    plain = {name: _plain(value, max(1, longest)) for name, value in found.items()}
+    return {name: values for name, values in plain.items() if values.size}
+
+
+def _plain(value: object, longest: int) -> np.ndarray:
     """Return an array that netCDF 3 knows: float64, or characters for names."""
     if isinstance(value, tuple):
-        names = np.array([name.encode() for name in value], dtype=f"S{NAME_LENGTH}")
-        return names.view("S1").reshape(len(value), NAME_LENGTH)
+        names = np.array([name.encode() for name in value], dtype=f"S{longest}")
+        return names.view("S1").reshape(len(value), longest)
     return np.asarray(value, dtype=float)
 
 
@@ -191,7 +204,8 @@ def _read(path: Path, file: netcdf_file) -> Stored:
     made: dict[str, Any] = {}
     for field in dataclasses.fields(result):
         if field.name in schema:
-            made[field.name] = _value(file.variables[field.name].data)
+            dimensions, *_ = schema[field.name]
+            made[field.name] = _variable(file, field.name, dimensions)
         else:
             value = getattr(file, field.name)
             made[field.name] = (
@@ -200,9 +214,16 @@ def _read(path: Path, file: netcdf_file) -> Stored:
     return Stored(result(**made), scene, command)
 
 
-def _value(data: np.ndarray) -> object:
-    """Return names as a tuple of texts, numbers as float64 in native order."""
+def _variable(file: netcdf_file, name: str, dimensions: tuple[str, ...]) -> object:
+    """Return names as a tuple of texts, numbers as float64 in native order.
+
+    What the file leaves out is empty, if one of its dimensions is.
+    """
+    sizes = [file.dimensions.get(each) or 0 for each in dimensions]
+    if name not in file.variables and 0 in sizes:
+        return () if "name" in dimensions else np.zeros(sizes)
+    data = file.variables[name].data
     if data.dtype.kind == "S":
-        rows = np.ascontiguousarray(data).view(f"S{NAME_LENGTH}")
-        return tuple(name.decode() for name in rows.ravel())
+        rows = np.ascontiguousarray(data).view(f"S{data.shape[-1]}")
+        return tuple(text.decode() for text in rows.ravel())
     return data.astype(float)

@@ -41,13 +41,11 @@ def attribute(place: object, name: str) -> str:
     return text.decode()
 
 
-def test_result_comes_back_bit_for_bit(result: Result, saved: Path) -> None:
-    stored = load(saved)
-
-    assert type(stored.result) is type(result)
-    assert (stored.scene, stored.command) == (SCENE, COMMAND)
+def check_same(result: Result, stored: Result) -> None:
+    """Check that each field came back bit for bit, with its type and shape."""
+    assert type(stored) is type(result)
     for field in dataclasses.fields(result):
-        before, after = (getattr(each, field.name) for each in (result, stored.result))
+        before, after = (getattr(each, field.name) for each in (result, stored))
         assert type(after) is type(before), field.name
         if isinstance(before, np.ndarray):
             assert after.dtype == before.dtype, field.name
@@ -56,6 +54,58 @@ def test_result_comes_back_bit_for_bit(result: Result, saved: Path) -> None:
             assert after.tobytes() == before.tobytes(), field.name
         else:
             assert after == before, field.name
+
+
+def test_result_comes_back_bit_for_bit(result: Result, saved: Path) -> None:
+    stored = load(saved)
+
+    assert (stored.scene, stored.command) == (SCENE, COMMAND)
+    check_same(result, stored.result)
+
+
+@pytest.mark.parametrize("missing", ["contacts", "probes"])
+def test_result_without_contact_points_or_probes_comes_back(
+    missing: str, result: Result, tmp_path: Path
+) -> None:
+    schema = next(schema for kind, schema in SCHEMAS.values() if type(result) is kind)
+    dimension = schema[missing][0][0]
+    none = {
+        name: getattr(result, name)[..., :0]
+        for name, (dimensions, *_) in schema.items()
+        if dimension in dimensions[1:]
+    }
+    without = dataclasses.replace(result, **none, **{missing: ()})  # type: ignore[arg-type]
+
+    save(tmp_path / "result.nc", Stored(without, SCENE, COMMAND))
+
+    assert none
+    check_same(without, load(tmp_path / "result.nc").result)
+
+
+@pytest.mark.parametrize("longest", ["x" * 33, "ä" * 40, "y"], ids=len)
+def test_names_come_back_whole_however_long(
+    longest: str, result: Result, tmp_path: Path
+) -> None:
+    contacts = ("", longest, "B2")
+    named = dataclasses.replace(result, contacts=contacts)
+
+    save(tmp_path / "result.nc", Stored(named, SCENE, COMMAND))
+
+    assert load(tmp_path / "result.nc").result.contacts == contacts
+
+
+def test_file_without_a_variable_is_no_result(
+    result: Result, saved: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kind = next(kind for kind, (type_, _) in SCHEMAS.items() if type(result) is type_)
+    schema = dict(SCHEMAS[kind][1])
+    del schema["velocity" if "velocity" in schema else "peak"]
+    monkeypatch.setitem(SCHEMAS, kind, (type(result), schema))
+    save(saved, Stored(result, SCENE, COMMAND))
+    monkeypatch.undo()
+
+    with pytest.raises(StoreError, match="is not a result file"):
+        load(saved)
 
 
 def test_every_field_is_a_variable_or_an_attribute(result: Result, saved: Path) -> None:

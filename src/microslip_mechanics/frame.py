@@ -96,6 +96,11 @@ class Frame:
         Returns
         -------
         Shape ``(3, dofs)``; a force at the point enters through the transpose.
+
+        Raises
+        ------
+        ValueError
+            If the frame has no such node.
         """
         first = 6 * self._index(node)
         rows = np.zeros((3, 6 * len(self.nodes)))
@@ -104,7 +109,10 @@ class Frame:
         return rows[:, self._free()]
 
     def _index(self, name: str) -> int:
-        return [node.name for node in self.nodes].index(name)
+        names = [node.name for node in self.nodes]
+        if name not in names:
+            raise ValueError(f"no node {name!r}: give one of {', '.join(names)}")
+        return names.index(name)
 
     def _free(self) -> list[int]:
         return [

@@ -1,5 +1,6 @@
 """Frames: assembly, rigid motions, damping, and the structure of the rig."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -174,6 +175,23 @@ def test_force_at_a_point_of_a_node_enters_with_its_moment() -> None:
     moment = np.cross(point - frame.nodes[2].position, force)
     np.testing.assert_allclose(load[12:], [*force, *moment], rtol=1e-14)
     np.testing.assert_array_equal(load[:12], 0.0)
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda frame: frame.motion("d", np.zeros(3)),
+        lambda frame: replace(
+            frame, springs=(GroundSpring("d", np.array([0.0, 0.0, 1.0]), 1e5),)
+        ).structure(),
+    ],
+    ids=["motion", "spring"],
+)
+def test_node_that_the_frame_does_not_have_is_refused(
+    ask: Callable[[Frame], object],
+) -> None:
+    with pytest.raises(ValueError, match=r"^no node 'd': give one of a, b, c$"):
+        ask(free_frame())
 
 
 @pytest.mark.parametrize(("model", "dofs"), [("full", 54), ("B", 51), ("A", 51)])

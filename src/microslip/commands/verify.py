@@ -62,18 +62,15 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.set_defaults(run=_run)
 
 
-def _count(text: str) -> int:
+def _count(text: str, least: int = 1) -> int:
     number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{number} is too few: give at least 1")
+    if number < least:
+        raise argparse.ArgumentTypeError(f"{number} is too few: give at least {least}")
     return number
 
 
 def _several(text: str) -> int:
-    number = int(text)
-    if number < 2:
-        raise argparse.ArgumentTypeError(f"{number} is too few: give at least 2")
-    return number
+    return _count(text, 2)
 
 
 def _slowness(text: str) -> float:

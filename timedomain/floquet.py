@@ -67,7 +67,7 @@ def floquet_multipliers(
     coarse, fine = (
         _marched(structure, orbit, cuts, steps // 2, refinement=each) for each in (1, 2)
     )
-    before = np.linalg.eigvals(fine)
+    before = np.linalg.eigvals(coarse)
     values = np.linalg.eigvals(fine + (fine - coarse) / 3.0)
     values = values[np.argsort(-np.abs(values), kind="stable")]
     distance = np.abs(values[:, None] - before)
@@ -86,10 +86,9 @@ def _marched(
     """Return the map of (q, q̇/s) over a period, each step in ``refinement`` parts."""
     counts = refinement * cuts.steps(steps)
     lengths = np.diff(cuts.edges) / counts
-    state = np.eye(2 * structure.stiffness.size)
+    state: Array = np.eye(2 * structure.stiffness.size)
     for count, begin, length in zip(counts, cuts.edges[:-1], lengths, strict=True):
-        phase = begin + length * (np.arange(count) + 0.5)
-        stiffness, damping = orbit.tangents(phase)
+        stiffness, damping = orbit.mean_tangents(begin, length, count)
         elastic, viscous = stiffness.mean(axis=0), damping.mean(axis=0)
         step = float(length) / orbit.motion.frequency
         state = propagate(

@@ -52,7 +52,7 @@ def pieces(orbit: RelativeOrbit) -> Pieces:
 
 
 def transitions(orbit: RelativeOrbit) -> Array:
-    """Return the phases [rad] in (0, 2π) at which a point changes its regime, sorted."""
+    """Return the phases [rad] in (0, 2π) at which a point changes its regime."""
     count = orbit.samples(smallest=SMALLEST, largest=LARGEST)
     phase = np.linspace(0.0, 2.0 * np.pi, count + 1)
     regime = orbit.regimes(phase)

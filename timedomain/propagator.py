@@ -2,13 +2,14 @@
 
 In mass-normalised modes the state is (q, q̇/s) with a scale s of velocities. Over a
 piece of the period the contact has the mean tangents K̄, C̄ and deviates from them by
-K', C'. Structure and mean tangents are one constant matrix A, whose exponential is exact
-over a step h. The deviation's force is held constant over a step,
+K', C'. Structure and mean tangents are one constant matrix A, whose exponential is
+exact over a step h. The deviation's force is held constant over a step,
 
     f = K' (y₀ + y₁)/2 + C' (y₁ − y₀)/h ,    y₁ = y₁(free) − D f ,
 
 which is of second order and symmetric in time: errors are even in h. It is stable for
-every h, since f takes out no less than the work that C̄ gives in excess.
+every h where K̄ + K' and C̄ + C' are symmetric and not negative: f does the work
+−½ Δ(yᵀ K' y) − Δyᵀ C' Δy/h, and C̄ takes out Δyᵀ C̄ Δy/h or more.
 """
 
 from __future__ import annotations

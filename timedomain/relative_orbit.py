@@ -13,6 +13,9 @@ from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(3)
+"""of the mean over a step, on −1 … 1"""
+
 
 @dataclass(frozen=True, slots=True)
 class RelativeOrbit:
@@ -47,6 +50,31 @@ class RelativeOrbit:
         """
         stiffness, damping = np.zeros((2, phase.size, *2 * self.basis.shape[1:]))
         _tangents(self.points, self.basis, *self._seen(phase), stiffness, damping)
+        return stiffness, damping
+
+    def mean_tangents(
+        self, begin: float, length: float, steps: int
+    ) -> tuple[Array, Array]:
+        """Return the tangents' means over equal steps, each (steps, rank, rank).
+
+        The means are symmetric in time, and see the 1/√t of normal damping at both ends
+        of a step, where a contact may close or open.
+
+        Parameters
+        ----------
+        begin, length
+            Phase of the first step and of one step [rad].
+        steps
+            How many.
+        """
+        place = 0.5 * (1.0 + NODES)
+        weight = 3.0 * WEIGHTS * place * (1.0 - place)
+        inside = place**2 * (3.0 - 2.0 * place)
+        phase = begin + length * np.add.outer(inside, np.arange(steps))
+        stiffness, damping = (
+            np.tensordot(weight, each.reshape(*phase.shape, *each.shape[1:]), axes=1)
+            for each in self.tangents(phase.ravel())
+        )
         return stiffness, damping
 
     def regimes(self, phase: Array) -> NDArray[np.int64]:
@@ -106,7 +134,10 @@ def _tangents(
 
 @kernel
 def _regimes(
-    points: ContactPoints, displacement: Array, velocity: Array, found: NDArray[np.int64]
+    points: ContactPoints,
+    displacement: Array,
+    velocity: Array,
+    found: NDArray[np.int64],
 ) -> None:
     force, stiff, viscous = np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
     for phase in range(displacement.shape[0]):

@@ -4,11 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.special import mathieu_a
 
 from contact_tables import contact_points
 from convergence import observed_order
-from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -126,6 +127,45 @@ def test_the_product_of_multipliers_is_that_of_liouville(mean: float) -> None:
     exact = np.exp(-rate.mean() / MASS * TURN / FREQUENCY)
     assert np.prod(found.values).real == pytest.approx(exact, rel=1e-6)
     assert found.error.max() < 1e-3
+
+
+def exact_monodromy(elastic: float, viscous: float, mean: float, moved: float) -> Array:
+    """Integrate small motions of a mass on K δ^1.5 + C √δ δ̇, tangents written out."""
+
+    def slope(time: float, state: Array) -> Array:
+        depth = mean + moved * np.sin(FREQUENCY * time)
+        rate = FREQUENCY * moved * np.cos(FREQUENCY * time)
+        stiffness = 1.5 * elastic * np.sqrt(depth)
+        stiffness += 0.5 * viscous * rate / np.sqrt(depth)
+        small, moving = state.reshape(2, 2)
+        force = stiffness * small + viscous * np.sqrt(depth) * moving
+        return np.concatenate([moving, -force / MASS])
+
+    span = (0.0, TURN / FREQUENCY)
+    found = solve_ivp(
+        slope, span, np.eye(2).ravel(), method="DOP853", rtol=1e-12, atol=1e-14
+    )
+    last: Array = found.y[:, -1].reshape(2, 2)
+    return last
+
+
+def test_varying_stiffness_and_damping_are_those_of_a_general_integrator() -> None:
+    elastic, viscous, mean, moved = 200.0, 12.0, 0.5, 0.4
+    points = contact_points(
+        exponent=1.5, stiffness=elastic, damping=viscous, friction=FRICTIONLESS
+    )
+    problem = mass_on_contact(points, direction=NORMAL, mass=MASS)
+    response = orbit(mean, 0.0, moved)
+    exact = exact_monodromy(elastic, viscous, mean, moved)
+
+    found = monodromy(problem, response, steps=4000)
+    multipliers = floquet_multipliers(problem, response, steps=4000).values
+
+    accepted = 2e-7 * np.abs(exact).max()
+    np.testing.assert_allclose(found, exact, rtol=0.0, atol=accepted)
+    poles = np.linalg.eigvals(exact).astype(complex)
+    away = np.abs(in_order(multipliers) - in_order(poles))
+    assert away.max() < 1e-9
 
 
 @pytest.mark.parametrize("threshold", [0.1, 1e-2, 1e-4])

@@ -1,0 +1,134 @@
+"""A small motion over one step: structure and mean contact exact, the rest implicit.
+
+In mass-normalised modes the state is (q, q̇/s) with a scale s of velocities. Over a
+piece of the period the contact has the mean tangents K̄, C̄ and deviates from them by
+K', C'. Structure and mean tangents are one constant matrix A, whose exponential is
+exact over a step h. The deviation's force is held constant over a step,
+
+    f = K' (y₀ + y₁)/2 + C' (y₁ − y₀)/h ,    y₁ = y₁(free) − D f ,
+
+which is of second order and symmetric in time: errors are even in h. It is stable for
+every h where K̄ + K' and C̄ + C' are symmetric and not negative: f does the work
+−½ Δ(yᵀ K' y) − Δyᵀ C' Δy/h, and C̄ takes out Δyᵀ C̄ Δy/h or more.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import scipy.linalg
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.jit import kernel
+from microslip_mechanics.problem import Problem
+
+
+@dataclass(frozen=True, slots=True)
+class ModalStructure:
+    """A structure in its undamped modes, and what its contacts see of them."""
+
+    shapes: Array
+    """Φ, mass-normalised, shape (dofs, modes)"""
+    inverse: Array
+    """Φ⁻¹ = Φᵀ M, shape (modes, dofs)"""
+    stiffness: Array
+    """Ω² [1/s²], shape (modes,)"""
+    damping: Array
+    """Φᵀ C Φ [1/s], shape (modes, modes)"""
+    selection: Array
+    """relative coordinates from the modes, shape (rank, modes)"""
+    scale: float
+    """s [rad/s]: velocities over it compare with displacements"""
+
+    @classmethod
+    def of(cls, problem: Problem, frequency: float) -> ModalStructure:
+        """Return the modes; ``frequency`` [rad/s] is the least scale of velocities."""
+        structure = problem.structure
+        _, selection = problem.interface.relative_motion()
+        stiffness, shapes = scipy.linalg.eigh(structure.stiffness, structure.mass)
+        return cls(
+            shapes,
+            shapes.T @ structure.mass,
+            stiffness,
+            shapes.T @ structure.damping @ shapes,
+            np.ascontiguousarray(selection @ shapes),
+            max(frequency, float(np.sqrt(max(stiffness[-1], 0.0)))),
+        )
+
+    def physical(self, propagated: Array) -> Array:
+        """Return a map of (q, q̇/s) as the map of (u, u̇)."""
+        modes = self.stiffness.size
+        result = np.empty_like(propagated)
+        top, bottom = slice(modes), slice(modes, None)
+        for row, up in ((top, 1.0), (bottom, self.scale)):
+            for column, down in ((top, 1.0), (bottom, 1.0 / self.scale)):
+                block = self.shapes @ propagated[row, column] @ self.inverse
+                result[row, column] = up * down * block
+        return result
+
+
+class Propagator(NamedTuple):
+    """One step with constant tangents, and its answer to a constant contact force."""
+
+    step: float
+    """h [s]"""
+    free: Array
+    """exp(A h), shape (2 modes, 2 modes)"""
+    answer: Array
+    """state from a contact force on the relative coordinates, (2 modes, rank)"""
+    compliance: Array
+    """D [m/N]: relative displacement from that force, shape (rank, rank)"""
+    selection: Array
+    """relative coordinates from the modes, shape (rank, modes)"""
+
+
+def propagator(
+    structure: ModalStructure, stiffness: Array, damping: Array, step: float
+) -> Propagator:
+    """Return the step with constant contact tangents, each of shape (rank, rank)."""
+    selection, scale = structure.selection, structure.scale
+    rank, modes = selection.shape
+    matrix = np.zeros((2 * modes + rank, 2 * modes + rank))
+    top, bottom = slice(modes), slice(modes, 2 * modes)
+    matrix[top, bottom] = scale * np.eye(modes)
+    elastic = np.diag(structure.stiffness) + selection.T @ stiffness @ selection
+    matrix[bottom, top] = -elastic / scale
+    matrix[bottom, bottom] = -structure.damping - selection.T @ damping @ selection
+    matrix[bottom, 2 * modes :] = selection.T / scale
+    moved = scipy.linalg.expm(step * matrix)
+    answer = np.ascontiguousarray(moved[: 2 * modes, 2 * modes :])
+    free = np.ascontiguousarray(moved[: 2 * modes, : 2 * modes])
+    return Propagator(step, free, answer, selection @ answer[:modes], selection)
+
+
+@kernel
+def propagate(
+    propagator: Propagator, stiffness: Array, damping: Array, state: Array
+) -> Array:
+    """Return states after one step for each deviation of the tangents from the mean.
+
+    Parameters
+    ----------
+    propagator
+        The step with the mean tangents.
+    stiffness, damping
+        K' [N/m] and C' [N s/m] at mid-step, each of shape ``(steps, rank, rank)``.
+    state
+        States in its columns, shape ``(2 modes, columns)``.
+    """
+    rank, modes = propagator.selection.shape
+    for step in range(stiffness.shape[0]):
+        after = np.dot(propagator.free, state)
+        if rank > 0:
+            elastic = 0.5 * stiffness[step]
+            viscous = damping[step] / propagator.step
+            forward = elastic + viscous
+            old = np.dot(propagator.selection, state[:modes])
+            new = np.dot(propagator.selection, after[:modes])
+            known = np.dot(forward, new) + np.dot(elastic - viscous, old)
+            matrix = np.eye(rank) + np.dot(forward, propagator.compliance)
+            after -= np.dot(propagator.answer, np.linalg.solve(matrix, known))
+        state = after
+    return state

@@ -5,75 +5,85 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.jacobian import terms
-from hbm.residual import HarmonicBalance
+from hbm.fourier import FourierBasis
+from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array
 
+PROBE = FourierBasis(5, 64)
+"""orders that show which harmonics a coordinate has"""
 
-class ActiveUnknowns:
-    """A harmonic balance restricted to some of its coefficients, the others zero.
 
-    On the rig, motion along z has odd harmonics only and all other motion even ones.
-    The restriction is exact as long as :attr:`excluded` stays below the tolerance: then
-    the equations that are left out hold all the same.
+def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
+    """Return the coefficients that can differ from rest, shape (11, rank).
+
+    Beginning with what the drive reaches, those are added that the structure couples to
+    what moves, or in which the contacts answer a random motion of it, from tiny to
+    sliding and lifting off. Symmetry keeps the others at rest but for rounding.
     """
-
-    def __init__(self, balance: HarmonicBalance, active: NDArray[np.bool_]) -> None:
-        """Restrict ``balance`` to the ``active`` coefficients, (2H + 1, rank)."""
-        self._balance = balance
-        self._terms = terms(active)
-        self._columns = np.append(self._terms.unknowns, active.size)
-        self._left_out = np.flatnonzero(~active)
-        self.excluded = 0.0
-        """largest residual of the equations left out, at the last evaluation [N]"""
-
-    def __call__(self, point: Array) -> tuple[Array, Array]:
-        """Return residual and Jacobian of the active unknowns."""
-        whole = self.expanded(point)
-        residual, jacobian = self._balance.evaluated(whole, self._terms)
-        self.excluded = float(np.abs(residual[self._left_out]).max(initial=0.0))
-        return residual[self._terms.unknowns], jacobian
-
-    def expanded(self, point: Array) -> Array:
-        """Return a point of the whole system from an active one."""
-        whole = np.zeros(self._columns.size + self._left_out.size)
-        whole[self._columns] = point
-        return whole
-
-    def restricted(self, point: Array) -> Array:
-        """Return an active point from one of the whole system."""
-        active: Array = point[self._columns]
-        return active
-
-
-def moving(balance: HarmonicBalance, point: Array) -> NDArray[np.bool_]:
-    """Return the coefficients that drive, structure and contacts can set moving.
-
-    Beginning with what moves at ``point``, coefficients are added that the structure
-    couples to those which move, or in which the contacts answer a random motion of
-    those, from tiny to sliding and lifting off. Mean values always move. Symmetry makes
-    the others exactly zero but for rounding.
-    """
-    coefficients, frequency = balance.split(point)
-    active = np.zeros(coefficients.shape, dtype=bool)
-    active[0] = True
-    active |= _large(coefficients)
-    active = _paired(active)
-    coupling = _coupling(balance, frequency)
-    largest = np.abs(coefficients[1:]).max(initial=1e-12)
+    contact = problem.contact(PROBE)
+    still = np.zeros((PROBE.coefficients, problem.rank))
+    still[0] = problem.rest
+    at_rest, _ = contact(still, frequency)
+    largest, driven = _stuck(problem, frequency)
+    active = np.zeros(still.shape, dtype=bool)
+    active[1:3] = driven
+    coupling = _coupling(problem, frequency)
     random = np.random.default_rng(0)
     while True:
         grown = active.copy()
-        coupled = (coupling & active[1::2, None, :]).any(axis=2)
+        grown[0] |= (coupling[0] & active[0]).any(axis=1)
+        coupled = (coupling[1:] & active[1::2, None, :]).any(axis=2)
         grown[1:] |= coupled.repeat(2, axis=0)
         for size in (1e-2, 1.0, 1e2, 1e4):
             motion = size * largest * random.normal(size=active.shape) * active
-            motion[0] = coefficients[0]
-            grown |= _large(balance.contact(motion, frequency).force)
+            motion[0] = problem.rest + 1e-3 * motion[0]
+            with np.errstate(over="ignore", invalid="ignore"):
+                force, _ = contact(motion, frequency)
+                grown |= _large(np.nan_to_num(force - at_rest))
         grown = _paired(grown)
         if np.array_equal(grown, active):
             return active
         active = grown
+
+
+def symmetric(
+    active: NDArray[np.bool_],
+) -> tuple[NDArray[np.int64], NDArray[np.bool_] | None]:
+    """Return the coordinates that move, and which of them have odd harmonics only.
+
+    The second is None if a coordinate mixes odd and even harmonics.
+    """
+    odd, even = active[1::4].any(axis=0), (active[0] | active[3::4].any(axis=0))
+    kept = np.flatnonzero(odd | even)
+    return kept, None if (odd & even).any() else odd[kept]
+
+
+def extended(active: NDArray[np.bool_], harmonics: int) -> NDArray[np.bool_]:
+    """Return the active coefficients of more harmonics, (2 harmonics + 1, rank).
+
+    ``active`` are those of the :data:`PROBE`: odd orders stand for all odd ones, even
+    orders for all even ones.
+    """
+    odd, even = active[1::4].any(axis=0), (active[0] | active[3::4].any(axis=0))
+    orders = np.arange(1, harmonics + 1) % 2 == 1
+    rows = np.where(orders[:, None], odd, even).repeat(2, axis=0)
+    result: NDArray[np.bool_] = np.vstack([even[None, :], rows])
+    return result
+
+
+def _stuck(
+    problem: RelativeProblem, frequency: float
+) -> tuple[float, NDArray[np.bool_]]:
+    """Return the amplitude of the linear response about rest, and what it moves."""
+    variable = np.array([1j * frequency])
+    stiffness, _ = problem.condensed.dynamic_stiffness(variable)
+    load, _ = problem.condensed.load(variable, problem.force[1:])
+    contact = problem.contact(PROBE)
+    contact(np.vstack([problem.rest, np.zeros((10, problem.rank))]), frequency)
+    elastic, viscous = (part[:, :, 0] for part in contact.spectra(0))
+    matrix = stiffness[0] + elastic + variable[0] * viscous
+    size = np.abs(np.linalg.lstsq(matrix, load[0], rcond=None)[0]).max(initial=0.0)
+    return max(float(size), 1e-12), _large(load[0])
 
 
 def _large(values: Array) -> NDArray[np.bool_]:
@@ -91,10 +101,10 @@ def _paired(active: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return paired
 
 
-def _coupling(balance: HarmonicBalance, frequency: float) -> NDArray[np.bool_]:
-    """Return which coordinates the structure couples, order by order from 1."""
-    orders = np.arange(1, balance.fourier.harmonics + 1)
-    stiffness, _ = balance.condensed.dynamic_stiffness(1j * frequency * orders)
+def _coupling(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
+    """Return which coordinates the structure couples, order by order from 0."""
+    orders = np.arange(PROBE.harmonics + 1)
+    stiffness, _ = problem.condensed.dynamic_stiffness(1j * frequency * orders)
     size = np.abs(stiffness)
     coupled: NDArray[np.bool_] = size > 1e-10 * size.max(
         (1, 2), keepdims=True, initial=0.0

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.fourier import FourierBasis, Transform, derivative, to_complex
-from hbm.jacobian import Spectra
-from microslip_mechanics.arrays import Array, ComplexArray
+from hbm.fourier import FourierBasis, Transform, derivative
+from hbm.sampling import Symmetry, sample
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
     ContactPoints,
     contact_force,
@@ -17,18 +17,6 @@ from microslip_mechanics.contact.law import (
     tangent_pattern,
 )
 from microslip_mechanics.jit import kernel
-
-
-@dataclass(frozen=True, slots=True)
-class PeriodicContact:
-    """Contact forces of a periodic relative motion, in the frequency domain."""
-
-    force: Array
-    """coefficients of the force on the relative coordinates [N], (2H + 1, rank)"""
-    by_frequency: Array
-    """its derivative by ω at constant coefficients [N s/rad], (2H + 1, rank)"""
-    tangents: Spectra
-    """of ∂force/∂y and ∂force/∂ẏ over the period, up to order 2H"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,73 +34,130 @@ class ContactCycle:
 
 
 class AlternatingFrequencyTime:
-    """Contact points evaluated over the samples of one period."""
+    """Contact points evaluated over the samples of one period.
+
+    Arrays that a call returns as samples are buffers, valid until the next call.
+    """
 
     def __init__(
-        self, points: ContactPoints, basis: Array, fourier: FourierBasis
+        self,
+        points: ContactPoints,
+        basis: Array,
+        fourier: FourierBasis,
+        *,
+        offset: Array | None = None,
+        odd: NDArray[np.bool_] | None = None,
     ) -> None:
-        """Plan the transforms; ``basis`` maps y to the points, (3 points, rank)."""
+        """Plan the transforms.
+
+        Parameters
+        ----------
+        points
+            Contact table.
+        basis
+            Map from the coordinates y to the points, shape ``(3 points, rank)``.
+        fourier
+            Harmonics and samples.
+        offset
+            Constant displacement of the points besides y [m], ``(3 points,)``.
+        odd
+            Which coordinates have odd harmonics only, the others even ones only,
+            shape ``(rank,)``: half a period then says all. None without that symmetry.
+        """
+        rows, rank = basis.shape
         self._points, self._basis, self._fourier = points, basis, fourier
-        rows = basis.shape[0]
-        self._displacement = Transform(rows, fourier.samples)
-        self._velocity = Transform(rows, fourier.samples)
-        self._force = Transform(rows, fourier.samples)
-        self._change = Transform(rows, fourier.samples)
+        self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
+        self._offset = np.zeros(rows) if offset is None else offset
         self._entries = _entries(points)
-        self._tangents = Transform(len(self._entries), fourier.samples)
+        self._symmetry = _symmetry(basis, self._entries, odd)
+        samples = fourier.samples
+        self._seen = samples // 2 + 1 if self._symmetry.signs.size else samples
+        self._displacement = Transform(rank, samples)
+        self._velocity = Transform(rank, samples)
+        self._force = Transform(rank, samples)
+        self._spectrum = Transform(len(self._entries), samples)
+        self._forces = np.zeros((rows, samples))
+        self._changes = np.zeros((rows, samples))
+        self._mixing = _mixing(basis, self._entries)
 
-    def __call__(self, coefficients: Array, frequency: float) -> PeriodicContact:
-        """Return force and tangents for y with ``coefficients``, (2H + 1, rank).
+    def __call__(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
+        """Return force and its derivative by ω for y, each shape (2H + 1, rank).
 
-        ``frequency`` [rad/s] turns the derivative by phase into velocity.
+        Parameters
+        ----------
+        coefficients
+            Of y [m], shape ``(2H + 1, rank)``.
+        frequency
+            Excitation frequency ω [rad/s]; turns the derivative by phase into velocity.
+
+        Returns
+        -------
+        Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
         """
         displacement, velocity = self._motion(coefficients, frequency)
-        _sample(
+        sample(
             self._points,
             displacement,
             velocity,
             self._entries,
-            self._force.samples,
-            self._change.samples,
-            self._tangents.samples,
+            self._symmetry,
+            self._forces,
+            self._changes,
+            self.tangents,
         )
-        harmonics = self._fourier.harmonics
-        force = self._force.analysis(harmonics) @ self._basis
-        change = self._change.analysis(harmonics) @ self._basis / frequency
-        spectrum = to_complex(self._tangents.analysis(2 * harmonics))
-        stiffness, damping = (self._spectrum(spectrum, kind) for kind in (0, 1))
-        parts = (stiffness.real, -stiffness.imag, damping.real, -damping.imag)
-        spectra = Spectra(*(np.ascontiguousarray(p.transpose(1, 2, 0)) for p in parts))
-        return PeriodicContact(force, change, spectra)
+        force = self._analysed(self._forces)
+        return force, self._analysed(self._changes) / frequency
+
+    @property
+    def tangents(self) -> Array:
+        """Tangents of the last call over the period, shape (entries, samples)."""
+        return self._spectrum.samples
+
+    def spectra(self, harmonics: int) -> tuple[Array, Array]:
+        """Return the tangents ∂force/∂y and ∂force/∂ẏ of the last call.
+
+        Each has shape ``(rank, rank, 2 harmonics + 1)`` in the order a₀, a₁, b₁, ….
+        """
+        kept = self._spectrum.analysis(harmonics)
+        rank = self._basis.shape[1]
+        mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, -1)
+        return mixed[0], mixed[1]
 
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
         """Return normal forces and energies over one period."""
+        self(coefficients, frequency)
         displacement, velocity = self._motion(coefficients, frequency)
-        smallest, largest, powers = _cycle(self._points, displacement, velocity)
+        half = self._symmetry.signs.size > 0
+        seen = self._fourier.samples // (2 if half else 1)
+        smallest, largest, powers = _cycle(
+            self._points, displacement, velocity, self._forces, seen
+        )
         period = 2.0 * np.pi / frequency
         return ContactCycle(smallest, largest, *(float(p) * period for p in powers))
 
     def _motion(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
-        at_points = coefficients @ self._basis.T
-        velocities = frequency * derivative(at_points)
+        displacement, velocity = self._synthesis(coefficients, frequency)
+        return displacement + self._offset[:, None], velocity
+
+    def _synthesis(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
+        """Return displacement and velocity of the points at the samples needed."""
+        displacement = self._displacement.synthesis(coefficients)
+        velocity = self._velocity.synthesis(frequency * derivative(coefficients))
+        if self._direct:
+            return displacement, velocity
+        seen = self._seen
         return (
-            self._displacement.synthesis(at_points),
-            self._velocity.synthesis(velocities),
+            np.dot(self._basis, displacement[:, :seen]),
+            np.dot(self._basis, velocity[:, :seen]),
         )
 
-    def _spectrum(self, amplitudes: ComplexArray, by_velocity: int) -> ComplexArray:
-        """Return the spectrum of one kind of tangent on the relative coordinates.
-
-        They are brought there order by order, before the products of harmonics
-        multiply their number (theory, eq. 19).
-        """
-        rows = self._basis.shape[0]
-        chosen = self._entries[:, 2] == by_velocity
-        entries = self._entries[chosen]
-        dense: ComplexArray = np.zeros((amplitudes.shape[0], rows, rows), complex)
-        dense[:, entries[:, 0], entries[:, 1]] = amplitudes[:, chosen]
-        spectrum: ComplexArray = self._basis.T @ dense @ self._basis
-        return spectrum
+    def _analysed(self, rows: Array) -> Array:
+        """Return the coefficients of samples at the points, brought to y."""
+        if self._direct:
+            self._force.samples[:] = rows
+        else:
+            np.dot(self._basis.T, rows, out=self._force.samples)
+        return self._force.analysis(self._fourier.harmonics)
 
 
 def _entries(points: ContactPoints) -> NDArray[np.int64]:
@@ -125,66 +170,74 @@ def _entries(points: ContactPoints) -> NDArray[np.int64]:
     return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
 
-@kernel
-def _sample(
-    points: ContactPoints,
-    displacement: Array,
-    velocity: Array,
-    entries: NDArray[np.int64],
-    forces: Array,
-    changes: Array,
-    tangents: Array,
-) -> None:
-    """Write forces, (∂force/∂velocity) velocity, and chosen tangents at all samples."""
-    moved, moving, force = np.zeros(3), np.zeros(3), np.zeros(3)
-    by_displacement, by_velocity = np.zeros((3, 3)), np.zeros((3, 3))
-    first = 0
-    for point in range(points.load.size):
-        last = first
-        while last < entries.shape[0] and entries[last, 0] < 3 * point + 3:
-            last += 1
-        for sample in range(displacement.shape[1]):
-            for axis in range(3):
-                moved[axis] = displacement[3 * point + axis, sample]
-                moving[axis] = velocity[3 * point + axis, sample]
-            contact_force(
-                points, point, moved, moving, force, by_displacement, by_velocity
-            )
-            for axis in range(3):
-                forces[3 * point + axis, sample] = force[axis]
-                changes[3 * point + axis, sample] = (
-                    by_velocity[axis, 0] * moving[0]
-                    + by_velocity[axis, 1] * moving[1]
-                    + by_velocity[axis, 2] * moving[2]
-                )
-            for entry in range(first, last):
-                row = entries[entry, 0] - 3 * point
-                column = entries[entry, 1] - 3 * point
-                if entries[entry, 2] == 0:
-                    tangents[entry, sample] = by_displacement[row, column]
-                else:
-                    tangents[entry, sample] = by_velocity[row, column]
-        first = last
+def _mixing(basis: Array, entries: NDArray[np.int64]) -> Array:
+    """Return the map from tangents of the points to those of y, (2 rank², entries)."""
+    rank = basis.shape[1]
+    mixing = np.zeros((2, rank, rank, len(entries)))
+    for place, (row, column, kind) in enumerate(entries):
+        mixing[kind, :, :, place] = np.outer(basis[row], basis[column])
+    return mixing.reshape(2 * rank**2, len(entries))
+
+
+def _symmetry(
+    basis: Array, entries: NDArray[np.int64], odd: NDArray[np.bool_] | None
+) -> Symmetry:
+    """Return which rows and tangents look like others half a period later.
+
+    Odd coordinates change their sign then: a point moves like its mirror image did. No
+    symmetry if some point has no mirror image among the points.
+    """
+    none = Symmetry(*(np.empty(0, kind) for kind in (int, float, int, float)))
+    if odd is None:
+        return none
+    later = (basis * np.where(odd, -1.0, 1.0)).reshape(-1, 3, len(odd))
+    faces = basis.reshape(later.shape)
+    close = 1e-9 * np.abs(basis).max(initial=0.0)
+    partners, signs = np.empty(len(basis), dtype=int), np.empty(len(basis))
+    for point, wanted in enumerate(later):
+        sign = np.where((wanted * faces).sum(axis=2) < 0.0, -1.0, 1.0)
+        away = np.abs(wanted - sign[..., None] * faces).max(axis=(1, 2), initial=0.0)
+        if not (away <= close).any():
+            return none
+        image, rows = int((away <= close).argmax()), slice(3 * point, 3 * point + 3)
+        partners[rows], signs[rows] = 3 * image + np.arange(3), sign[image]
+    places = {tuple(entry): place for place, entry in enumerate(entries.tolist())}
+    turned = [
+        places.get((int(partners[row]), int(partners[column]), kind), -1)
+        for row, column, kind in entries.tolist()
+    ]
+    if -1 in turned:
+        return none
+    return Symmetry(
+        partners,
+        signs,
+        np.array(turned, dtype=int),
+        signs[entries[:, 0]] * signs[entries[:, 1]],
+    )
 
 
 @kernel
 def _cycle(
-    points: ContactPoints, displacement: Array, velocity: Array
+    points: ContactPoints,
+    displacement: Array,
+    velocity: Array,
+    forces: Array,
+    seen: int,
 ) -> tuple[Array, Array, Array]:
     """Return smallest and largest normal forces and mean dissipated powers."""
-    count, samples = points.load.size, displacement.shape[1]
+    count = points.load.size
     smallest, largest = np.full(count, np.inf), np.full(count, -np.inf)
-    powers = np.zeros(2)
+    powers, unused = np.zeros(2), np.zeros((2, 3, 3))
     force = np.zeros(3)
-    unused = np.zeros((2, 3, 3))
     for point in range(count):
         place = slice(3 * point, 3 * point + 3)
-        for sample in range(samples):
-            moved, moving = displacement[place, sample], velocity[place, sample]
+        for moment in range(seen):
+            moved, moving = displacement[place, moment], velocity[place, moment]
             contact_force(points, point, moved, moving, force, unused[0], unused[1])
             smallest[point] = min(smallest[point], force[0])
             largest[point] = max(largest[point], force[0])
+            force[1:] = forces[place, moment][1:]
             slid, damped = contact_power(points, point, moved, moving, force)
-            powers[0] += slid / samples
-            powers[1] += damped / samples
+            powers[0] += slid / seen
+            powers[1] += damped / seen
     return smallest, largest, powers

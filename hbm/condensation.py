@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
+from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 
 
@@ -42,9 +44,40 @@ class CondensedStructure:
     """motion per modal coordinate of z, shape (dofs, poles)"""
     participation: ComplexArray
     """modal coordinate per load, shape (poles, dofs)"""
+    coupled: NDArray[np.int64]
+    """poles that y excites"""
+
+    def restricted(
+        self, kept: NDArray[np.int64], force: ComplexArray
+    ) -> CondensedStructure:
+        """Return the structure seen by some coordinates, the others held still.
+
+        Poles that neither the kept coordinates nor the loads ``force`` (loads, dofs)
+        reach are dropped: they are not excited.
+        """
+        into, back = self.inertial[:, kept], self.inertial_back[kept]
+        slow, slow_back = self.viscous[:, kept], self.viscous_back[kept]
+        reach = _share(np.hstack([into, self.poles[:, None] * slow]))
+        loaded = _share(self.participation @ force.T)
+        used = (reach > 1e-10) | (loaded > 1e-10)
+        square = np.ix_(kept, kept)
+        return CondensedStructure(
+            self.stiffness[square],
+            self.damping[square],
+            self.mass[square],
+            self.poles[used],
+            slow[used],
+            into[used],
+            slow_back[:, used],
+            back[:, used],
+            self.static[:, kept],
+            self.modes[:, used],
+            self.participation[used],
+            np.flatnonzero(reach[used] > 1e-10),
+        )
 
     def dynamic_stiffness(
-        self, variable: ComplexArray
+        self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
     ) -> tuple[ComplexArray, ComplexArray]:
         """Return S(s) and dS/ds.
 
@@ -52,20 +85,28 @@ class CondensedStructure:
         ----------
         variable
             Laplace variable s = ikω of each harmonic [rad/s], shape ``(orders,)``.
+        wanted
+            Which coordinates move at each order, shape ``(orders, rank)``; the rest of
+            the result is zero. All of them if left out.
 
         Returns
         -------
         Shape ``(orders, rank, rank)`` (theory, eqs. 15–16).
         """
-        s = variable[:, None, None]
-        pole = (1.0 / (s[:, 0] - self.poles))[:, None, :]
-        into = s * self.viscous + s**2 * self.inertial
-        back = (s * self.viscous_back + s**2 * self.inertial_back) * pole
-        slope = (self.viscous_back + 2.0 * s * self.inertial_back) * pole
-        value = self.stiffness + s * self.damping + s**2 * self.mass - back @ into
-        turn = slope @ into
-        change = self.damping + 2.0 * s * self.mass
-        return value, change - turn - turn.transpose(0, 2, 1) + (back * pole) @ into
+        if wanted is None:
+            wanted = np.ones((variable.size, len(self.stiffness)), dtype=bool)
+        return _stiffness(
+            self.stiffness,
+            self.damping,
+            self.mass,
+            self.poles[self.coupled],
+            self.viscous[self.coupled].T.copy(),
+            self.inertial[self.coupled].T.copy(),
+            self.viscous_back[:, self.coupled],
+            self.inertial_back[:, self.coupled],
+            variable,
+            wanted,
+        )
 
     def load(
         self, variable: ComplexArray, force: ComplexArray
@@ -97,6 +138,52 @@ class CondensedStructure:
         return relative @ self.static.T + modal @ self.modes.T
 
 
+@kernel
+def _stiffness(
+    stiffness: Array,
+    damping: Array,
+    mass: Array,
+    poles: ComplexArray,
+    viscous: ComplexArray,
+    inertial: ComplexArray,
+    viscous_back: ComplexArray,
+    inertial_back: ComplexArray,
+    variable: ComplexArray,
+    wanted: NDArray[np.bool_],
+) -> tuple[ComplexArray, ComplexArray]:
+    """Return S(s) and dS/ds of the coordinates wanted (theory, eqs. 15–16)."""
+    orders, (rank, count) = variable.size, viscous.shape
+    value = np.zeros((orders, rank, rank), np.complex128)
+    change = np.zeros((orders, rank, rank), np.complex128)
+    into, turn = np.empty(count, np.complex128), np.empty(count, np.complex128)
+    for order in range(orders):
+        s = variable[order]
+        pole = 1.0 / (s - poles)
+        for b in range(rank):
+            if not wanted[order, b]:
+                continue
+            for p in range(count):
+                slow, fast = viscous[b, p], inertial[b, p]
+                into[p] = (slow + s * fast) * s * pole[p]
+                turn[p] = (slow + 2.0 * s * fast) * pole[p] - into[p] * pole[p]
+            for a in range(b + 1):
+                if not wanted[order, a]:
+                    continue
+                total, slope = 0.0j, 0.0j
+                for p in range(count):
+                    slow, fast = viscous_back[a, p], inertial_back[a, p]
+                    total += (slow + s * fast) * into[p]
+                    slope += (slow + 2.0 * s * fast) * into[p]
+                    slope += s * (slow + s * fast) * turn[p]
+                total = (
+                    stiffness[a, b] + s * (damping[a, b] + s * mass[a, b]) - (s * total)
+                )
+                slope = damping[a, b] + 2.0 * s * mass[a, b] - slope
+                value[order, a, b] = value[order, b, a] = total
+                change[order, a, b] = change[order, b, a] = slope
+    return value, change
+
+
 def condense(problem: Problem, selection: Array) -> CondensedStructure:
     """Return the structure condensed onto ``selection`` (shape (rank, dofs)).
 
@@ -126,7 +213,15 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
         static,
         free @ shapes,
         forcing @ free.T,
+        np.arange(poles.size),
     )
+
+
+def _share(rows: ComplexArray) -> Array:
+    """Return the size of each row, its share of the largest."""
+    sizes: Array = np.abs(rows).max(axis=1, initial=0.0)
+    largest = sizes.max(initial=0.0)
+    return sizes / largest if largest > 0.0 else sizes
 
 
 def _split(stiffness: Array, selection: Array) -> tuple[Array, Array]:

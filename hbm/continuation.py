@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from hbm.newton import Correction, Outcome, System, correct
+from hbm.newton import Correction, Linearised, Outcome, System, correct
+from hbm.predictor import Predictor
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 
@@ -24,7 +26,11 @@ class StepControl:
     initial: float = 0.02
     smallest: float = 1e-7
     largest: float = 0.25
-    target_iterations: int = 4
+    miss: float = 0.005
+    """by which a predicted point may be wrong"""
+    many_iterations: int = 6
+    slack: float = 0.01
+    """distance by which a correction may leave the prediction in any case"""
     tolerance: float = 1e-9
     """of the largest residual"""
     sharpest_turn: float = 0.5
@@ -40,11 +46,59 @@ class StepControl:
         if self.tolerance <= 0.0:
             raise ValueError(f"tolerance {self.tolerance:g}: give a positive one")
 
-    def after(self, step: float, iterations: int) -> float:
-        """Return the next step from the iterations that the last one took."""
-        factor = math.exp2(1.0 - iterations / self.target_iterations)
-        return min(max(step * factor, self.smallest), self.largest)
+    def after(self, step: float, missed: float, order: int, iterations: int) -> float:
+        """Return the next step.
 
+        It grows or shrinks so that the extrapolation misses the next point by
+        :attr:`miss`; it shrinks if Newton's iteration was slow all the same.
+
+        Parameters
+        ----------
+        step, missed
+            Last step, and by how much extrapolation missed the point there.
+        order
+            Of the extrapolation.
+        iterations
+            Of Newton.
+        """
+        factor = (self.miss / max(missed, 1e-9)) ** (1.0 / (order + 1))
+        if iterations > self.many_iterations:
+            factor = min(factor, 0.7)
+        return min(max(step * min(max(factor, 0.3), 2.0), self.smallest), self.largest)
+
+
+class Settler(Protocol):
+    """What makes a converged point good enough to keep."""
+
+    def settle(
+        self, correction: Correction, normal: Array, tolerance: float
+    ) -> Correction:
+        """Return the point to keep, in the plane normal to ``normal``; it may fail."""
+
+    def keep(self) -> None:
+        """Learn that the last point is kept."""
+
+    def retreat(self, times: int) -> None:
+        """Learn that the last point was not kept, for the n-th time in a row."""
+
+
+class Unsettled:
+    """Keeps each point as it is."""
+
+    def settle(
+        self, correction: Correction, normal: Array, tolerance: float
+    ) -> Correction:
+        """Return the point."""
+        return correction
+
+    def keep(self) -> None:
+        """Do nothing."""
+
+    def retreat(self, times: int) -> None:
+        """Do nothing."""
+
+
+UNSETTLED = Unsettled()
 
 Metric = Callable[[Array], Array]
 """point (n + 1,) ↦ the change of each component that counts as one unit of arc"""
@@ -57,6 +111,7 @@ def trace(
     *,
     metric: Metric,
     control: StepControl,
+    settler: Settler = UNSETTLED,
     begin: float | None = None,
     direction: Array | None = None,
 ) -> Iterator[Correction]:
@@ -79,32 +134,39 @@ def trace(
         Scale of each component, by which arc length is measured near a point.
     control
         Steps and tolerance.
+    settler
+        Is given each converged point; may return a better one.
 
     Raises
     ------
     ContinuationError
         If the first point or, after the shortest step, a later one does not converge.
     """
-    accepted, step = correct_at(system, start, control), control.initial
+    accepted, step = correct_at(system, start, control, settler), control.initial
     yield accepted
     begin = float(start[-1]) if begin is None else begin
     if direction is None:
         direction = np.zeros_like(start)
         direction[-1] = math.copysign(1.0, end - begin)
     low, high = sorted((begin, end))
+    past, went = Predictor(), 0.0
     while True:
         scale = metric(accepted.point)
-        direction = tangent(accepted.jacobian, direction, scale)
-        candidate, step = _next(system, accepted, direction, scale, step, control)
+        direction = tangent(accepted.linearised, direction, scale)
+        missed = past.append(accepted.point, direction, scale, went)
+        if went > 0.0:
+            step = control.after(went, missed, past.order, accepted.iterations)
+        candidate, went = _next(system, past, direction, scale, step, control, settler)
         if not low < candidate.point[-1] < high:
-            yield _border(system, accepted, candidate, (low, high), control)
+            yield _border(system, accepted, candidate, (low, high), control, settler)
             return
         yield candidate
-        step = control.after(step, candidate.iterations)
         accepted = candidate
 
 
-def correct_at(system: System, guess: Array, control: StepControl) -> Correction:
+def correct_at(
+    system: System, guess: Array, control: StepControl, settler: Settler = UNSETTLED
+) -> Correction:
     """Correct a guess at its own parameter.
 
     Raises
@@ -117,44 +179,62 @@ def correct_at(system: System, guess: Array, control: StepControl) -> Correction
     found = correct(
         system, guess, normal, tolerance=control.tolerance, max_iterations=60
     )
+    if found.outcome is Outcome.CONVERGED:
+        found = settler.settle(found, normal, control.tolerance)
+        settler.keep()
     if found.outcome is not Outcome.CONVERGED:
         raise ContinuationError(_text(float(guess[-1]), found, control))
     return found
 
 
-def tangent(jacobian: Array, direction: Array, scale: Array) -> Array:
-    """Return the unit tangent (in the metric) that goes on along ``direction``."""
-    bordered = np.vstack([jacobian, direction / scale**2])
+def tangent(linearised: Linearised, direction: Array, scale: Array) -> Array:
+    """Return the unit tangent (in the metric) that goes on along ``direction``.
+
+    Raises
+    ------
+    SingularError
+        If the curve does not go on along it.
+    """
     right = np.zeros(direction.size)
     right[-1] = 1.0
-    along = np.linalg.solve(bordered, right)
+    along = linearised.solve(direction / scale**2, right)
     return along / float(np.linalg.norm(along / scale))
 
 
 def _next(
     system: System,
-    accepted: Correction,
+    past: Predictor,
     direction: Array,
     scale: Array,
     step: float,
     control: StepControl,
+    settler: Settler,
 ) -> tuple[Correction, float]:
     """Return the next point and the step that led to it."""
     normal = direction / scale**2
+    normal /= np.abs(normal).max()
+    failures = 0
     while True:
-        candidate = correct(
-            system, accepted.point + step * direction, normal / np.abs(normal).max(),
-            tolerance=control.tolerance,
-        )  # fmt: skip
+        predicted = past.predict(step)
+        candidate = correct(system, predicted, normal, tolerance=control.tolerance)
+        moved = float(np.linalg.norm((candidate.point - predicted) / scale))
+        close = moved <= max(0.5 * step, control.slack)
+        if candidate.outcome is Outcome.CONVERGED and close:
+            candidate = settler.settle(candidate, normal, control.tolerance)
         if candidate.outcome is Outcome.CONVERGED:
-            turned = tangent(candidate.jacobian, direction, scale)
-            if (turned / scale) @ (direction / scale) > control.sharpest_turn:
-                return candidate, step
-            if step <= control.smallest:
+            turned = tangent(candidate.linearised, direction, scale)
+            cosine = float((turned / scale) @ (direction / scale))
+            if (close and cosine > control.sharpest_turn) or step <= control.smallest:
+                settler.keep()
                 return candidate, step
         elif step <= control.smallest:
-            where = float(accepted.point[-1])
+            where = float(past.predict(0.0)[-1])
             raise ContinuationError(_text(where, candidate, control))
+        else:
+            failures += 1
+        settler.retreat(failures)
+        if step < 0.1 * control.largest:
+            past.order = 1
         step = max(step * 0.5, control.smallest)
 
 
@@ -164,6 +244,7 @@ def _border(
     candidate: Correction,
     limits: tuple[float, float],
     control: StepControl,
+    settler: Settler,
 ) -> Correction:
     """Return the point exactly on the limit that lies between two points."""
     limit = limits[0] if candidate.point[-1] <= limits[0] else limits[1]
@@ -171,7 +252,7 @@ def _border(
     share = (limit - before) / (after - before)
     guess = accepted.point + share * (candidate.point - accepted.point)
     guess[-1] = limit
-    return correct_at(system, guess, control)
+    return correct_at(system, guess, control, settler)
 
 
 def _text(where: float, failed: Correction, control: StepControl) -> str:

@@ -11,17 +11,6 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
 
 
-class Spectra(NamedTuple):
-    """Fourier coefficients of the tangents on y, shape (rank, rank, 2H + 1) each."""
-
-    stiffness_cosine: Array
-    """of ∂f/∂y [N/m]"""
-    stiffness_sine: Array
-    damping_cosine: Array
-    """of ∂f/∂ẏ [N s/m]"""
-    damping_sine: Array
-
-
 class Terms(NamedTuple):
     """Orders of a Fourier series to solve for, by coordinate; shape (terms,) each."""
 
@@ -55,14 +44,20 @@ def terms(active: NDArray[np.bool_]) -> Terms:
 
 @kernel
 def assemble(
-    spectra: Spectra, elastic: Array, viscous: Array, frequency: float, terms: Terms
+    stiffness: Array,
+    damping: Array,
+    elastic: Array,
+    viscous: Array,
+    frequency: float,
+    terms: Terms,
 ) -> Array:
     """Return ∂R/∂y of the terms.
 
     Parameters
     ----------
-    spectra
-        Of the contact tangents.
+    stiffness, damping
+        Coefficients of the contact tangents ∂f/∂y [N/m] and ∂f/∂ẏ [N s/m] up to order
+        2H, in the order a₀, a₁, b₁, …; shape ``(rank, rank, 4H + 1)``.
     elastic, viscous
         Real and imaginary part of the condensed stiffness, ``(H + 1, rank, rank)``.
     frequency
@@ -72,22 +67,18 @@ def assemble(
 
     Returns
     -------
-    Shape ``(unknowns, unknowns + 1)``; the last column is left for ∂R/∂ω.
+    Shape ``(unknowns, unknowns)``.
     """
     size = terms.unknowns.size
-    jacobian = np.zeros((size, size + 1))
+    jacobian = np.zeros((size, size))
     for row in range(terms.order.size):
         a, j = terms.coordinate[row], terms.order[row]
         top, bottom = terms.cosine[row], terms.sine[row]
         for column in range(terms.order.size):
             b, k = terms.coordinate[column], terms.order[column]
             left, right = terms.cosine[column], terms.sine[column]
-            cc, cs, sc, ss = _product(
-                spectra.stiffness_cosine[a, b], spectra.stiffness_sine[a, b], j, k
-            )
-            vcc, vcs, vsc, vss = _product(
-                spectra.damping_cosine[a, b], spectra.damping_sine[a, b], j, k
-            )
+            cc, cs, sc, ss = _product(stiffness[a, b], j, k)
+            vcc, vcs, vsc, vss = _product(damping[a, b], j, k)
             # the rate of cos kθ is −kω sin kθ, that of sin kθ is kω cos kθ
             rate = k * frequency
             real, imaginary = 0.0, 0.0
@@ -104,9 +95,7 @@ def assemble(
 
 
 @kernel
-def _product(
-    cosine: Array, sine: Array, j: int, k: int
-) -> tuple[float, float, float, float]:
+def _product(series: Array, j: int, k: int) -> tuple[float, float, float, float]:
     """Return how order j of k(θ) y(θ) follows from order k of y (theory, eq. 19).
 
     By cosine from cosine, cosine from sine, sine from cosine, sine from sine; the mean
@@ -114,14 +103,15 @@ def _product(
     """
     if j == 0:
         if k == 0:
-            return cosine[0], 0.0, 0.0, 0.0
-        return 0.5 * cosine[k], 0.5 * sine[k], 0.0, 0.0
-    near_cosine, near_sine = cosine[abs(j - k)], sine[abs(j - k)]
+            return series[0], 0.0, 0.0, 0.0
+        return 0.5 * series[2 * k - 1], 0.5 * series[2 * k], 0.0, 0.0
+    far_cosine, far_sine = series[2 * (j + k) - 1], series[2 * (j + k)]
     if j == k:
-        near_cosine, near_sine = 2.0 * near_cosine, 0.0
-    elif j < k:
-        near_sine = -near_sine
-    far_cosine, far_sine = cosine[j + k], sine[j + k]
+        near_cosine, near_sine = 2.0 * series[0], 0.0
+    elif j > k:
+        near_cosine, near_sine = series[2 * (j - k) - 1], series[2 * (j - k)]
+    else:
+        near_cosine, near_sine = series[2 * (k - j) - 1], -series[2 * (k - j)]
     return (
         0.5 * (near_cosine + far_cosine),
         0.5 * (far_sine - near_sine),

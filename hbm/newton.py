@@ -5,14 +5,34 @@ from __future__ import annotations
 import enum
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 import numpy as np
 
 from microslip_mechanics.arrays import Array
 
-System: TypeAlias = Callable[[Array], tuple[Array, Array]]
-"""point (n + 1,) ↦ residual (n,) and Jacobian (n, n + 1)"""
+
+class Linearised(Protocol):
+    """The derivative of a residual at a point."""
+
+    def solve(self, normal: Array, right: Array) -> Array:
+        """Solve [Jacobian; normal] d = right.
+
+        ``normal`` has shape ``(n + 1,)``, ``right`` that or ``(n + 1, several)``.
+
+        Raises
+        ------
+        SingularError
+            If there is no solution.
+        """
+
+
+class SingularError(ArithmeticError):
+    """The bordered Jacobian has no inverse."""
+
+
+System: TypeAlias = Callable[[Array], tuple[Array, Linearised]]
+"""point (n + 1,) ↦ residual (n,) and what solves with its Jacobian"""
 
 
 class Outcome(enum.Enum):
@@ -30,7 +50,9 @@ class Correction:
     """A point, what the correction saw, and how it ended."""
 
     point: Array
-    jacobian: Array
+    residual: Array
+    """at the point, shape (n,)"""
+    linearised: Linearised
     outcome: Outcome
     residuals: tuple[float, ...]
     """largest residual before the first and after each iteration"""
@@ -66,32 +88,40 @@ def correct(
 
     Notes
     -----
-    A step that raises the residual is halved, five times at the most.
+    A step that raises the residual is halved, nine times at the most.
     """
     point = predicted
-    residual, jacobian = system(point)
+    residual, linearised = system(point)
     sizes = [_size(residual)]
     while True:
         if not np.isfinite(sizes[-1]):
-            return Correction(point, jacobian, Outcome.OVERFLOW, tuple(sizes))
-        if sizes[-1] <= tolerance:
-            return Correction(point, jacobian, Outcome.CONVERGED, tuple(sizes))
-        if len(sizes) > max_iterations:
-            return Correction(point, jacobian, Outcome.EXHAUSTED, tuple(sizes))
-        try:
-            step = np.linalg.solve(
-                np.vstack([jacobian, normal]), np.append(residual, 0.0)
+            return Correction(
+                point, residual, linearised, Outcome.OVERFLOW, tuple(sizes)
             )
-        except np.linalg.LinAlgError:
-            return Correction(point, jacobian, Outcome.SINGULAR, tuple(sizes))
-        for halving in range(6):
+        if sizes[-1] <= tolerance:
+            return Correction(
+                point, residual, linearised, Outcome.CONVERGED, tuple(sizes)
+            )
+        if len(sizes) > max_iterations:
+            return Correction(
+                point, residual, linearised, Outcome.EXHAUSTED, tuple(sizes)
+            )
+        try:
+            step = linearised.solve(normal, np.append(residual, 0.0))
+        except SingularError:
+            return Correction(
+                point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
+            )
+        for halving in range(10):
             trial = point - step / 2**halving
-            residual, jacobian = system(trial)
-            if _size(residual) < sizes[-1]:
+            tried, derivative = system(trial)
+            if _size(tried) < sizes[-1]:
                 break
         else:
-            return Correction(point, jacobian, Outcome.STALLED, tuple(sizes))
-        point = trial
+            return Correction(
+                point, residual, linearised, Outcome.STALLED, tuple(sizes)
+            )
+        point, residual, linearised = trial, tried, derivative
         sizes.append(_size(residual))
 
 

@@ -3,103 +3,121 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hbm.aft import AlternatingFrequencyTime
-from hbm.condensation import CondensedStructure, condense
+from hbm.aft import ContactCycle
 from hbm.fourier import FourierBasis, to_complex, to_real
-from hbm.jacobian import Terms, assemble, terms
+from hbm.jacobian import assemble, terms
+from hbm.linearisation import Linearisation
+from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.problem import Problem
-from microslip_mechanics.static import StaticState
 
 
 class HarmonicBalance:
-    """Residual of a problem in the relative coordinates of its contacts.
+    """Residual of a problem with a fixed number of harmonics and samples.
 
     A point is the flat array of the coefficients of y, shape (2H + 1, rank), followed
-    by the excitation frequency [rad/s].
+    by the excitation frequency [rad/s]. It may carry more harmonics than are solved
+    for: those are ignored, and their residual is zero.
     """
 
     def __init__(
-        self, problem: Problem, rest: StaticState, fourier: FourierBasis
+        self,
+        problem: RelativeProblem,
+        fourier: FourierBasis,
+        active: NDArray[np.bool_] | None = None,
     ) -> None:
-        """Condense ``problem`` and plan transforms; ``rest`` is its equilibrium."""
-        basis, self.selection = problem.interface.relative_motion()
-        self.fourier, self.rank = fourier, basis.shape[1]
-        self.condensed: CondensedStructure = condense(problem, self.selection)
-        self.contact = AlternatingFrequencyTime(
-            problem.interface.points, basis, fourier
-        )
-        self._force = np.zeros((fourier.harmonics + 1, problem.structure.dofs), complex)
-        self._force[0], self._force[1] = problem.preload, -1j * problem.drive
-        self._terms = terms(np.ones((fourier.coefficients, self.rank), dtype=bool))
-        self._gauge = self._free_positions(rest)
+        """Plan for ``problem``; ``active`` coefficients, (2H + 1, rank), are solved for.
 
-    def __call__(self, point: Array) -> tuple[Array, Array]:
-        """Return the residual [N] and its Jacobian, (unknowns, unknowns + 1)."""
-        return self.evaluated(point, self._terms)
+        The others are zero by symmetry; all are active if left out.
+        """
+        self.problem, self.fourier, self.rank = problem, fourier, problem.rank
+        shape = (fourier.coefficients, self.rank)
+        self._active = np.ones(shape, dtype=bool) if active is None else active
+        self.contact = problem.contact(fourier)
+        self._force = np.zeros((fourier.harmonics + 1, problem.force.shape[1]), complex)
+        self._force[:2] = problem.force
+        self._orders = 1j * np.arange(fourier.harmonics + 1)
+        self._terms = terms(self._active)
+        self._wanted = np.vstack([self._active[:1], self._active[1::2]])
+        self._at = np.nan
+        self._structure: tuple[ComplexArray, ...] = ()
 
-    def evaluated(self, point: Array, chosen: Terms) -> tuple[Array, Array]:
-        """Return the whole residual [N], and its Jacobian for the chosen terms.
+    def __call__(self, point: Array) -> tuple[Array, Linearisation]:
+        """Return the residual [N], shape (unknowns,), and what solves with its Jacobian.
 
-        The Jacobian has shape ``(unknowns, unknowns + 1)``; its last column is the
-        derivative by frequency.
+        Derivatives are taken by the active coefficients and by the frequency.
         """
         coefficients, frequency = self.split(point)
-        variable = self._variable(frequency)
-        stiffness, stiffness_change = self.condensed.dynamic_stiffness(variable)
-        load, load_change = self.condensed.load(variable, self._force)
-        orders = 1j * np.arange(self.fourier.harmonics + 1)[:, None]
+        stiffness, stiffness_change, load, load_change = self._linear(frequency)
         amplitudes = to_complex(coefficients)[..., None]
-        linear = (stiffness @ amplitudes)[..., 0] - load
-        change = orders * ((stiffness_change @ amplitudes)[..., 0] - load_change)
-        contact = self.contact(coefficients, frequency)
-        residual = to_real(linear) + contact.force
-        residual[0] += self._gauge @ coefficients[0]
+        linear = to_real((stiffness @ amplitudes)[..., 0] - load)
+        change = self._orders[:, None] * (
+            (stiffness_change @ amplitudes)[..., 0] - load_change
+        )
+        force, by_frequency = self.contact(coefficients, frequency)
+        residual = linear + force
+        residual[0] += self.problem.gauge @ coefficients[0]
         elastic, viscous = stiffness.real.copy(), stiffness.imag.copy()
-        elastic[0] += self._gauge
-        jacobian = assemble(contact.tangents, elastic, viscous, frequency, chosen)
-        slope = to_real(change) + contact.by_frequency
-        jacobian[:, -1] = slope.ravel()[chosen.unknowns]
-        return residual.ravel(), jacobian
+        elastic[0] += self.problem.gauge
+        jacobian = assemble(
+            *self.contact.spectra(2 * self.fourier.harmonics),
+            elastic,
+            viscous,
+            frequency,
+            self._terms,
+        )
+        slope = (to_real(change) + by_frequency).ravel()[self._terms.unknowns]
+        whole = np.zeros(point.size - 1)
+        whole[: residual.size] = np.where(self._active, residual, 0.0).ravel()
+        self.excluded = float(
+            np.abs(np.where(self._active, 0.0, residual)).max(initial=0.0)
+        )
+        return whole, Linearisation(jacobian, slope, self._terms.unknowns, point.size)
 
-    def point(self, motion: Array, frequency: float) -> Array:
-        """Return the point of a motion u with coefficients (2H + 1, dofs)."""
-        return np.append(motion @ self.selection.T, frequency)
+    def point(self, coefficients: Array, frequency: float) -> Array:
+        """Return the point of relative coefficients, shape (≤ 2H + 1, rank)."""
+        point = np.zeros(self.fourier.coefficients * self.rank + 1)
+        count = min(coefficients.size, point.size - 1)
+        point[:count] = coefficients.ravel()[:count]
+        point[-1] = frequency
+        return point
 
     def split(self, point: Array) -> tuple[Array, float]:
         """Return the coefficients of y, shape (2H + 1, rank), and the frequency."""
         shape = (self.fourier.coefficients, self.rank)
-        return point[:-1].reshape(shape), float(point[-1])
+        solved = point[: shape[0] * shape[1]].reshape(shape)
+        return np.where(self._active, solved, 0.0), float(point[-1])
 
     def motion(self, point: Array) -> Array:
         """Return the coefficients of the full motion u [m], shape (2H + 1, dofs)."""
         coefficients, frequency = self.split(point)
-        amplitudes = to_complex(coefficients)
-        variable = self._variable(frequency)
-        return to_real(self.condensed.motion(variable, amplitudes, self._force))
+        variable = self._orders * frequency
+        motion = to_real(
+            self.problem.condensed.motion(
+                variable, to_complex(coefficients), self._force
+            )
+        )
+        motion[0] += self.problem.position
+        return motion
+
+    def cycle(self, point: Array) -> ContactCycle:
+        """Return what the contacts do over one period."""
+        return self.contact.cycle(*self.split(point))
 
     def drift_force(self, point: Array) -> float:
         """Return the mean force [N] by which only the gauge of a free body is held."""
         coefficients, _ = self.split(point)
-        return float(np.abs(self._gauge @ coefficients[0]).max(initial=0.0))
+        return float(np.abs(self.problem.gauge @ coefficients[0]).max(initial=0.0))
 
-    def _variable(self, frequency: float) -> ComplexArray:
-        return 1j * frequency * np.arange(self.fourier.harmonics + 1)
-
-    def _free_positions(self, rest: StaticState) -> Array:
-        """Return a stiffness along mean motions that nothing holds, else zero.
-
-        Without a rope, say, the mean position of the friction element is arbitrary;
-        pinning it changes no force as long as :meth:`drift_force` vanishes.
-        """
-        start = np.zeros((self.fourier.coefficients, self.rank))
-        start[0] = self.selection @ rest.displacement
-        tangent = self.contact(start, 1.0).tangents.stiffness_cosine[:, :, 0]
-        held = self.condensed.stiffness + tangent
-        sizes, directions = np.linalg.eigh((held + held.T) / 2.0)
-        if self.rank == 0:
-            return np.zeros((0, 0))
-        loose = directions[:, sizes < 1e-11 * sizes[-1]]
-        gauge: Array = sizes[-1] * 1e-6 * loose @ loose.T
-        return gauge
+    def _linear(self, frequency: float) -> tuple[ComplexArray, ...]:
+        """Return dynamic stiffness and load with their derivatives by s, cached."""
+        if frequency != self._at:
+            variable = self._orders * frequency
+            condensed = self.problem.condensed
+            self._structure = (
+                *condensed.dynamic_stiffness(variable, self._wanted),
+                *condensed.load(variable, self._force),
+            )
+            self._at = frequency
+        return self._structure

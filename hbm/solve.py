@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hbm.active import ActiveUnknowns, moving
+from hbm.active import extended, moving, symmetric
+from hbm.adaptive import AdaptiveBalance, Resolution
 from hbm.continuation import (
     ContinuationError,
     Metric,
@@ -17,6 +20,7 @@ from hbm.continuation import (
 )
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction
+from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import HarmonicBalance
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
@@ -32,9 +36,12 @@ class CurveOptions:
     """first excitation frequency [rad/s]"""
     end: float
     """last excitation frequency [rad/s]"""
-    harmonics: int = 8
-    samples: int = 1024
-    """per period"""
+    error: float = 1e-3
+    """of the amplitude at each point, relative: harmonics and samples follow from it"""
+    harmonics: int | None = None
+    """fixed number instead"""
+    samples: int | None = None
+    """fixed number per period; 16 (harmonics + 1) if left out"""
     tolerance: float = 1e-8
     """largest unbalanced force over the smaller of preload and drive"""
     largest_step: float = 0.25
@@ -42,11 +49,25 @@ class CurveOptions:
 
     def __post_init__(self) -> None:
         """Check the range."""
-        if self.start <= 0.0 or self.end <= 0.0 or self.start == self.end:
+        if not (0.0 < self.start < np.inf and 0.0 < self.end < np.inf) or (
+            self.start == self.end
+        ):
             raise ValueError(
                 f"frequencies {self.start:g} and {self.end:g} rad/s: "
                 "give two different positive ones"
             )
+        for name in ("error", "tolerance", "largest_step"):
+            value = getattr(self, name)
+            if not 0.0 < value < np.inf:
+                raise ValueError(f"{name} {value:g}: give a positive number")
+        if self.samples is not None and self.harmonics is None:
+            raise ValueError("samples without harmonics: give both, or harmonics alone")
+
+    @property
+    def first(self) -> FourierBasis:
+        """Resolution of the first point."""
+        harmonics = self.harmonics or 1
+        return FourierBasis(harmonics, self.samples or 16 * (harmonics + 1))
 
 
 def frequency_response(
@@ -61,60 +82,48 @@ def frequency_response(
     rest
         Its static equilibrium: the curve starts from it.
     options
-        Range, harmonics, samples, tolerance.
+        Range, accuracy, harmonics.
 
     Raises
     ------
     ContinuationError
         If the curve cannot go on; what was yielded before stays valid.
     """
-    fourier = FourierBasis(options.harmonics, options.samples)
-    balance = HarmonicBalance(problem, rest, fourier)
-    still = np.zeros((fourier.coefficients, problem.structure.dofs))
-    still[0] = rest.displacement
-    tolerance = options.tolerance * _force_scale(problem)
     control = StepControl(
-        tolerance=tolerance,
+        tolerance=options.tolerance * _force_scale(problem),
         initial=min(0.02, options.largest_step),
         largest=options.largest_step,
     )
-    first = correct_at(balance, balance.point(still, options.start), control)
-    corrections = _restricted(balance, first.point, options, control)
-    for correction in corrections:
-        yield _response(balance, correction, problem)
-
-
-def _restricted(
-    balance: HarmonicBalance, start: Array, options: CurveOptions, control: StepControl
-) -> Iterator[Correction]:
-    """Yield points of the whole system, solved for in the active unknowns.
-
-    Where an equation that is left out no longer holds, all unknowns take over.
-    """
-    active = ActiveUnknowns(balance, moving(balance, start))
-    metric = _metric(balance.rank, abs(options.end - options.start) / 10.0)
-    before, accepted = None, start
-    for correction in trace(
-        active, active.restricted(start), options.end, metric=metric, control=control
-    ):
-        if active.excluded > control.tolerance:
-            break
-        before, accepted = accepted, active.expanded(correction.point)
-        yield replace(correction, point=accepted)
-    else:
-        return
-    onwards = None if before is None else accepted - before
-    whole = trace(
-        balance,
-        accepted,
-        options.end,
-        metric=metric,
-        control=control,
-        begin=options.start,
-        direction=onwards,
+    reduced, active = _moving(problem, rest, options.start)
+    resolution = Resolution(reduced, active, problem.probes.rows)
+    system = AdaptiveBalance(
+        resolution,
+        options.first,
+        tolerance=None if options.harmonics else options.error,
     )
-    next(whole)
-    yield from whole
+    start = np.zeros(system.size)
+    start[: reduced.rank], start[-1] = reduced.rest, options.start
+    for correction in trace(
+        system,
+        start,
+        options.end,
+        metric=_metric(reduced.rank, abs(options.end - options.start) / 10.0),
+        control=control,
+        settler=system,
+    ):
+        point, fourier, error = system.kept(correction.point)
+        balance = resolution.at(fourier)
+        yield _response(balance, replace(correction, point=point), problem, error)
+
+
+def _moving(
+    problem: Problem, rest: StaticState, frequency: float
+) -> tuple[RelativeProblem, NDArray[np.bool_]]:
+    """Return the problem without what a symmetry keeps still, and its active orders."""
+    whole = relative_problem(problem, rest)
+    active = moving(whole, frequency)
+    kept, odd = symmetric(active)
+    return whole.restricted(kept, odd), active[:, kept]
 
 
 def periodic_response(
@@ -133,16 +142,13 @@ def periodic_response(
     ContinuationError
         If the point does not converge.
     """
-    balance = HarmonicBalance(problem, rest, FourierBasis(harmonics, samples))
-    coefficients = np.zeros((2 * harmonics + 1, problem.structure.dofs))
-    kept = min(len(coefficients), len(guess.coefficients))
-    coefficients[:kept] = guess.coefficients[:kept]
-    correction = correct_at(
-        balance,
-        balance.point(coefficients, guess.frequency),
-        StepControl(tolerance=tolerance * _force_scale(problem)),
-    )
-    return _response(balance, correction, problem)
+    control = StepControl(tolerance=tolerance * _force_scale(problem))
+    reduced, active = _moving(problem, rest, guess.frequency)
+    fourier = FourierBasis(harmonics, samples)
+    balance = HarmonicBalance(reduced, fourier, extended(active, harmonics))
+    start = balance.point(guess.coefficients @ reduced.selection.T, guess.frequency)
+    correction = correct_at(balance, start, control)
+    return _response(balance, correction, problem, math.inf)
 
 
 def _force_scale(problem: Problem) -> float:
@@ -168,16 +174,16 @@ def _metric(means: int, frequency_scale: float) -> Metric:
 
 
 def _response(
-    balance: HarmonicBalance, correction: Correction, problem: Problem
+    balance: HarmonicBalance, correction: Correction, problem: Problem, error: float
 ) -> PeriodicResponse:
-    coefficients, frequency = balance.split(correction.point)
     drift = balance.drift_force(correction.point)
+    frequency = float(correction.point[-1])
     if drift > 1e-6 * _force_scale(problem):
         raise ContinuationError(
             f"a body drifts at {frequency:.6g} rad/s: friction has a mean of "
             f"{drift:.2g} N and nothing holds the body; give it a rope"
         )
-    cycle = balance.contact.cycle(coefficients, frequency)
+    cycle = balance.cycle(correction.point)
     return PeriodicResponse(
         frequency,
         balance.motion(correction.point),
@@ -188,4 +194,7 @@ def _response(
         correction.residuals[-1],
         correction.outcome.name.lower(),
         correction.iterations,
+        balance.fourier.harmonics,
+        balance.fourier.samples,
+        error,
     )

@@ -101,10 +101,15 @@ def quantity(
     lowest: float = -math.inf,
     highest: float = math.inf,
     positive: bool = False,
+    optional: bool = False,
 ) -> Any:  # noqa: ANN401  (a dataclass field, like dataclasses.field)
     """Declare a number of a scene with its SI unit and its range.
 
-    ``positive`` sets the lower bound to zero and excludes the bound itself.
+    ``positive`` sets the lower bound to zero and excludes the bound itself;
+    ``optional`` makes None of a number that the scene leaves out.
     """
     low = max(lowest, 0.0) if positive else lowest
-    return field(metadata={"quantity": Quantity(unit, low, highest, positive)})
+    metadata = {"quantity": Quantity(unit, low, highest, positive)}
+    return (
+        field(default=None, metadata=metadata) if optional else field(metadata=metadata)
+    )

@@ -36,8 +36,9 @@ class Curve:
 
     lowest: float = quantity("Hz", positive=True)
     highest: float = quantity("Hz", positive=True)
-    harmonics: int = quantity(lowest=1, highest=512)
-    samples: int = quantity(lowest=6, highest=2**20)
+    tolerance: float = quantity(lowest=1e-6, highest=0.5)
+    harmonics: int | None = quantity(lowest=1, highest=255, optional=True)
+    samples: int | None = quantity(lowest=6, highest=2**16, optional=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -256,10 +257,15 @@ def _check(source: str, scene: Scene) -> None:
                 f"{source}: [{name}] lowest = {table.lowest:g} Hz, highest = "
                 f"{table.highest:g} Hz: give lowest < highest"
             )
-    if curve.samples < 4 * curve.harmonics + 2:
+    if curve.samples is not None and curve.harmonics is None:
+        raise SceneError(
+            f"{source}: [curve] samples = {curve.samples}: they follow from the "
+            "tolerance unless harmonics are given: give both, or neither"
+        )
+    if curve.samples is not None and curve.samples < 4 * (curve.harmonics or 0) + 2:
         raise SceneError(
             f"{source}: [curve] samples = {curve.samples}: too few for "
-            f"{curve.harmonics} harmonics: give at least {4 * curve.harmonics + 2}"
+            f"{curve.harmonics} harmonics: give at least {4 * (curve.harmonics or 0) + 2}"
         )
     if contact.angle_excited + contact.angle_follower <= 0.0:
         raise SceneError(

@@ -38,6 +38,12 @@ CURVE: Schema = {
     "residual": (("point",), "N", "largest unbalanced force"),
     "outcome": (("point", "name"), "", "how Newton's correction ended"),
     "iterations": (("point",), "1", "Newton iterations"),
+    "harmonics": (("point",), "1", "harmonics that were solved for"),
+    "samples": (("point",), "1", "samples of the contacts per period"),
+    "error": (("point",), "1", "estimated relative error of the amplitude"),
+    "multiplier": (("point",), "1", "largest modulus of a Floquet multiplier"),
+    "unstable": (("point",), "1", "Floquet multipliers outside the unit circle"),
+    "event": (("point", "name"), "", "what the point is located as"),
     "probes": (("probe", "name"), "", "what is watched"),
     "contacts": (("contact", "name"), "", "contact points"),
 }

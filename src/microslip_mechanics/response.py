@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
+
+MARGIN = 1e-6
+"""by which a Floquet multiplier outside the unit circle must exceed it"""
+PEAK_SAMPLES = 1024
+"""of a period, to find the largest value in time"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +38,23 @@ class PeriodicResponse:
     """how Newton's correction ended"""
     iterations: int
     """Newton iterations that the point took"""
+    harmonics: int = 0
+    """that were solved for"""
+    samples: int = 0
+    """of the contacts per period"""
+    error: float = np.inf
+    """estimated relative error of the amplitude; infinite if it is not known"""
+    multipliers: ComplexArray = field(default_factory=lambda: np.empty(0, complex))
+    """Floquet multipliers, the largest first; empty if they are not known"""
+    event: str = ""
+    """what the point is located as: peak, fold, …; empty for a point of the trace"""
+
+    @property
+    def unstable(self) -> int:
+        """Number of multipliers outside the unit circle; −1 if they are not known."""
+        if self.multipliers.size == 0:
+            return -1
+        return int((np.abs(self.multipliers) > 1.0 + MARGIN).sum())
 
     def at(self, phase: Array) -> tuple[Array, Array]:
         """Return displacement and velocity at phases ωt, each (phases, dofs)."""
@@ -73,42 +95,76 @@ class ResponseCurve:
     """how each point's correction ended"""
     iterations: Array
     """Newton iterations, shape (points,)"""
+    harmonics: Array
+    """that were solved for, shape (points,)"""
+    samples: Array
+    """of the contacts per period, shape (points,)"""
+    error: Array
+    """estimated relative error of the amplitude, shape (points,)"""
+    multiplier: Array
+    """largest modulus of a Floquet multiplier; 0 if not known, shape (points,)"""
+    unstable: Array
+    """number of multipliers outside the unit circle; −1 if not known, (points,)"""
+    event: tuple[str, ...]
+    """what each point is located as: peak, fold, …; empty for points of the trace"""
     ending: str
     """how the curve ended: "complete", "interrupted", or the cause"""
 
 
 def response_curve(
-    problem: Problem, points: Sequence[PeriodicResponse], ending: str, *, samples: int
+    problem: Problem, points: Sequence[PeriodicResponse], ending: str
 ) -> ResponseCurve:
-    """Gather periodic responses to a curve; ``samples`` in time find the peaks."""
-    phase = 2.0 * np.pi * np.arange(samples) / samples
-    count = (len(points), len(problem.probes.names))
-    amplitude, peak, velocity_peak = (np.empty(count) for _ in range(3))
-    for place, point in enumerate(points):
-        seen = _seen(point, problem.probes.rows)
-        amplitude[place] = np.hypot(seen.coefficients[1], seen.coefficients[2])
-        displacement, velocity = seen.at(phase)
-        peak[place] = np.abs(displacement - seen.coefficients[0]).max(axis=0)
-        velocity_peak[place] = np.abs(velocity).max(axis=0)
-    contacts = problem.interface.count
+    """Gather periodic responses to a curve."""
+    probes = (len(problem.probes.names),)
+    contacts = (problem.interface.count,)
+    seen = [_seen(point, problem.probes.rows) for point in points]
+    amplitude, peak, velocity_peak = (
+        np.array(column).reshape(-1, *probes)
+        for column in (zip(*seen, strict=True) if seen else ((), (), ()))
+    )
+
+    def column(name: str, shape: tuple[int, ...] = ()) -> Array:
+        values = [getattr(point, name) for point in points]
+        return np.array(values, dtype=float).reshape(-1, *shape)
+
     return ResponseCurve(
-        np.array([p.frequency for p in points]),
+        column("frequency"),
         problem.probes.names,
         amplitude,
         peak,
         velocity_peak,
         problem.interface.names,
-        np.array([p.normal_smallest for p in points]).reshape(len(points), contacts),
-        np.array([p.normal_largest for p in points]).reshape(len(points), contacts),
-        np.array([p.friction_energy for p in points]),
-        np.array([p.damping_energy for p in points]),
-        np.array([p.residual for p in points]),
-        tuple(p.outcome for p in points),
-        np.array([p.iterations for p in points], dtype=float),
+        column("normal_smallest", contacts),
+        column("normal_largest", contacts),
+        column("friction_energy"),
+        column("damping_energy"),
+        column("residual"),
+        tuple(point.outcome for point in points),
+        column("iterations"),
+        column("harmonics"),
+        column("samples"),
+        column("error"),
+        np.array([np.abs(p.multipliers).max(initial=0.0) for p in points]),
+        column("unstable"),
+        tuple(point.event for point in points),
         ending,
     )
 
 
-def _seen(point: PeriodicResponse, rows: Array) -> PeriodicResponse:
-    """Return the same response with probes in place of degrees of freedom."""
-    return replace(point, coefficients=point.coefficients @ rows.T)
+def _seen(point: PeriodicResponse, rows: Array) -> tuple[Array, Array, Array]:
+    """Return amplitude, peak and largest velocity of each probe, (probes,) each."""
+    seen = point.coefficients @ rows.T
+    orders = np.arange(seen.shape[0] // 2 + 1)[:, None]
+    samples = max(PEAK_SAMPLES, 8 * len(seen))
+    amplitudes = np.zeros((samples // 2 + 1, seen.shape[1]), complex)
+    amplitudes[1 : len(orders)] = (seen[1::2] - 1j * seen[2::2]) * samples / 2.0
+    rates = amplitudes.copy()
+    rates[: len(orders)] *= 1j * point.frequency * orders
+    displacement, velocity = (
+        np.fft.irfft(each, samples, axis=0) for each in (amplitudes, rates)
+    )
+    return (
+        np.hypot(seen[1], seen[2]),
+        np.abs(displacement).max(axis=0),
+        np.abs(velocity).max(axis=0),
+    )

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from microslip.progress import Watch
     from microslip.scene_file import Curve
     from microslip.studies.curve import Traced
-    from microslip_mechanics.problem import Problem
+    from microslip_mechanics.response import ResponseCurve
     from microslip_mechanics.static import StaticState
 
 HEADER = """\
@@ -50,27 +50,20 @@ def _run(options: argparse.Namespace) -> int:
     print(_table(traced))
     print(_rest(problem.interface.names, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
-    if traced.curve.ending != "complete":
-        return arguments.ended(traced.curve.ending)
-    return _error(problem, traced, scene.curve)
+    print(_resolution(traced.curve))
+    return arguments.ended(traced.curve.ending)
 
 
-def _error(problem: Problem, traced: Traced, curve: Curve) -> int:
-    """Print an estimate of the truncation error; return the exit status."""
-    from hbm.continuation import ContinuationError
-    from microslip.studies.curve import truncation_error
+def _resolution(curve: ResponseCurve) -> str:
+    """Return how accurate the curve is, and with how many harmonics."""
+    import numpy as np
 
-    try:
-        error = truncation_error(problem, traced, curve)
-    except ContinuationError as cause:
-        return arguments.ended(f"the truncation error is not known: {cause}")
-    except KeyboardInterrupt:
-        return arguments.ended("interrupted")
-    print(
-        f"truncation error about {100.0 * error:.2g} % of the largest amplitude "
-        "(solved again with twice the harmonics and samples)"
+    return (
+        f"estimated error of amplitude: at most {100.0 * curve.error.max():.2g} % at a "
+        f"point, {100.0 * float(np.median(curve.error)):.2g} % in the median; "
+        f"{curve.harmonics.min():.0f} to {curve.harmonics.max():.0f} harmonics, "
+        f"{curve.samples.min():.0f} to {curve.samples.max():.0f} samples"
     )
-    return 0
 
 
 def watched(curve: Curve) -> Watch:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hbm.continuation import ContinuationError
-from hbm.solve import CurveOptions, frequency_response, periodic_response
+from hbm.solve import CurveOptions, frequency_response
 from microslip.progress import Watch
 from microslip.scene_file import Curve
 from microslip_mechanics.problem import Problem
@@ -30,8 +30,9 @@ def trace_curve(problem: Problem, curve: Curve, watch: Watch = iter) -> Traced:
     options = CurveOptions(
         2.0 * np.pi * curve.lowest,
         2.0 * np.pi * curve.highest,
-        curve.harmonics,
-        curve.samples,
+        error=curve.tolerance,
+        harmonics=curve.harmonics,
+        samples=curve.samples,
     )
     responses: list[PeriodicResponse] = []
     ending = "complete"
@@ -46,28 +47,8 @@ def trace_curve(problem: Problem, curve: Curve, watch: Watch = iter) -> Traced:
         ending = "interrupted"
         if not responses:
             raise
-    made = response_curve(problem, responses, ending, samples=curve.samples)
+    made = response_curve(problem, responses, ending)
     return Traced(made, tuple(responses), rest)
-
-
-def truncation_error(problem: Problem, traced: Traced, curve: Curve) -> float:
-    """Return how much the peak amplitude changes with twice the resolution, relative.
-
-    The point of the largest amplitude is solved again with twice the harmonics and
-    twice the samples; its change estimates the error of the curve there.
-    """
-    place = int(traced.curve.amplitude.max(axis=1).argmax())
-    finer = periodic_response(
-        problem,
-        traced.rest,
-        traced.responses[place],
-        harmonics=2 * curve.harmonics + 1,
-        samples=2 * curve.samples,
-    )
-    fine = response_curve(problem, [finer], "complete", samples=2 * curve.samples)
-    coarse = traced.curve.amplitude[place]
-    change = np.abs(fine.amplitude[0] - coarse).max()
-    return float(change / coarse.max()) if change > 0.0 else 0.0
 
 
 def shown_points(curve: ResponseCurve, largest: int, count: int = 11) -> list[int]:

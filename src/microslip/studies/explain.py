@@ -6,10 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.active import moving
-from hbm.continuation import StepControl, correct_at
-from hbm.fourier import FourierBasis
-from hbm.residual import HarmonicBalance
+from hbm.active import extended, moving
+from hbm.relative import relative_problem
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene
 from microslip_mechanics.contact.law import (
@@ -21,6 +19,8 @@ from microslip_mechanics.contact.law import (
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 
+HARMONICS = 63
+"""for which unknowns are counted where their number follows from the tolerance"""
 FRICTION_LAWS = {
     COULOMB: "Coulomb",
     GENERAL_KINETIC: "GKF",
@@ -44,7 +44,8 @@ def pruned(scene: Scene) -> list[Pruned]:
     dofs, points = problem.structure.dofs, problem.interface.points
     count = problem.interface.count
     _, selection = problem.interface.relative_motion()
-    size = 2 * scene.curve.harmonics + 1
+    harmonics = scene.curve.harmonics or HARMONICS
+    size = 2 * harmonics + 1
     entries = sum(
         int(pattern.sum())
         for point in range(count)
@@ -81,8 +82,8 @@ def pruned(scene: Scene) -> list[Pruned]:
             "the rest is condensed exactly, frequency by frequency",
         ),
         Pruned(
-            "unknowns of harmonic balance",
-            _active(problem, scene),
+            f"unknowns of harmonic balance with {harmonics} harmonics",
+            _active(problem, scene, harmonics),
             size * len(selection),
             "symmetry keeps the others at zero",
         ),
@@ -112,13 +113,8 @@ def _laws(problem: Problem) -> tuple[int, int]:
     return len(used), len(FRICTION_LAWS) - 1
 
 
-def _active(problem: Problem, scene: Scene) -> int:
+def _active(problem: Problem, scene: Scene, harmonics: int) -> int:
     """Count the unknowns that move, at the curve's first frequency."""
-    rest = static_equilibrium(problem)
-    fourier = FourierBasis(scene.curve.harmonics, scene.curve.samples)
-    balance = HarmonicBalance(problem, rest, fourier)
-    still = np.zeros((fourier.coefficients, problem.structure.dofs))
-    still[0] = rest.displacement
-    start = balance.point(still, 2.0 * np.pi * scene.curve.lowest)
-    first = correct_at(balance, start, StepControl(tolerance=1e-8))
-    return int(moving(balance, first.point).sum())
+    whole = relative_problem(problem, static_equilibrium(problem))
+    active = moving(whole, 2.0 * np.pi * scene.curve.lowest)
+    return int(extended(active, harmonics).sum())

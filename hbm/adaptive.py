@@ -1,0 +1,236 @@
+"""Harmonics and samples that follow an error tolerance from point to point (§6)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.active import extended
+from hbm.fourier import FourierBasis
+from hbm.newton import Correction, Linearised, Outcome, SingularError, correct
+from hbm.relative import RelativeProblem
+from hbm.residual import HarmonicBalance
+from microslip_mechanics.arrays import Array, ComplexArray
+
+HARMONICS = 255
+"""most that are solved for"""
+FEWEST_SAMPLES, MOST_SAMPLES = 32, 16384
+SPARE = 6.0
+"""times that the error may be below its tolerance before less is taken"""
+
+
+WAIT = 10
+"""points before less is tried again, where it failed"""
+PATIENCE = 3
+"""failures in a row before the resolution is raised"""
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What one Newton step at twice the resolution says of a point.
+
+    The step leaves an error no larger than itself where the series converges like 1/H,
+    as dry friction does, and a much smaller one where it converges faster.
+    """
+
+    truncation: float
+    """relative change of the amplitude by the harmonics that were left out"""
+    sampling: float
+    """and by the distance of the samples"""
+    corrected: Array
+    """the point after the step"""
+    fourier: FourierBasis
+    """its resolution"""
+
+    @property
+    def error(self) -> float:
+        """Sum of both."""
+        return self.truncation + self.sampling
+
+
+class Resolution:
+    """One problem at any number of harmonics and samples, made when first asked for."""
+
+    def __init__(
+        self, problem: RelativeProblem, active: NDArray[np.bool_], probes: Array
+    ) -> None:
+        """Resolve ``problem`` in ``active`` coefficients of the probing orders.
+
+        ``probes`` has shape ``(probes, dofs)``: the amplitudes whose error counts.
+        """
+        self._problem, self._active, self._probes = problem, active, probes
+        self.rank = problem.rank
+        self._made: dict[FourierBasis, HarmonicBalance] = {}
+
+    def at(self, fourier: FourierBasis) -> HarmonicBalance:
+        """Return the harmonic balance at one resolution."""
+        if fourier not in self._made:
+            self._made[fourier] = HarmonicBalance(
+                self._problem, fourier, extended(self._active, fourier.harmonics)
+            )
+        return self._made[fourier]
+
+    def estimate(self, correction: Correction, fourier: FourierBasis) -> Estimate:
+        """Return the error of a converged point, by one correction at twice the order.
+
+        Raises
+        ------
+        SingularError
+            If the point lies on a fold.
+        """
+        point = correction.point
+        finer = FourierBasis(2 * fourier.harmonics + 1, 2 * fourier.samples)
+        residual, refined = self.at(finer)(point)
+        normal = np.zeros(point.size)
+        normal[-1] = 1.0
+        step = refined.solve(normal, np.append(-residual, 0.0))
+        low = residual.copy()
+        low[fourier.coefficients * self.rank :] = 0.0
+        rights = np.zeros((point.size, 2))
+        rights[:-1, 0] = -correction.residual
+        rights[:-1, 1] = correction.residual - low
+        newton, sampled = correction.linearised.solve(normal, rights).T
+        before, at_newton, at_sampled, after = (
+            np.abs(self._amplitudes(point + each))
+            for each in (0.0 * point, newton, newton + sampled, step)
+        )
+        size = float(before.max(initial=0.0)) or 1.0
+        sampling = float(np.abs(at_sampled - at_newton).max(initial=0.0)) / size
+        truncation = float(np.abs(after - at_sampled).max(initial=0.0)) / size
+        return Estimate(truncation, sampling, point + step, finer)
+
+    def _amplitudes(self, point: Array) -> ComplexArray:
+        """Return the first harmonic of each probe [m]."""
+        rank = self._problem.rank
+        first = point[rank : 2 * rank] - 1j * point[2 * rank : 3 * rank]
+        return self._problem.first_harmonic(first, float(point[-1]), self._probes)
+
+
+class AdaptiveBalance:
+    """A system whose resolution changes from point to point, as the error asks for.
+
+    Points have room for :attr:`size` components, whatever their resolution.
+    """
+
+    def __init__(
+        self,
+        resolution: Resolution,
+        start: FourierBasis,
+        *,
+        tolerance: float | None,
+        most: int = HARMONICS,
+    ) -> None:
+        """Begin with ``start``; without ``tolerance`` stay there.
+
+        ``tolerance`` is the relative error of the amplitude at each point; ``most`` the
+        number of harmonics that are not exceeded.
+        """
+        self._resolution, self._tolerance, self._most = resolution, tolerance, most
+        self.fourier = self._settled = self._kept = start
+        self._wait = 0
+        self.estimate: Estimate | None = None
+        """of the last settled point; None if it lies on a fold"""
+        orders = 2 * (start.harmonics if tolerance is None else most) + 1
+        self.size = (2 * orders + 1) * resolution.rank + 1
+
+    def __call__(self, point: Array) -> tuple[Array, Linearised]:
+        """Return residual and derivative at the present resolution."""
+        return self._resolution.at(self.fourier)(point)
+
+    def keep(self) -> None:
+        """Let the next point have the resolution that the last one asks for."""
+        self._kept, self._wait = self._settled, self._wait - 1
+        if self.estimate is not None and self._wait <= 0:
+            self.fourier = self._coarser(self.estimate)
+
+    def retreat(self, times: int) -> None:
+        """Go back to the resolution of the last kept point, then to finer ones.
+
+        Coarse samples make the residual less smooth than the contacts are.
+        """
+        if self.fourier != self._kept:
+            self._wait = WAIT
+        self.fourier = self._kept
+        if self._tolerance is not None:
+            for _ in range(min(times // PATIENCE, 2)):
+                self.fourier = self._doubled(True, True)
+
+    def settle(
+        self, correction: Correction, normal: Array, tolerance: float
+    ) -> Correction:
+        """Refine a converged point until its error is small enough, and note the error.
+
+        The refined point lies in the plane through it, normal to ``normal``;
+        ``tolerance`` is that of the residual. What is returned may have failed.
+        """
+        while True:
+            self._settled = self.fourier
+            correction = replace(correction, point=self._truncated(correction.point))
+            try:
+                self.estimate = self._resolution.estimate(correction, self.fourier)
+            except SingularError:
+                self.estimate = None
+                return correction
+            finer = self._finer(self.estimate)
+            if finer == self.fourier:
+                return correction
+            self.fourier = finer
+            again = correct(self, self.estimate.corrected, normal, tolerance=tolerance)
+            correction = replace(
+                again, residuals=correction.residuals[:-1] + again.residuals
+            )
+            if correction.outcome is not Outcome.CONVERGED:
+                return correction
+
+    def kept(self, point: Array) -> tuple[Array, FourierBasis, float]:
+        """Return the settled point as it is to be reported, its resolution and error.
+
+        With a tolerance it is the corrected one; fixed harmonics stay what they are,
+        their error being up to twice the change that the correction would bring.
+        """
+        if self.estimate is None:
+            return point, self._settled, math.inf
+        if self._tolerance is None:
+            return point, self._settled, 2.0 * self.estimate.error
+        return self.estimate.corrected, self.estimate.fourier, self.estimate.error
+
+    def _truncated(self, point: Array) -> Array:
+        """Return a point without what a finer one before has left in higher orders."""
+        truncated = point.copy()
+        truncated[self.fourier.coefficients * self._resolution.rank : -1] = 0.0
+        return truncated
+
+    def _finer(self, estimate: Estimate) -> FourierBasis:
+        """Return the resolution that the error asks for."""
+        if self._tolerance is None or estimate.error <= self._tolerance:
+            return self.fourier
+        enough = 0.5 * self._tolerance
+        return self._doubled(estimate.truncation > enough, estimate.sampling > enough)
+
+    def _doubled(self, harmonics: bool, samples: bool) -> FourierBasis:
+        """Return a resolution with twice the harmonics, or samples, or both."""
+        orders, count = self.fourier.harmonics, self.fourier.samples
+        if harmonics:
+            orders = min(2 * orders + 1, self._most)
+        if samples:
+            count = min(2 * count, MOST_SAMPLES)
+        return FourierBasis(orders, max(count, 8 * (orders + 1)))
+
+    def _coarser(self, estimate: Estimate) -> FourierBasis:
+        """Return the resolution for the next point, less where much is to spare."""
+        if self._tolerance is None:
+            return self.fourier
+        harmonics, samples = self.fourier.harmonics, self.fourier.samples
+        enough = self._tolerance / SPARE
+        if estimate.truncation < enough:
+            harmonics = max(harmonics // 2, 1)
+        if estimate.truncation < 1e-3 * enough:
+            harmonics = max(harmonics // 4, 1)
+        if estimate.sampling < enough:
+            samples //= 2
+        return FourierBasis(
+            harmonics, max(samples, FEWEST_SAMPLES, 8 * (harmonics + 1))
+        )

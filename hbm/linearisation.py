@@ -1,0 +1,57 @@
+"""Solutions with the bordered Jacobian of harmonic balance (theory, eqs. 18–20)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack
+
+from hbm.newton import SingularError
+from microslip_mechanics.arrays import Array
+
+
+class Linearisation:
+    """The residual's derivative at a point, bordered by one more row when it solves."""
+
+    def __init__(
+        self, jacobian: Array, slope: Array, places: NDArray[np.int64], size: int
+    ) -> None:
+        """Take the derivatives by the unknowns and by the last component of a point.
+
+        Parameters
+        ----------
+        jacobian
+            ∂R/∂y of the unknowns, shape ``(unknowns, unknowns)``.
+        slope
+            Derivative by the last component, shape ``(unknowns,)``.
+        places
+            Where the unknowns are in a point, shape ``(unknowns,)``.
+        size
+            Number of components of a point.
+        """
+        self.jacobian, self.slope = jacobian, slope
+        self._places, self._size = np.append(places, size - 1), size
+
+    def solve(self, normal: Array, right: Array) -> Array:
+        """Solve [Jacobian slope; normal] d = right.
+
+        ``normal`` has shape ``(size,)``, ``right`` that or ``(size, several)``. Components that are not solved for stay zero.
+
+        Raises
+        ------
+        SingularError
+            If there is no solution.
+        """
+        count = self.slope.size
+        matrix = np.empty((count + 1, count + 1), order="F")
+        matrix[:count, :count] = self.jacobian
+        matrix[:count, count] = self.slope
+        matrix[count] = normal[self._places]
+        *_, found, failed = lapack.dgesv(
+            matrix, right[self._places], overwrite_a=True, overwrite_b=True
+        )
+        if failed != 0 or not np.all(np.isfinite(found)):
+            raise SingularError
+        solution = np.zeros_like(right)
+        solution[self._places] = found
+        return solution

@@ -1,0 +1,83 @@
+"""Extrapolation along a curve, of the order that has served best (theory §6)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+
+MOST = 3
+"""earlier points that are looked back upon"""
+
+
+STEEPEST = 0.2
+"""most that an extrapolation may leave the tangent, over the step"""
+
+
+class Predictor:
+    """Polynomial through the last points and the tangent at the last of them."""
+
+    def __init__(self) -> None:
+        """Begin without a past."""
+        self._points: list[Array] = []
+        self._places: list[float] = []
+        self._tangent = self._scale = np.empty(0)
+        self.order = 1
+        """of the extrapolation that predicted the last point best"""
+
+    def forget(self) -> None:
+        """Begin anew, where the past says nothing about what comes."""
+        self._points, self._places, self.order = [], [], 1
+
+    def append(self, point: Array, tangent: Array, scale: Array, step: float) -> float:
+        """Add a point that lies ``step`` further on, and its unit tangent.
+
+        Returns
+        -------
+        How far the best extrapolation missed the point, in units of ``scale``.
+        """
+        missed = [
+            float(np.linalg.norm((self._extrapolated(step, order) - point) / scale))
+            for order in range(1, len(self._points) + 1)
+        ]
+        if missed:
+            self.order = 1 + int(np.argmin(missed))
+        self._points = [point, *self._points][: MOST + 1]
+        self._places = [0.0, *(place - step for place in self._places)][: MOST + 1]
+        self._tangent, self._scale = tangent, scale
+        return min(missed, default=0.0)
+
+    def predict(self, step: float) -> Array:
+        """Return the point expected ``step`` further on.
+
+        An extrapolation that leaves the tangent by much is not trusted: rounding and
+        the corrector's tolerance grow with its order.
+        """
+        line = self._extrapolated(step, 1)
+        for order in range(min(self.order, len(self._points)), 1, -1):
+            expected = self._extrapolated(step, order)
+            bend = float(np.linalg.norm((expected - line) / self._scale))
+            if bend <= STEEPEST * step:
+                return expected
+        return line
+
+    def _extrapolated(self, step: float, order: int) -> Array:
+        """Return x(step) of the polynomial of an order with x(0), x'(0) as known.
+
+        Order 1 is the tangent; each further order takes one more earlier point.
+        """
+        start = self._points[0]
+        line: Array = start + step * self._tangent
+        if order == 1:
+            return line
+        places = np.array(self._places[1:order])
+        bends = [
+            (point - start - place * self._tangent) / place**2
+            for point, place in zip(self._points[1:order], places, strict=True)
+        ]
+        weights = [
+            np.prod((step - np.delete(places, i)) / (place - np.delete(places, i)))
+            for i, place in enumerate(places)
+        ]
+        bend = sum(weight * each for weight, each in zip(weights, bends, strict=True))
+        return line + step**2 * bend

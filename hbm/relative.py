@@ -1,0 +1,123 @@
+"""A problem in the relative coordinates of its contacts (theory §6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.aft import AlternatingFrequencyTime
+from hbm.condensation import CondensedStructure, condense
+from hbm.fourier import FourierBasis
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import StaticState
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeProblem:
+    """What harmonic balance solves, in coordinates y of the relative motion."""
+
+    points: ContactPoints
+    basis: Array
+    """map from y to the points, shape (3 points, rank)"""
+    selection: Array
+    """map from the structure to y, shape (rank, dofs)"""
+    offset: Array
+    """constant displacement of the points besides y [m], shape (3 points,)"""
+    condensed: CondensedStructure
+    force: ComplexArray
+    """preload and −i drive: the loads of orders 0 and 1 [N], shape (2, dofs)"""
+    gauge: Array
+    """stiffness along mean motions that nothing holds [N/m], shape (rank, rank)"""
+    rest: Array
+    """y at rest [m], shape (rank,)"""
+    position: Array
+    """constant motion of the structure besides that by y and the loads [m], (dofs,)"""
+    odd: NDArray[np.bool_] | None = None
+    """which coordinates have odd harmonics only, the others even ones; None if mixed"""
+
+    @property
+    def rank(self) -> int:
+        """Number of relative coordinates."""
+        return self.basis.shape[1]
+
+    def contact(self, fourier: FourierBasis) -> AlternatingFrequencyTime:
+        """Return the contacts evaluated with a number of harmonics and samples."""
+        return AlternatingFrequencyTime(
+            self.points, self.basis, fourier, offset=self.offset, odd=self.odd
+        )
+
+    def first_harmonic(
+        self, relative: ComplexArray, frequency: float, rows: Array
+    ) -> ComplexArray:
+        """Return order 1 of linear forms of the motion [m].
+
+        ``relative`` is order 1 of y, ``rows`` has shape ``(forms, dofs)``.
+        """
+        motion = self.condensed.motion(
+            np.array([1j * frequency]), relative[None], self.force[1:]
+        )
+        seen: ComplexArray = rows @ motion[0]
+        return seen
+
+    def restricted(
+        self, kept: NDArray[np.int64], odd: NDArray[np.bool_] | None
+    ) -> RelativeProblem:
+        """Return the problem for some coordinates, the others staying at rest."""
+        left = np.setdiff1d(np.arange(self.rank), kept)
+        return replace(
+            self,
+            basis=np.ascontiguousarray(self.basis[:, kept]),
+            selection=self.selection[kept],
+            offset=self.offset + self.basis[:, left] @ self.rest[left],
+            condensed=self.condensed.restricted(kept, self.force),
+            gauge=self.gauge[np.ix_(kept, kept)],
+            rest=self.rest[kept],
+            position=self.position + self.condensed.static[:, left] @ self.rest[left],
+            odd=odd,
+        )
+
+
+def relative_problem(problem: Problem, rest: StaticState) -> RelativeProblem:
+    """Return the problem in relative coordinates; ``rest`` is its equilibrium."""
+    basis, selection = problem.interface.relative_motion()
+    condensed = condense(problem, selection)
+    force = np.array([problem.preload, -1j * problem.drive])
+    position = selection @ rest.displacement
+    rank = basis.shape[1]
+    made = RelativeProblem(
+        problem.interface.points,
+        basis,
+        selection,
+        np.zeros(basis.shape[0]),
+        condensed,
+        force,
+        np.zeros((rank, rank)),
+        position,
+        np.zeros(problem.structure.dofs),
+    )
+    return replace(made, gauge=_free_positions(made))
+
+
+def _free_positions(problem: RelativeProblem) -> Array:
+    """Return a stiffness along mean motions that nothing holds, else zero.
+
+    Without a rope, say, the mean position of the friction element is arbitrary;
+    pinning it changes no force as long as no mean force acts along it.
+    """
+    rank = problem.rank
+    if rank == 0:
+        return np.zeros((0, 0))
+    contact = problem.contact(FourierBasis(1, 8))
+    contact(np.vstack([problem.rest, np.zeros((2, rank))]), 1.0)
+    held = problem.condensed.stiffness + contact.spectra(0)[0][:, :, 0]
+    sizes, directions = np.linalg.eigh((held + held.T) / 2.0)
+    largest = max(float(sizes[-1]), np.finfo(float).tiny)
+    loose = directions[:, sizes <= 1e-11 * largest]
+    if sizes[-1] <= 0.0:
+        largest = float(np.abs(np.diag(problem.condensed.mass)).max())
+    gauge: Array = largest * 1e-6 * loose @ loose.T
+    return gauge

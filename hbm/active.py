@@ -53,7 +53,7 @@ def symmetric(
 
     The second is None if a coordinate mixes odd and even harmonics.
     """
-    odd, even = active[1::4].any(axis=0), (active[0] | active[3::4].any(axis=0))
+    odd, even = _parities(active)
     kept = np.flatnonzero(odd | even)
     return kept, None if (odd & even).any() else odd[kept]
 
@@ -64,11 +64,18 @@ def extended(active: NDArray[np.bool_], harmonics: int) -> NDArray[np.bool_]:
     ``active`` are those of the :data:`PROBE`: odd orders stand for all odd ones, even
     orders for all even ones.
     """
-    odd, even = active[1::4].any(axis=0), (active[0] | active[3::4].any(axis=0))
+    odd, even = _parities(active)
     orders = np.arange(1, harmonics + 1) % 2 == 1
     rows = np.where(orders[:, None], odd, even).repeat(2, axis=0)
     result: NDArray[np.bool_] = np.vstack([even[None, :], rows])
     return result
+
+
+def _parities(
+    active: NDArray[np.bool_],
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return which coordinates have odd and which have even harmonics, (rank,) each."""
+    return np.any(active[1::4], axis=0), active[0] | np.any(active[3::4], axis=0)
 
 
 def _stuck(

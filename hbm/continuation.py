@@ -61,7 +61,7 @@ class StepControl:
         iterations
             Of Newton.
         """
-        factor = (self.miss / max(missed, 1e-9)) ** (1.0 / (order + 1))
+        factor = math.pow(self.miss / max(missed, 1e-9), 1.0 / (order + 1))
         if iterations > self.many_iterations:
             factor = min(factor, 0.7)
         return min(max(step * min(max(factor, 0.3), 2.0), self.smallest), self.largest)
@@ -86,7 +86,10 @@ class Unsettled:
     """Keeps each point as it is."""
 
     def settle(
-        self, correction: Correction, normal: Array, tolerance: float
+        self,
+        correction: Correction,
+        normal: Array,  # noqa: ARG002
+        tolerance: float,  # noqa: ARG002
     ) -> Correction:
         """Return the point."""
         return correction

@@ -35,7 +35,8 @@ class Linearisation:
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian slope; normal] d = right.
 
-        ``normal`` has shape ``(size,)``, ``right`` that or ``(size, several)``. Components that are not solved for stay zero.
+        ``normal`` has shape ``(size,)``, ``right`` that or ``(size, several)``.
+        Components that are not solved for stay zero.
 
         Raises
         ------

@@ -21,7 +21,8 @@ class Predictor:
         """Begin without a past."""
         self._points: list[Array] = []
         self._places: list[float] = []
-        self._tangent = self._scale = np.empty(0)
+        self._tangent: Array = np.empty(0)
+        self._scale: Array = np.empty(0)
         self.order = 1
         """of the extrapolation that predicted the last point best"""
 
@@ -80,4 +81,5 @@ class Predictor:
             for i, place in enumerate(places)
         ]
         bend = sum(weight * each for weight, each in zip(weights, bends, strict=True))
-        return line + step**2 * bend
+        curved: Array = line + step**2 * bend
+        return curved

@@ -42,7 +42,7 @@ class RelativeProblem:
     @property
     def rank(self) -> int:
         """Number of relative coordinates."""
-        return self.basis.shape[1]
+        return int(self.basis.shape[1])
 
     def contact(self, fourier: FourierBasis) -> AlternatingFrequencyTime:
         """Return the contacts evaluated with a number of harmonics and samples."""

@@ -27,7 +27,7 @@ class HarmonicBalance:
         fourier: FourierBasis,
         active: NDArray[np.bool_] | None = None,
     ) -> None:
-        """Plan for ``problem``; ``active`` coefficients, (2H + 1, rank), are solved for.
+        """Plan for ``problem``; ``active`` coefficients, (2H + 1, rank), are sought.
 
         The others are zero by symmetry; all are active if left out.
         """
@@ -44,7 +44,7 @@ class HarmonicBalance:
         self._structure: tuple[ComplexArray, ...] = ()
 
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
-        """Return the residual [N], shape (unknowns,), and what solves with its Jacobian.
+        """Return the residual [N], (size − 1,), and what solves with its Jacobian.
 
         Derivatives are taken by the active coefficients and by the frequency.
         """

@@ -262,10 +262,11 @@ def _check(source: str, scene: Scene) -> None:
             f"{source}: [curve] samples = {curve.samples}: they follow from the "
             "tolerance unless harmonics are given: give both, or neither"
         )
-    if curve.samples is not None and curve.samples < 4 * (curve.harmonics or 0) + 2:
+    fewest = 4 * (curve.harmonics or 0) + 2
+    if curve.samples is not None and curve.samples < fewest:
         raise SceneError(
             f"{source}: [curve] samples = {curve.samples}: too few for "
-            f"{curve.harmonics} harmonics: give at least {4 * (curve.harmonics or 0) + 2}"
+            f"{curve.harmonics} harmonics: give at least {fewest}"
         )
     if contact.angle_excited + contact.angle_follower <= 0.0:
         raise SceneError(

@@ -145,6 +145,12 @@ class AdaptiveBalance:
         """Return residual and derivative at the present resolution."""
         return self._resolution.at(self.fourier)(point)
 
+    def restart(self, harmonics: int) -> None:
+        """Begin anew with at least so many harmonics, unless they are fixed."""
+        if self._tolerance is not None:
+            self.fourier = FourierBasis(harmonics, max(128, 8 * (harmonics + 1)))
+            self._kept = self.fourier
+
     def keep(self) -> None:
         """Let the next point have the resolution that the last one asks for."""
         self._kept, self._wait = self.settled, self._wait - 1

@@ -33,6 +33,8 @@ class StepControl:
     """distance by which a correction may leave the prediction in any case"""
     tolerance: float = 1e-9
     """of the largest residual"""
+    most_points: int = 5000
+    """after which a curve is given up"""
     sharpest_turn: float = 0.5
     """a step turns the tangent by no more than what has this cosine"""
 
@@ -152,11 +154,11 @@ def trace(
         direction[-1] = math.copysign(1.0, end - begin)
     scale = metric(accepted.point)
     direction = tangent(accepted.linearised, direction, scale)
-    accepted = replace(accepted, tangent=direction)
+    accepted = replace(accepted, tangent=direction, joined=False)
     yield accepted
     low, high = sorted((begin, end))
     past, went = Predictor(), 0.0
-    while True:
+    for _ in range(control.most_points):
         missed = past.append(accepted.point, direction, scale, went)
         if went > 0.0:
             step = control.after(went, missed, past.order, accepted.iterations)
@@ -166,8 +168,13 @@ def trace(
             return
         scale = metric(candidate.point)
         direction = candidate.along / float(np.linalg.norm(candidate.along / scale))
-        accepted = replace(candidate, tangent=direction)
+        accepted = replace(candidate, tangent=direction, joined=True)
         yield accepted
+    raise ContinuationError(
+        f"the curve has not come to an end after {control.most_points} points, at "
+        f"parameter {float(accepted.point[-1]):.9g}: a shorter range or a larger step "
+        "helps"
+    )
 
 
 def correct_at(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,14 +33,15 @@ class Curve:
     """for stability, if it is wanted"""
 
     def followed(
-        self, corrections: Iterator[Correction], metric: Metric
+        self, corrections: Iterable[Correction], metric: Metric
     ) -> Iterator[PeriodicResponse]:
         """Yield the response at each point, and at each event between two points."""
         before: Correction | None = None
         last: PeriodicResponse | None = None
         for correction in corrections:
-            made = self._made(correction, "")
-            if before is not None and last is not None:
+            joined = before is not None and correction.joined
+            made = self._made(correction, "" if joined or before is None else "restart")
+            if joined and before is not None and last is not None:
                 yield from self._between(before, correction, last, made, metric)
             yield made
             before, last = correction, made

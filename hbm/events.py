@@ -42,6 +42,8 @@ class Segment:
         if not first * last < 0.0:
             return None
         length = self._place(self.after.point)
+        if length <= 0.0:
+            return None
         latest: list[Correction] = []
 
         def value(place: float) -> float:

@@ -11,6 +11,11 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 
+ROUNDING = 1e-8
+"""relative size of a step that cannot lower the residual because of rounding"""
+HALVINGS = 12
+"""of a step, at the most"""
+
 
 class Linearised(Protocol):
     """The derivative of a residual at a point."""
@@ -38,7 +43,7 @@ System: TypeAlias = Callable[[Array], tuple[Array, Linearised]]
 class Outcome(enum.Enum):
     """How a Newton correction ended."""
 
-    CONVERGED = "the residual fell below the tolerance"
+    CONVERGED = "the residual fell below the tolerance, or to rounding"
     EXHAUSTED = "the iteration limit was reached"
     STALLED = "no step along Newton's direction lowers the residual"
     SINGULAR = "the bordered Jacobian is singular"
@@ -58,6 +63,8 @@ class Correction:
     """largest residual before the first and after each iteration"""
     tangent: Array | None = None
     """of the curve at the point, shape (n + 1,), if it is known"""
+    joined: bool = True
+    """whether the curve comes from the point before"""
 
     @property
     def along(self) -> Array:
@@ -76,7 +83,7 @@ def correct(
     normal: Array,
     *,
     tolerance: float,
-    max_iterations: int = 15,
+    max_iterations: int = 25,
 ) -> Correction:
     """Bring a predicted point to the curve, within the plane normal to ``normal``.
 
@@ -95,7 +102,7 @@ def correct(
 
     Notes
     -----
-    A step that raises the residual is halved, nine times at the most.
+    A step that does not lower the Euclidean norm of the residual is halved.
     """
     point = predicted
     residual, linearised = system(point)
@@ -119,15 +126,18 @@ def correct(
             return Correction(
                 point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
             )
-        for halving in range(10):
+        merit = float(np.linalg.norm(residual))
+        for halving in range(HALVINGS):
             trial = point - step / 2**halving
             tried, derivative = system(trial)
-            if _size(tried) < sizes[-1]:
+            if float(np.linalg.norm(tried)) < (1.0 - 1e-4 / 2**halving) * merit:
                 break
         else:
-            return Correction(
-                point, residual, linearised, Outcome.STALLED, tuple(sizes)
+            small = float(np.linalg.norm(step)) <= ROUNDING * float(
+                np.linalg.norm(point[:-1])
             )
+            outcome = Outcome.CONVERGED if small else Outcome.STALLED
+            return Correction(point, residual, linearised, outcome, tuple(sizes))
         point, residual, linearised = trial, tried, derivative
         sizes.append(_size(residual))
 

@@ -27,8 +27,8 @@ GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
 FADING = 3.0
 """Stribeck speeds past the threshold at which an event is placed as well"""
-EVENTS = 5
-"""most events within a cell: two crossings of each of two speeds, one of the gap"""
+EVENTS = 10
+"""most within a cell: two crossings of each of four speeds, one turn, one touch"""
 
 
 class Symmetry(NamedTuple):
@@ -319,11 +319,16 @@ def _events(
         one, two = velocity[row + 1, place], velocity[row + 2, place]
         by_one = velocity[row + 1, after] - one
         by_two = velocity[row + 2, after] - two
-        threshold = points.threshold[point]
-        found = _crossings(one, two, by_one, by_two, threshold, events, found)
+        wide = 0.0
         if points.friction[point] == GENERAL_KINETIC:
-            wide = threshold + FADING * points.stribeck[point]
-            found = _crossings(one, two, by_one, by_two, wide, events, found)
+            wide = points.threshold[point] + FADING * points.stribeck[point]
+        found = _slow(
+            velocity[row + 1 : row + 3, place],
+            velocity[row + 1 : row + 3, after],
+            points.threshold[point],
+            wide,
+            events,
+        )
     if (before > 0.0) != (behind > 0.0):
         found += 1
         events[found] = before / (before - behind)
@@ -331,6 +336,33 @@ def _events(
         return 0
     events[0], events[found + 1] = 0.0, 1.0
     events[1 : found + 1].sort()
+    return found
+
+
+@kernel
+def _slow(
+    first: Array, last: Array, threshold: float, wide: float, events: Array
+) -> int:
+    """Write where sliding passes a threshold or turns; return the number of places.
+
+    ``first`` and ``last`` are the sliding velocities at the two samples, (2,) each.
+    """
+    one, two = first
+    by_one, by_two = last[0] - one, last[1] - two
+    found = _crossings(one, two, by_one, by_two, threshold, events, 0)
+    if wide > 0.0:
+        found = _crossings(one, two, by_one, by_two, wide, events, found)
+    square = by_one * by_one + by_two * by_two
+    if square == 0.0:
+        return found
+    middle = -(one * by_one + two * by_two) / square
+    if 0.0 < middle < 1.0:
+        found += 1
+        events[found] = middle
+        slowest = math.hypot(one + middle * by_one, two + middle * by_two)
+        for times in (2.0, 8.0):
+            speed = times * max(slowest, threshold)
+            found = _crossings(one, two, by_one, by_two, speed, events, found)
     return found
 
 

@@ -10,18 +10,13 @@ from numpy.typing import NDArray
 
 from hbm.active import extended, moving, symmetric
 from hbm.adaptive import AdaptiveBalance, Resolution
-from hbm.continuation import (
-    Metric,
-    StepControl,
-    correct_at,
-    trace,
-)
+from hbm.continuation import StepControl, correct_at
 from hbm.curve import Curve, response
 from hbm.fourier import FourierBasis
+from hbm.pieces import Pieces
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import HarmonicBalance
 from hbm.stability import small_motions
-from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
@@ -102,15 +97,10 @@ def frequency_response(
         options.first,
         tolerance=None if options.harmonics else options.error,
     )
-    start = np.zeros(system.size)
-    start[: reduced.rank], start[-1] = reduced.rest, options.start
     motions = small_motions(problem) if options.stability else None
     curve = Curve(problem, system, resolution, control, motions)
-    metric = _metric(reduced.rank, abs(options.end - options.start) / 10.0)
-    corrections = trace(
-        system, start, options.end, metric=metric, control=control, settler=system
-    )
-    yield from curve.followed(corrections, metric)
+    pieces = Pieces(reduced, active, system, options.start, options.end, control)
+    yield from curve.followed(pieces, pieces.metric)
 
 
 def _moving(
@@ -146,19 +136,3 @@ def periodic_response(
     start = balance.point(guess.coefficients @ reduced.selection.T, guess.frequency)
     correction = correct_at(balance, start, control)
     return response(problem, balance, correction)
-
-
-def _metric(means: int, frequency_scale: float) -> Metric:
-    """Measure arc by relative changes of mean motion and vibration, and by frequency.
-
-    The first ``means`` unknowns are mean values: a preload makes them large, and must
-    not hide the vibration.
-    """
-
-    def metric(point: Array) -> Array:
-        scale = np.full(point.size, float(np.linalg.norm(point[means:-1])) + 1e-15)
-        scale[:means] = float(np.linalg.norm(point[:means])) + 1e-15
-        scale[-1] = frequency_scale
-        return scale
-
-    return metric

@@ -25,6 +25,7 @@ MARKERS = {
     "branch point": "o",
     "Neimark-Sacker": "*",
     "period doubling": "D",
+    "restart": "x",
 }
 """for each event of a curve"""
 FREQUENCY = "excitation frequency [Hz]"

@@ -1,0 +1,78 @@
+"""microslip grid: is the whole curve traced, whatever the parameters?"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+
+if TYPE_CHECKING:
+    from microslip.studies.grid import Attempt
+
+HEADER = "law        sigma   V_lim    mu preload   drive points   error  time  ending"
+SHARE = 0.97
+"""of the curves that must be traced whole"""
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "grid",
+        help="trace the curve over a grid of contact parameters and loads",
+        description="Trace the curve of a scene for combinations of friction law, "
+        "sigma, threshold velocity, friction coefficient, preload and drive; print how "
+        "each ends. Exit status 1 if less than 97 %% are traced from end to end.",
+        epilog="example: microslip grid two-blades --set model=A --csv grid.csv",
+    )
+    arguments.add_scene(parser)
+    parser.add_argument(
+        "--quick", action="store_true", help="every ninth combination only"
+    )
+    parser.add_argument(
+        "--csv", type=Path, metavar="FILE", help="also write a CSV file"
+    )
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.progress import shown
+    from microslip.scene_file import load_scene
+    from microslip.studies.grid import QUICK, attempts, cases
+
+    if options.csv is not None and not options.csv.parent.is_dir():
+        raise arguments.OutputError(f"there is no folder {options.csv.parent}")
+    load_scene(options.scene, options.overrides)
+    chosen = cases()[:: QUICK if options.quick else 1]
+    found: list[Attempt] = []
+    print(HEADER)
+    try:
+        for attempt in shown(
+            attempts(options.scene, tuple(options.overrides), chosen),
+            total=len(chosen),
+            done=lambda _: len(found) + 1.0,
+            unit="curves",
+            name="grid",
+        ):
+            found.append(attempt)
+            print(_line(attempt), flush=True)
+    except KeyboardInterrupt:
+        return arguments.ended("interrupted")
+    finally:
+        if options.csv is not None:
+            options.csv.write_text(
+                "\n".join([HEADER, *map(_line, found), ""]), encoding="utf-8"
+            )
+    whole = sum(attempt.ending == "complete" for attempt in found)
+    print(f"{whole} of {len(found)} curves are traced from end to end")
+    return 0 if whole >= SHARE * len(found) else 1
+
+
+def _line(attempt: Attempt) -> str:
+    case = attempt.case
+    return (
+        f"{case.law:<8} {case.sigma:7.0e} {case.threshold:7.0e} {case.friction:5.2g} "
+        f"{case.preload:7.2g} {case.drive:7.2g} {attempt.points:6d} "
+        f"{attempt.error:7.1e} {attempt.seconds:5.1f}  {attempt.ending}"
+    )

@@ -316,9 +316,6 @@ def _events(
         return 0
     found = 0
     if points.friction[point] != FRICTIONLESS and touched:
-        one, two = velocity[row + 1, place], velocity[row + 2, place]
-        by_one = velocity[row + 1, after] - one
-        by_two = velocity[row + 2, after] - two
         wide = 0.0
         if points.friction[point] == GENERAL_KINETIC:
             wide = points.threshold[point] + FADING * points.stribeck[point]

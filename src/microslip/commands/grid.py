@@ -1,4 +1,4 @@
-"""microslip grid: is the whole curve traced, whatever the parameters?"""
+"""microslip grid: whole curves over a grid of parameters."""
 
 from __future__ import annotations
 
@@ -61,9 +61,7 @@ def _run(options: argparse.Namespace) -> int:
         return arguments.ended("interrupted")
     finally:
         if options.csv is not None:
-            options.csv.write_text(
-                "\n".join([HEADER, *map(_line, found), ""]), encoding="utf-8"
-            )
+            _write(options.csv, found)
     whole = sum(attempt.ending == "complete" for attempt in found)
     print(f"{whole} of {len(found)} curves are traced from end to end")
     return 0 if whole >= SHARE * len(found) else 1
@@ -76,3 +74,17 @@ def _line(attempt: Attempt) -> str:
         f"{case.preload:7.2g} {case.drive:7.2g} {attempt.points:6d} "
         f"{attempt.error:7.1e} {attempt.seconds:5.1f}  {attempt.ending}"
     )
+
+
+def _write(path: Path, found: list[Attempt]) -> None:
+    import csv
+    import dataclasses
+
+    with path.open("w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file)
+        for number, attempt in enumerate(found):
+            row = dataclasses.asdict(attempt)
+            row = {**row.pop("case"), **row}
+            if number == 0:
+                table.writerow(row)
+            table.writerow(row.values())

@@ -68,7 +68,8 @@ def test_continuation_passes_both_folds_of_a_cubic() -> None:
     assert len(turns) == 2
     np.testing.assert_allclose(turns, [-1.0, 1.0] / np.sqrt(3.0), atol=CONTROL.largest)
     extremes = [parameter[x < 0.0].max(), parameter[x > 0.0].min()]
-    np.testing.assert_allclose(extremes, [FOLD, -FOLD], atol=0.02)
+    # Half a step beside a fold, √3 (0.2 / 2)² and what a bent step is longer.
+    np.testing.assert_allclose(extremes, [FOLD, -FOLD], atol=0.025)
 
 
 def test_every_point_of_a_curve_solves_the_system() -> None:

@@ -13,11 +13,13 @@ from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Linearised, Outcome, SingularError, correct
 from hbm.relative import RelativeProblem
 from hbm.residual import HarmonicBalance
-from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.arrays import Array
 
 HARMONICS = 255
 """most that are solved for"""
 FEWEST_SAMPLES, MOST_SAMPLES = 32, 16384
+STEEP = 0.05
+"""error at constant frequency from which a fold may be near"""
 SPARE = 6.0
 """times that the error may be below its tolerance before less is taken"""
 
@@ -73,8 +75,12 @@ class Resolution:
             )
         return self._made[fourier]
 
-    def estimate(self, correction: Correction, fourier: FourierBasis) -> Estimate:
+    def estimate(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> Estimate:
         """Return the error of a converged point, by one correction at twice the order.
+
+        The corrected point lies in the plane through the point normal to ``normal``.
 
         Raises
         ------
@@ -84,8 +90,6 @@ class Resolution:
         point = correction.point
         finer = FourierBasis(2 * fourier.harmonics + 1, 2 * fourier.samples)
         residual, refined = self.at(finer)(point)
-        normal = np.zeros(point.size)
-        normal[-1] = 1.0
         step = refined.solve(normal, np.append(-residual, 0.0))
         low = residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
@@ -94,7 +98,7 @@ class Resolution:
         rights[:-1, 1] = correction.residual - low
         newton, sampled = correction.linearised.solve(normal, rights).T
         before, at_newton, at_sampled, after = (
-            np.abs(self._amplitudes(point + each))
+            self.amplitudes(point + each)
             for each in (0.0 * point, newton, newton + sampled, step)
         )
         size = float(before.max(initial=0.0)) or 1.0
@@ -102,11 +106,12 @@ class Resolution:
         truncation = float(np.abs(after - at_sampled).max(initial=0.0)) / size
         return Estimate(truncation, sampling, point + step, finer)
 
-    def _amplitudes(self, point: Array) -> ComplexArray:
-        """Return the first harmonic of each probe [m]."""
-        rank = self._problem.rank
+    def amplitudes(self, point: Array) -> Array:
+        """Return the first-harmonic amplitude of each probe [m]."""
+        rank = self.rank
         first = point[rank : 2 * rank] - 1j * point[2 * rank : 3 * rank]
-        return self._problem.first_harmonic(first, float(point[-1]), self._probes)
+        seen = self._problem.first_harmonic(first, float(point[-1]), self._probes)
+        return np.abs(seen)
 
 
 class AdaptiveBalance:
@@ -129,7 +134,7 @@ class AdaptiveBalance:
         number of harmonics that are not exceeded.
         """
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
-        self.fourier = self._settled = self._kept = start
+        self.fourier = self.settled = self._kept = start
         self._wait = 0
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold"""
@@ -142,7 +147,7 @@ class AdaptiveBalance:
 
     def keep(self) -> None:
         """Let the next point have the resolution that the last one asks for."""
-        self._kept, self._wait = self._settled, self._wait - 1
+        self._kept, self._wait = self.settled, self._wait - 1
         if self.estimate is not None and self._wait <= 0:
             self.fourier = self._coarser(self.estimate)
 
@@ -167,10 +172,10 @@ class AdaptiveBalance:
         ``tolerance`` is that of the residual. What is returned may have failed.
         """
         while True:
-            self._settled = self.fourier
+            self.settled = self.fourier
             correction = replace(correction, point=self._truncated(correction.point))
             try:
-                self.estimate = self._resolution.estimate(correction, self.fourier)
+                self.estimate = self._estimated(correction, normal)
             except SingularError:
                 self.estimate = None
                 return correction
@@ -185,6 +190,16 @@ class AdaptiveBalance:
             if correction.outcome is not Outcome.CONVERGED:
                 return correction
 
+    def _estimated(self, correction: Correction, normal: Array) -> Estimate:
+        """Return the error at constant frequency or, where that is steep, across."""
+        upright = np.zeros_like(normal)
+        upright[-1] = 1.0
+        estimate = self._resolution.estimate(correction, self.fourier, upright)
+        if estimate.error < STEEP:
+            return estimate
+        across = self._resolution.estimate(correction, self.fourier, normal)
+        return min(estimate, across, key=lambda each: each.error)
+
     def kept(self, point: Array) -> tuple[Array, FourierBasis, float]:
         """Return the settled point as it is to be reported, its resolution and error.
 
@@ -192,9 +207,9 @@ class AdaptiveBalance:
         their error being up to twice the change that the correction would bring.
         """
         if self.estimate is None:
-            return point, self._settled, math.inf
+            return point, self.settled, math.inf
         if self._tolerance is None:
-            return point, self._settled, 2.0 * self.estimate.error
+            return point, self.settled, 2.0 * self.estimate.error
         return self.estimate.corrected, self.estimate.fourier, self.estimate.error
 
     def _truncated(self, point: Array) -> Array:

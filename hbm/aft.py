@@ -123,6 +123,28 @@ class AlternatingFrequencyTime:
         mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, len(kept))
         return mixed[0], mixed[1]
 
+    @property
+    def samples(self) -> int:
+        """Number of samples per period."""
+        return self._fourier.samples
+
+    def relative_tangents(self, basis: Array) -> tuple[Array, Array]:
+        """Return the tangents of the last call in time, for other coordinates.
+
+        Parameters
+        ----------
+        basis
+            Map from the coordinates to the points, shape ``(3 points, coordinates)``.
+
+        Returns
+        -------
+        By displacement and by velocity, each ``(samples, coordinates, coordinates)``.
+        """
+        count = basis.shape[1]
+        mixed = np.dot(_mixing(basis, self._entries), self.tangents)
+        turned = np.ascontiguousarray(mixed.T).reshape(-1, 2, count, count)
+        return turned[:, 0].copy(), turned[:, 1].copy()
+
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
         """Return normal forces and energies over one period."""
         self(coefficients, frequency)

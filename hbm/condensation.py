@@ -194,7 +194,7 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
         makes two of its poles coincide.
     """
     structure = problem.structure
-    static, free = _split(structure.stiffness, selection)
+    static, free = split(structure.stiffness, selection)
     poles, shapes, forcing = _poles(
         *(free.T @ matrix @ free
           for matrix in (structure.mass, structure.damping, structure.stiffness))
@@ -224,8 +224,14 @@ def _share(rows: ComplexArray) -> Array:
     return sizes / largest if largest > 0.0 else sizes
 
 
-def _split(stiffness: Array, selection: Array) -> tuple[Array, Array]:
-    """Return T (static response to y) and N (motion with y = 0)."""
+def split(stiffness: Array, selection: Array) -> tuple[Array, Array]:
+    """Return T (static response to y = selection u) and N (motion with y = 0).
+
+    Raises
+    ------
+    ValueError
+        If the structure can move freely while all contacts stick.
+    """
     free = np.ascontiguousarray(
         scipy.linalg.null_space(selection) if selection.size else np.eye(len(stiffness))
     )

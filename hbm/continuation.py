@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -146,16 +146,17 @@ def trace(
         If the first point or, after the shortest step, a later one does not converge.
     """
     accepted, step = correct_at(system, start, control, settler), control.initial
-    yield accepted
     begin = float(start[-1]) if begin is None else begin
     if direction is None:
         direction = np.zeros_like(start)
         direction[-1] = math.copysign(1.0, end - begin)
+    scale = metric(accepted.point)
+    direction = tangent(accepted.linearised, direction, scale)
+    accepted = replace(accepted, tangent=direction)
+    yield accepted
     low, high = sorted((begin, end))
     past, went = Predictor(), 0.0
     while True:
-        scale = metric(accepted.point)
-        direction = tangent(accepted.linearised, direction, scale)
         missed = past.append(accepted.point, direction, scale, went)
         if went > 0.0:
             step = control.after(went, missed, past.order, accepted.iterations)
@@ -163,8 +164,10 @@ def trace(
         if not low < candidate.point[-1] < high:
             yield _border(system, accepted, candidate, (low, high), control, settler)
             return
-        yield candidate
-        accepted = candidate
+        scale = metric(candidate.point)
+        direction = candidate.along / float(np.linalg.norm(candidate.along / scale))
+        accepted = replace(candidate, tangent=direction)
+        yield accepted
 
 
 def correct_at(
@@ -201,7 +204,8 @@ def tangent(linearised: Linearised, direction: Array, scale: Array) -> Array:
     right = np.zeros(direction.size)
     right[-1] = 1.0
     along = linearised.solve(direction / scale**2, right)
-    return along / float(np.linalg.norm(along / scale))
+    unit: Array = along / float(np.linalg.norm(along / scale))
+    return unit
 
 
 def _next(
@@ -229,7 +233,7 @@ def _next(
             cosine = float((turned / scale) @ (direction / scale))
             if (close and cosine > control.sharpest_turn) or step <= control.smallest:
                 settler.keep()
-                return candidate, step
+                return replace(candidate, tangent=turned), step
         elif step <= control.smallest:
             where = float(past.predict(0.0)[-1])
             raise ContinuationError(_text(where, candidate, control))
@@ -255,7 +259,8 @@ def _border(
     share = (limit - before) / (after - before)
     guess = accepted.point + share * (candidate.point - accepted.point)
     guess[-1] = limit
-    return correct_at(system, guess, control, settler)
+    found = correct_at(system, guess, control, settler)
+    return replace(found, tangent=candidate.tangent)
 
 
 def _text(where: float, failed: Correction, control: StepControl) -> str:

@@ -56,6 +56,13 @@ class Correction:
     outcome: Outcome
     residuals: tuple[float, ...]
     """largest residual before the first and after each iteration"""
+    tangent: Array | None = None
+    """of the curve at the point, shape (n + 1,), if it is known"""
+
+    @property
+    def along(self) -> Array:
+        """The tangent; zero if it is not known."""
+        return np.zeros_like(self.point) if self.tangent is None else self.tangent
 
     @property
     def iterations(self) -> int:

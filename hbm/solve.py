@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,16 +11,16 @@ from numpy.typing import NDArray
 from hbm.active import extended, moving, symmetric
 from hbm.adaptive import AdaptiveBalance, Resolution
 from hbm.continuation import (
-    ContinuationError,
     Metric,
     StepControl,
     correct_at,
     trace,
 )
+from hbm.curve import Curve, response
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import HarmonicBalance
+from hbm.stability import small_motions
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -46,6 +45,8 @@ class CurveOptions:
     """largest unbalanced force over the smaller of preload and drive"""
     largest_step: float = 0.25
     """relative change of the response, or share of a tenth of the range"""
+    stability: bool = True
+    """whether Floquet multipliers are computed"""
 
     def __post_init__(self) -> None:
         """Check the range."""
@@ -90,7 +91,7 @@ def frequency_response(
         If the curve cannot go on; what was yielded before stays valid.
     """
     control = StepControl(
-        tolerance=options.tolerance * _force_scale(problem),
+        tolerance=options.tolerance * problem.force_scale,
         initial=min(0.02, options.largest_step),
         largest=options.largest_step,
     )
@@ -103,17 +104,13 @@ def frequency_response(
     )
     start = np.zeros(system.size)
     start[: reduced.rank], start[-1] = reduced.rest, options.start
-    for correction in trace(
-        system,
-        start,
-        options.end,
-        metric=_metric(reduced.rank, abs(options.end - options.start) / 10.0),
-        control=control,
-        settler=system,
-    ):
-        point, fourier, error = system.kept(correction.point)
-        balance = resolution.at(fourier)
-        yield _response(balance, replace(correction, point=point), problem, error)
+    motions = small_motions(problem) if options.stability else None
+    curve = Curve(problem, system, resolution, control, motions)
+    metric = _metric(reduced.rank, abs(options.end - options.start) / 10.0)
+    corrections = trace(
+        system, start, options.end, metric=metric, control=control, settler=system
+    )
+    yield from curve.followed(corrections, metric)
 
 
 def _moving(
@@ -142,19 +139,13 @@ def periodic_response(
     ContinuationError
         If the point does not converge.
     """
-    control = StepControl(tolerance=tolerance * _force_scale(problem))
+    control = StepControl(tolerance=tolerance * problem.force_scale)
     reduced, active = _moving(problem, rest, guess.frequency)
     fourier = FourierBasis(harmonics, samples)
     balance = HarmonicBalance(reduced, fourier, extended(active, harmonics))
     start = balance.point(guess.coefficients @ reduced.selection.T, guess.frequency)
     correction = correct_at(balance, start, control)
-    return _response(balance, correction, problem, math.inf)
-
-
-def _force_scale(problem: Problem) -> float:
-    """Return the smaller of preload and drive, of those that act [N]."""
-    sizes = [np.abs(load).max(initial=0.0) for load in (problem.preload, problem.drive)]
-    return float(min((size for size in sizes if size > 0.0), default=1.0))
+    return response(problem, balance, correction)
 
 
 def _metric(means: int, frequency_scale: float) -> Metric:
@@ -171,30 +162,3 @@ def _metric(means: int, frequency_scale: float) -> Metric:
         return scale
 
     return metric
-
-
-def _response(
-    balance: HarmonicBalance, correction: Correction, problem: Problem, error: float
-) -> PeriodicResponse:
-    drift = balance.drift_force(correction.point)
-    frequency = float(correction.point[-1])
-    if drift > 1e-6 * _force_scale(problem):
-        raise ContinuationError(
-            f"a body drifts at {frequency:.6g} rad/s: friction has a mean of "
-            f"{drift:.2g} N and nothing holds the body; give it a rope"
-        )
-    cycle = balance.cycle(correction.point)
-    return PeriodicResponse(
-        frequency,
-        balance.motion(correction.point),
-        cycle.normal_smallest,
-        cycle.normal_largest,
-        cycle.friction,
-        cycle.normal_damping,
-        correction.residuals[-1],
-        correction.outcome.name.lower(),
-        correction.iterations,
-        balance.fourier.harmonics,
-        balance.fourier.samples,
-        error,
-    )

@@ -56,3 +56,9 @@ class Problem:
                 )
         if not (np.all(np.isfinite(self.preload)) and np.all(np.isfinite(self.drive))):
             raise ValueError("a load holds a value that is not finite")
+
+    @property
+    def force_scale(self) -> float:
+        """The smaller of preload and drive, of those that act [N]."""
+        sizes = [np.abs(load).max(initial=0.0) for load in (self.preload, self.drive)]
+        return float(min((size for size in sizes if size > 0.0), default=1.0))

@@ -50,8 +50,30 @@ def _run(options: argparse.Namespace) -> int:
     print(_table(traced))
     print(_rest(problem.interface.names, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
+    print(_events(traced.curve))
     print(_resolution(traced.curve))
     return arguments.ended(traced.curve.ending)
+
+
+def _events(curve: ResponseCurve) -> str:
+    """Return what was located on the curve, and where it is unstable."""
+    lines = []
+    for place, name in enumerate(curve.event):
+        if name:
+            hertz = curve.frequency[place] / math.tau
+            largest = 1e3 * curve.amplitude[place].max()
+            lines.append(f"{name:<16} {hertz:12.6f} Hz {largest:12.6f} mm")
+    unstable = curve.unstable > 0
+    if unstable.any():
+        hertz = curve.frequency[unstable] / math.tau
+        lines.append(
+            f"unstable at {unstable.sum()} of {unstable.size} points, between "
+            f"{hertz.min():.4f} and {hertz.max():.4f} Hz; largest Floquet multiplier "
+            f"{curve.multiplier.max():.4f}"
+        )
+    elif (curve.unstable == 0).all():
+        lines.append("every point is stable")
+    return "\n".join(lines)
 
 
 def _resolution(curve: ResponseCurve) -> str:

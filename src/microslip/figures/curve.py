@@ -19,6 +19,14 @@ from microslip.figures.style import (
 )
 from microslip_mechanics.response import ResponseCurve
 
+MARKERS = {
+    "peak": "^",
+    "fold": "s",
+    "branch point": "o",
+    "Neimark-Sacker": "*",
+    "period doubling": "D",
+}
+"""for each event of a curve"""
 FREQUENCY = "excitation frequency [Hz]"
 
 
@@ -48,7 +56,36 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
         )
     framed(axes, x=FREQUENCY, y="amplitude [mm]", title="First harmonic, along z")
     axes.set_ylim(bottom=0.0)
+    _events(axes, curve)
     axes.legend(frameon=False)
+
+
+def _events(axes: Axes, curve: ResponseCurve) -> None:
+    """Mark unstable stretches and what was located on the curve."""
+    watched = absolute(curve.probes)
+    largest = 1e3 * curve.amplitude[:, watched].max(axis=1, initial=0.0)
+    unstable = np.where(curve.unstable > 0, largest, np.nan)
+    if (curve.unstable > 0).any():
+        axes.plot(
+            hertz(curve),
+            unstable,
+            color="0.15",
+            linewidth=WIDTH * 0.8,
+            label="unstable",
+        )
+    events = np.array(curve.event)
+    for kind, marker in MARKERS.items():
+        places = events == kind
+        if places.any():
+            axes.plot(
+                hertz(curve)[places],
+                largest[places],
+                marker,
+                color="0.15",
+                markersize=6.0,
+                fillstyle="none",
+                label=kind,
+            )
 
 
 def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:

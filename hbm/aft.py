@@ -142,7 +142,7 @@ class AlternatingFrequencyTime:
         """
         count = basis.shape[1]
         mixed = np.dot(_mixing(basis, self._entries), self.tangents)
-        turned = np.ascontiguousarray(mixed.T).reshape(-1, 2, count, count)
+        turned = np.ascontiguousarray(mixed.T).reshape(mixed.shape[1], 2, count, count)
         return turned[:, 0].copy(), turned[:, 1].copy()
 
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:

@@ -33,7 +33,7 @@ def moved(harmonics: int = 3, **coefficients: tuple[int, float]) -> Array:
 
 
 def sliding(samples: int, threshold: float) -> tuple[Array, ContactCycle]:
-    """Return the coefficients of force and the energies of X sin θ at constant normal load."""
+    """Return force coefficients and energies of X sin θ at constant normal load."""
     points = contact_points(
         constant_load=True, load=LOAD, dynamic=FRICTION, threshold=threshold
     )

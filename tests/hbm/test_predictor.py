@@ -80,7 +80,7 @@ def test_an_extrapolation_of_an_order_errs_with_the_next(order: int) -> None:
 
 
 def test_the_order_drops_again_where_the_past_says_nothing() -> None:
-    predictor, missed = followed(Polynomial(3), PLACES)
+    predictor, _ = followed(Polynomial(3), PLACES)
     high = predictor.order
 
     # A kink: the curve goes on straight, along another tangent.
@@ -115,7 +115,8 @@ def test_an_extrapolation_that_leaves_the_tangent_by_much_is_not_trusted() -> No
     predictor, _ = followed(Polynomial(2), PLACES)
     predictor.order = 2
     line = Polynomial(2).at(PLACES[-1]), Polynomial(2).tangent(PLACES[-1])
-    bend = np.linalg.norm(Polynomial(2).series[0].deriv(2)(0.0) / 2.0 * ONES)
+    second = Polynomial(2).series[0].deriv(2)(0.0)
+    bend = float(np.linalg.norm(second / 2.0 * ONES))
     limit = STEEPEST / bend
 
     near, far = predictor.predict(0.99 * limit), predictor.predict(1.01 * limit)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.integrate import quad
 
 from contact_tables import contact_points
@@ -38,9 +39,8 @@ RATIOS = [1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9]
 
 def sliding_point(threshold: float, **columns: float) -> ContactPoints:
     """Return a point with a constant normal load and no force across."""
-    values: dict[str, float] = {"stiffness": 0.0, "damping": 0.0, "load": LOAD}
-    values |= {"dynamic": FRICTION, "constant_load": True, "threshold": threshold}
-    return contact_points(**(values | columns))
+    values = {"dynamic": FRICTION, "load": LOAD, "threshold": threshold} | columns
+    return contact_points(1, stiffness=0.0, damping=0.0, constant_load=True, **values)
 
 
 def motion(phase: float, *, mean: float = 0.0, across: float = 0.0) -> Array:
@@ -295,7 +295,9 @@ def test_kinks_that_pass_a_sample_make_small_jumps(
     assert observed_order([1.0, 0.5, 0.25], jumps) == pytest.approx(order, abs=0.3)
 
 
-def rig(**overrides: object) -> tuple[RelativeProblem, RelativeProblem, Array]:
+def rig(
+    **overrides: object,
+) -> tuple[RelativeProblem, RelativeProblem, NDArray[np.bool_]]:
     """Return a rig by half periods and by whole ones, and what of it moves."""
     problem = rig_problem(**overrides)
     whole = relative_problem(problem, static_equilibrium(problem))

@@ -1,7 +1,5 @@
 """Frequency response curves: their balances, ends, folds and errors."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 

@@ -120,7 +120,7 @@ class AlternatingFrequencyTime:
         """
         kept = self._spectrum.analysis(harmonics)
         rank = self._basis.shape[1]
-        mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, -1)
+        mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, len(kept))
         return mixed[0], mixed[1]
 
     @property
@@ -142,7 +142,7 @@ class AlternatingFrequencyTime:
         """
         count = basis.shape[1]
         mixed = np.dot(_mixing(basis, self._entries), self.tangents)
-        turned = np.ascontiguousarray(mixed.T).reshape(-1, 2, count, count)
+        turned = np.ascontiguousarray(mixed.T).reshape(mixed.shape[1], 2, count, count)
         return turned[:, 0].copy(), turned[:, 1].copy()
 
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
@@ -212,7 +212,7 @@ def _symmetry(
     none = Symmetry(*(np.empty(0, kind) for kind in (int, float, int, float)))
     if odd is None:
         return none
-    later = (basis * np.where(odd, -1.0, 1.0)).reshape(-1, 3, len(odd))
+    later = (basis * np.where(odd, -1.0, 1.0)).reshape(len(basis) // 3, 3, len(odd))
     faces = basis.reshape(later.shape)
     close = 1e-9 * np.abs(basis).max(initial=0.0)
     partners, signs = np.empty(len(basis), dtype=int), np.empty(len(basis))

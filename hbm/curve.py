@@ -94,7 +94,11 @@ class Curve:
     def _slope(self, correction: Correction) -> float:
         """Return the change of the largest amplitude along the curve."""
         point, along = correction.point, correction.along
-        small = 1e-6 * float(np.linalg.norm(point[:-1]) / np.linalg.norm(along[:-1]))
+        # Without contact the frequency is all that changes.
+        moved = slice(None, -1) if along[:-1].any() else slice(-1, None)
+        small = 1e-6 * float(
+            np.linalg.norm(point[moved]) / np.linalg.norm(along[moved])
+        )
         sizes = [
             self.resolution.amplitudes(point + sign * small * along)
             for sign in (-1.0, 1.0)

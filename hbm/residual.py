@@ -29,11 +29,13 @@ class HarmonicBalance:
     ) -> None:
         """Plan for ``problem``; ``active`` coefficients, (2H + 1, rank), are sought.
 
-        The others are zero by symmetry; all are active if left out.
+        The others stay at rest by symmetry; all are active if left out.
         """
         self.problem, self.fourier, self.rank = problem, fourier, problem.rank
         shape = (fourier.coefficients, self.rank)
         self._active = np.ones(shape, dtype=bool) if active is None else active
+        self._still = np.zeros(shape)
+        self._still[0] = problem.rest
         self.contact = problem.contact(fourier)
         self._force = np.zeros((fourier.harmonics + 1, problem.force.shape[1]), complex)
         self._force[:2] = problem.force
@@ -87,7 +89,7 @@ class HarmonicBalance:
         """Return the coefficients of y, shape (2H + 1, rank), and the frequency."""
         shape = (self.fourier.coefficients, self.rank)
         solved = point[: shape[0] * shape[1]].reshape(shape)
-        return np.where(self._active, solved, 0.0), float(point[-1])
+        return np.where(self._active, solved, self._still), float(point[-1])
 
     def motion(self, point: Array) -> Array:
         """Return the coefficients of the full motion u [m], shape (2H + 1, dofs)."""

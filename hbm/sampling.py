@@ -378,8 +378,10 @@ def _crossings(
     if square == 0.0:
         return found
     middle = -(one * by_one + two * by_two) / square
-    rest = speed * speed - (one * one + two * two)
-    inside = middle * middle + rest / square
+    # The least speed on the way, from a cross product: a difference of squares would
+    # lose a threshold that is 1e-8 of the speeds at the samples.
+    least = one * by_two - two * by_one
+    inside = (speed * speed - least * least / square) / square
     if inside <= 0.0:
         return found
     root = math.sqrt(inside)

@@ -22,8 +22,7 @@ QUICK = {
     'end = "8 s"': 'end = "10 ms"',
     'duration = "10 s"': 'duration = "10 ms"',
     'lowest = "125 Hz"\nhighest = "145 Hz"': 'lowest = "130 Hz"\nhighest = "130.2 Hz"',
-    "harmonics = 31": "harmonics = 1",
-    "samples = 1024": "samples = 16",
+    "tolerance = 1e-3": "harmonics = 1\nsamples = 16\ntolerance = 1e-3",
 }
 """what makes the built-in scene quick: model A, a coarse curve, one cycle of a sweep"""
 
@@ -103,6 +102,12 @@ def small_curve() -> ResponseCurve:
         residual=draw.uniform(1e-12, 1e-9, points),
         outcome=("converged",) * points,
         iterations=np.array([7.0, 3.0, 4.0, 5.0]),
+        harmonics=np.array([15.0, 7.0, 31.0, 63.0]),
+        samples=np.array([128.0, 64.0, 256.0, 512.0]),
+        error=draw.uniform(1e-5, 1e-3, points),
+        multiplier=draw.uniform(0.9, 1.1, points),
+        unstable=np.array([-1.0, 0.0, 1.0, 2.0]),
+        event=("", "peak", "fold", ""),
         ending="complete",
     )
 

@@ -8,7 +8,11 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis, to_complex, to_real
 from hbm.jacobian import assemble, terms
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.law import (
+    ContactPoints,
+    contact_force,
+    tangent_pattern,
+)
 
 pytestmark = pytest.mark.kernels
 
@@ -53,6 +57,19 @@ def tangents_at(
     return tangents[0], tangents[1]
 
 
+def scattered(points: ContactPoints, tangents: Array) -> tuple[Array, Array]:
+    """Return sampled tangents as matrices, (samples, 3 n, 3 n) each."""
+    rows = 3 * len(points.load)
+    matrices = np.zeros((2, tangents.shape[1], rows, rows))
+    left = iter(tangents)
+    for point in range(len(points.load)):
+        for kind, pattern in enumerate(tangent_pattern(points, point)):
+            for row, column in np.argwhere(pattern) + 3 * point:
+                matrices[kind, :, row, column] = next(left)
+    assert next(left, None) is None
+    return matrices[0], matrices[1]
+
+
 def random_motion(points: ContactPoints) -> tuple[Array, Array]:
     """Return a basis of seven coordinates and coefficients that touch and separate."""
     rng = np.random.default_rng(5)
@@ -70,16 +87,15 @@ def test_jacobian_is_exactly_the_multiplication_by_the_tangents(
     points = every_combination(FRICTION_LAWS[law])
     basis, motion = random_motion(points)
     fourier, nothing = FourierBasis(HARMONICS, samples), np.zeros((4, RANK, RANK))
+    contact = AlternatingFrequencyTime(points, basis, fourier)
 
-    seen = AlternatingFrequencyTime(points, basis, fourier)(motion, FREQUENCY)
-    jacobian = assemble(seen.tangents, nothing, nothing, FREQUENCY, EVERYTHING)
+    contact(motion, FREQUENCY)
+    spectra = contact.spectra(2 * HARMONICS)
+    jacobian = assemble(*spectra, nothing, nothing, FREQUENCY, EVERYTHING)
 
     values, rates = waves(samples)
     stiffness, damping = (
-        basis.T @ tangent @ basis
-        for tangent in tangents_at(
-            points, values @ motion @ basis.T, rates @ motion @ basis.T
-        )
+        basis.T @ tangent @ basis for tangent in scattered(points, contact.tangents)
     )
     weights = values * np.r_[1.0, np.full(SIZE - 1, 2.0)] / samples
     expected = np.einsum("sa,sij,sb->aibj", weights, stiffness, values)
@@ -87,12 +103,35 @@ def test_jacobian_is_exactly_the_multiplication_by_the_tangents(
     expected = expected.reshape(SIZE * RANK, -1)
     # Exact at the smallest number of samples too; rounding only, measured 1e-15.
     np.testing.assert_allclose(
-        jacobian[:, :-1], expected, rtol=0.0, atol=1e-14 * np.abs(expected).max()
+        jacobian, expected, rtol=0.0, atol=1e-14 * np.abs(expected).max()
     )
-    change = np.einsum("sa,sij,sj->ai", weights, damping, rates @ motion) / FREQUENCY
+
+
+@pytest.mark.parametrize("law", FRICTION_LAWS)
+def test_without_events_the_tangents_are_those_of_the_law_at_each_sample(
+    law: str,
+) -> None:
+    # Pressed so that all touch, moved too slowly to slide.
+    points = every_combination(FRICTION_LAWS[law])
+    points = points._replace(threshold=np.full_like(points.threshold, 1e4))
+    rows = 3 * len(points.load)
+    basis = np.eye(rows)
+    motion = np.random.default_rng(5).standard_normal((SIZE, rows))
+    motion[0] += 20.0
+    samples = 20
+    contact = AlternatingFrequencyTime(points, basis, FourierBasis(HARMONICS, samples))
+
+    _, by_frequency = contact(motion, FREQUENCY)
+
+    values, rates = waves(samples)
+    expected = tangents_at(points, values @ motion, rates @ motion)
+    for found, exact in zip(scattered(points, contact.tangents), expected, strict=True):
+        np.testing.assert_allclose(found, exact, rtol=1e-12, atol=1e-12)
+    weights = values * np.r_[1.0, np.full(SIZE - 1, 2.0)] / samples
+    change = np.einsum("sa,sij,sj->ai", weights, expected[1], rates @ motion)
     np.testing.assert_allclose(
-        seen.by_frequency,
-        change,
+        by_frequency,
+        change / FREQUENCY,
         rtol=0.0,
         atol=1e-14 * np.abs(change).max(initial=1.0),
     )
@@ -110,13 +149,15 @@ def test_without_contact_the_jacobian_multiplies_by_the_dynamic_stiffness() -> N
     elastic, viscous = rng.standard_normal((2, HARMONICS + 1, RANK, RANK))
     viscous[0] = 0.0
     motion = rng.standard_normal((SIZE, RANK))
-    still = separated_tangents()(np.zeros((SIZE, RANK)), FREQUENCY)
+    still = separated_tangents()
+    still(np.zeros((SIZE, RANK)), FREQUENCY)
 
-    jacobian = assemble(still.tangents, elastic, viscous, FREQUENCY, EVERYTHING)
+    spectra = still.spectra(2 * HARMONICS)
+    jacobian = assemble(*spectra, elastic, viscous, FREQUENCY, EVERYTHING)
 
     amplitudes = to_complex(motion)[..., None]
     expected = to_real(((elastic + 1j * viscous) @ amplitudes)[..., 0])
-    found = (jacobian[:, :-1] @ motion.ravel()).reshape(SIZE, RANK)
+    found = (jacobian @ motion.ravel()).reshape(SIZE, RANK)
     np.testing.assert_allclose(found, expected, atol=1e-13)
 
 
@@ -130,10 +171,11 @@ def test_the_jacobian_of_some_terms_is_a_part_of_the_whole() -> None:
     active[1::2] = active[2::2] = rng.random((HARMONICS, RANK)) < 0.5
     contact = AlternatingFrequencyTime(points, basis, FourierBasis(HARMONICS, 20))
 
-    tangents = contact(motion, FREQUENCY).tangents
-    whole = assemble(tangents, elastic, viscous, FREQUENCY, EVERYTHING)
-    part = assemble(tangents, elastic, viscous, FREQUENCY, terms(active))
+    contact(motion, FREQUENCY)
+    spectra = contact.spectra(2 * HARMONICS)
+    whole = assemble(*spectra, elastic, viscous, FREQUENCY, EVERYTHING)
+    part = assemble(*spectra, elastic, viscous, FREQUENCY, terms(active))
 
     chosen = np.flatnonzero(active)
     np.testing.assert_array_equal(terms(active).unknowns, chosen)
-    np.testing.assert_array_equal(part[:, :-1], whole[np.ix_(chosen, chosen)])
+    np.testing.assert_array_equal(part, whole[np.ix_(chosen, chosen)])

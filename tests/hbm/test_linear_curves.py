@@ -223,3 +223,16 @@ def test_the_usual_steps_do_not_miss_the_resonance_of_sticking_faces() -> None:
     )
     # Next to a resonance steps are short where they follow the vibration.
     assert seen == pytest.approx(exact, rel=0.05)
+
+
+@pytest.mark.parametrize("harmonics", [2, None])
+def test_the_peak_of_an_oscillator_is_located(harmonics: int | None) -> None:
+    mass, damping, stiffness = 2.0, 0.5, 300.0
+    problem = oscillator(mass=mass, damping=damping, stiffness=stiffness)
+    options = CurveOptions(TURN * 0.5, TURN * 4.0, harmonics=harmonics)
+
+    curve = frequency_response(problem, static_equilibrium(problem), options)
+
+    peaks = [response.frequency for response in curve if response.event == "peak"]
+    exact = np.sqrt(stiffness / mass - damping**2 / (2.0 * mass**2))
+    assert peaks == pytest.approx([exact], rel=1e-5)

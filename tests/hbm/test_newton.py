@@ -7,6 +7,7 @@ import pytest
 
 from hbm.newton import Correction, Outcome, System, correct
 from microslip_mechanics.arrays import Array
+from systems import Dense
 
 AT_ITS_PARAMETER = np.array([0.0, 1.0])
 """row that keeps the last component of a point in two unknowns"""
@@ -25,28 +26,28 @@ def corrected(
     )
 
 
-def root_of_two(point: Array) -> tuple[Array, Array]:
+def root_of_two(point: Array) -> tuple[Array, Dense]:
     x, _ = point
-    return np.array([x**2 - 2.0]), np.array([[2.0 * x, 0.0]])
+    return np.array([x**2 - 2.0]), Dense([[2.0 * x, 0.0]])
 
 
-def without_root(point: Array) -> tuple[Array, Array]:
+def without_root(point: Array) -> tuple[Array, Dense]:
     x, _ = point
-    return np.array([x**2 + 1.0]), np.array([[2.0 * x, 0.0]])
+    return np.array([x**2 + 1.0]), Dense([[2.0 * x, 0.0]])
 
 
-def logarithm(point: Array) -> tuple[Array, Array]:
+def logarithm(point: Array) -> tuple[Array, Dense]:
     """Return log x, infinite where there is none."""
     x, _ = point
     if x <= 0.0:
-        return np.array([np.inf]), np.array([[1.0, 0.0]])
-    return np.array([math.log(x)]), np.array([[1.0 / x, 0.0]])
+        return np.array([np.inf]), Dense([[1.0, 0.0]])
+    return np.array([math.log(x)]), Dense([[1.0 / x, 0.0]])
 
 
-def circle_and_cubic(point: Array) -> tuple[Array, Array]:
+def circle_and_cubic(point: Array) -> tuple[Array, Dense]:
     x, y, z = point
     residual = np.array([x**2 + y**2 - z, y - x**3])
-    return residual, np.array([[2 * x, 2 * y, -1.0], [-3 * x**2, 1.0, 0.0]])
+    return residual, Dense([[2 * x, 2 * y, -1.0], [-3 * x**2, 1.0, 0.0]])
 
 
 def test_the_residual_falls_quadratically() -> None:
@@ -73,12 +74,15 @@ def test_the_point_stays_in_the_plane_through_the_prediction() -> None:
     np.testing.assert_allclose(circle_and_cubic(correction.point)[0], 0.0, atol=1e-12)
 
 
-def test_a_correction_carries_the_jacobian_at_its_point() -> None:
+def test_a_correction_carries_residual_and_derivative_at_its_point() -> None:
     correction = corrected(root_of_two, 1.0)
 
     assert correction.outcome is Outcome.CONVERGED
     assert correction.point[0] == pytest.approx(math.sqrt(2.0), rel=1e-14)
-    np.testing.assert_array_equal(correction.jacobian, root_of_two(correction.point)[1])
+    residual, derivative = root_of_two(correction.point)
+    np.testing.assert_array_equal(correction.residual, residual)
+    assert isinstance(correction.linearised, Dense)
+    np.testing.assert_array_equal(correction.linearised.rows, derivative.rows)
 
 
 def test_a_point_on_the_curve_takes_no_iteration() -> None:
@@ -127,8 +131,8 @@ def test_a_residual_that_is_not_finite_ends_a_correction() -> None:
 
 
 def test_a_system_without_unknowns_is_solved_where_it_stands() -> None:
-    def nothing(_: Array) -> tuple[Array, Array]:
-        return np.zeros(0), np.zeros((0, 1))
+    def nothing(_: Array) -> tuple[Array, Dense]:
+        return np.zeros(0), Dense(np.zeros((0, 1)))
 
     correction = correct(nothing, np.array([3.0]), np.array([1.0]), tolerance=1e-12)
 

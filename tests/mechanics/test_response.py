@@ -1,5 +1,7 @@
 """Periodic response and response curve against signals that are known."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -7,7 +9,12 @@ from contact_tables import contact_points
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.response import PeriodicResponse, response_curve
+from microslip_mechanics.response import (
+    MARGIN,
+    PEAK_SAMPLES,
+    PeriodicResponse,
+    response_curve,
+)
 from microslip_mechanics.structure import Structure
 
 FREQUENCY = 850.0
@@ -84,7 +91,7 @@ def test_curve_shows_first_harmonic_peak_and_velocity_of_each_probe() -> None:
     coefficients[:, 2] = [0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0]  # 4 sin
     watched = problem(np.array([[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [1.5, 0, 1]]))
 
-    curve = response_curve(watched, [response(coefficients)], "complete", samples=64)
+    curve = response_curve(watched, [response(coefficients)], "complete")
 
     np.testing.assert_allclose(curve.amplitude, [[2.0, 2.0, 3.0, 5.0]], rtol=1e-14)
     np.testing.assert_allclose(curve.peak[:, :3], [[2.5, 2.5, 2.75]], rtol=1e-14)
@@ -98,26 +105,25 @@ def test_velocity_peak_counts_in_both_directions(sign: float) -> None:
     coefficients = np.zeros((5, 3))
     coefficients[:, 0] = sign * np.array([0.0, 0.0, 3.0, 0.0, 0.25])  # 3 sin + ¼ sin 2
 
-    curve = response_curve(
-        problem(np.eye(1, 3)), [response(coefficients)], "complete", samples=64
-    )
+    curve = response_curve(problem(np.eye(1, 3)), [response(coefficients)], "complete")
 
     expected = 3.5 * FREQUENCY
     assert curve.velocity_peak[0, 0] == pytest.approx(expected, rel=1e-14, abs=0.0)
 
 
-@pytest.mark.parametrize("samples", [64, 256, 1024])
-def test_peaks_between_samples_are_found_to_second_order(samples: int) -> None:
-    coefficients = np.zeros((3, 3))
-    coefficients[1:, 0] = [np.cos(1.0), np.sin(1.0)]  # cos(ωt − 1)
+@pytest.mark.parametrize("order", [1, 3, 200])
+def test_peaks_between_samples_are_found_to_second_order(order: int) -> None:
+    coefficients = np.zeros((2 * order + 1, 3))
+    coefficients[-2:, 0] = [np.cos(1.0), np.sin(1.0)]  # cos(order ωt − 1)
 
-    curve = response_curve(
-        problem(np.eye(1, 3)), [response(coefficients)], "complete", samples=samples
-    )
+    curve = response_curve(problem(np.eye(1, 3)), [response(coefficients)], "complete")
 
-    most = (np.pi / samples) ** 2 / 2.0
-    assert 1.0 - most <= curve.peak[0, 0] <= 1.0
-    assert 1.0 - most <= curve.velocity_peak[0, 0] / FREQUENCY <= 1.0
+    # Of an order that many samples follow, the nearest is half a sample off.
+    samples = max(PEAK_SAMPLES, 8 * len(coefficients))
+    most = (np.pi * order / samples) ** 2 / 2.0
+    rate = order * FREQUENCY
+    assert 1.0 - most - 1e-13 <= curve.peak[0, 0] <= 1.0 + 1e-13
+    assert 1.0 - most - 1e-13 <= curve.velocity_peak[0, 0] / rate <= 1.0 + 1e-13
 
 
 def test_curve_keeps_the_order_and_the_numbers_of_its_points() -> None:
@@ -128,9 +134,7 @@ def test_curve_keeps_the_order_and_the_numbers_of_its_points() -> None:
         for frequency, outcome in zip(frequencies, outcomes, strict=True)
     ]
 
-    curve = response_curve(
-        problem(np.eye(3)), points, "the step is too short", samples=8
-    )
+    curve = response_curve(problem(np.eye(3)), points, "the step is too short")
 
     np.testing.assert_array_equal(curve.frequency, frequencies)
     np.testing.assert_array_equal(curve.normal_smallest[:, 0], 0.001 * frequencies)
@@ -139,14 +143,41 @@ def test_curve_keeps_the_order_and_the_numbers_of_its_points() -> None:
     np.testing.assert_array_equal(curve.damping_energy, 1e-5 * frequencies)
     np.testing.assert_array_equal(curve.residual, 1e-9 * frequencies)
     np.testing.assert_array_equal(curve.iterations, [8.0, 9.0, 8.0])
+    np.testing.assert_array_equal(curve.harmonics, [0.0, 0.0, 0.0])
+    np.testing.assert_array_equal(curve.samples, [0.0, 0.0, 0.0])
+    np.testing.assert_array_equal(curve.error, [np.inf, np.inf, np.inf])
+    np.testing.assert_array_equal(curve.multiplier, [0.0, 0.0, 0.0])
+    np.testing.assert_array_equal(curve.unstable, [-1.0, -1.0, -1.0])
+    assert curve.event == ("", "", "")
     assert curve.probes == ("probe-0", "probe-1", "probe-2")
     assert curve.contacts == ("point",)
     assert curve.outcome == outcomes
     assert curve.ending == "the step is too short"
 
 
+def test_curve_says_of_each_point_how_well_it_is_known_and_whether_it_is_stable() -> (
+    None
+):
+    plain = response(np.ones((3, 3)))
+    stable = np.array([0.9 + 0.1j, 0.9 - 0.1j, 0.2])
+    points = [
+        dataclasses.replace(plain, harmonics=7, samples=64, error=2e-3, event="peak"),
+        dataclasses.replace(plain, multipliers=stable),
+        dataclasses.replace(plain, multipliers=np.array([-1.5, 1.2, 0.3], complex)),
+        dataclasses.replace(plain, multipliers=np.array([1.0 + 0.5 * MARGIN + 0j])),
+    ]
+
+    curve = response_curve(problem(np.eye(3)), points, "complete")
+
+    assert (curve.harmonics[0], curve.samples[0], curve.error[0]) == (7.0, 64.0, 2e-3)
+    np.testing.assert_array_equal(curve.unstable, [-1.0, 0.0, 2.0, 0.0])
+    expected = [0.0, np.hypot(0.9, 0.1), 1.5, 1.0 + 0.5 * MARGIN]
+    np.testing.assert_allclose(curve.multiplier, expected, rtol=1e-15)
+    assert curve.event == ("peak", "", "", "")
+
+
 def test_curve_without_points_has_no_rows() -> None:
-    curve = response_curve(problem(np.eye(3)), [], "interrupted", samples=8)
+    curve = response_curve(problem(np.eye(3)), [], "interrupted")
 
     assert curve.amplitude.shape == curve.peak.shape == (0, 3)
     assert curve.normal_smallest.shape == curve.normal_largest.shape == (0, 1)

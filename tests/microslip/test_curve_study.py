@@ -1,4 +1,4 @@
-"""The study of a curve: its upward branch, its energy, its truncation error."""
+"""The study of a curve: its upward branch, its energy, its resolution."""
 
 import dataclasses
 from pathlib import Path
@@ -14,7 +14,6 @@ from microslip.studies.curve import (
     quasi_static_energy,
     shown_points,
     trace_curve,
-    truncation_error,
 )
 from microslip.studies.verify import spread
 from microslip_mechanics.response import ResponseCurve
@@ -149,49 +148,27 @@ def test_watch_sees_every_point_of_a_curve(scene: Scene) -> None:
     assert seen == traced.curve.frequency.tolist()
 
 
-def resonance(source: Path, harmonics: int, samples: int, lowest: float) -> Scene:
-    """Return model B around its resonance, where the friction element slides."""
-    band = [f"curve.lowest={lowest!r}", "curve.highest=134.7", "model=B"]
-    counts = [f"curve.harmonics={harmonics}", f"curve.samples={samples}"]
-    return load_scene(str(source), [*band, *counts])
+def test_scene_without_harmonics_is_traced_to_its_tolerance(quick_scene: Path) -> None:
+    text = quick_scene.read_text().replace("harmonics = 1\nsamples = 16\n", "")
+    quick_scene.write_text(text)
+    band = ["curve.lowest=134.6", "curve.highest=134.9", "curve.tolerance=5e-3"]
+    scene = load_scene(str(quick_scene), band)
+
+    curve = trace_curve(problem_of(scene), scene.curve).curve
+
+    assert curve.ending == "complete"
+    assert (curve.error > 0.0).all()
+    assert curve.error.max() <= 5e-3
+    assert curve.harmonics.max() > curve.harmonics.min()
+    assert (curve.samples >= 4 * curve.harmonics + 2).all()
 
 
-def test_truncation_error_is_the_change_under_twice_the_resolution(
-    quick_scene: Path,
-) -> None:
-    scene = resonance(quick_scene, 7, 512, 134.6)
-    problem = problem_of(scene)
-    traced = trace_curve(problem, scene.curve)
+def test_scene_with_harmonics_keeps_them_and_reports_the_error(scene: Scene) -> None:
+    curve = trace_curve(problem_of(scene), scene.curve).curve
 
-    error = truncation_error(problem, traced, scene.curve)
-
-    place = int(traced.curve.amplitude.max(axis=1).argmax())
-    hertz = float(traced.curve.frequency[place] / (2.0 * np.pi))
-    finer = resonance(quick_scene, 15, 1024, min(hertz, 134.69))
-    other = trace_curve(problem, finer.curve).curve.amplitude
-    at = 0 if hertz < 134.69 else -1
-    change = np.abs(other[at] - traced.curve.amplitude[place]).max()
-    assert error == pytest.approx(change / traced.curve.amplitude.max(), rel=1e-3)
-
-
-def test_truncation_error_at_the_scene_s_own_resolution_is_below_a_percent() -> None:
-    band = ["curve.lowest=134.6", "curve.highest=134.7", "model=A"]
-    scene = load_scene("two-blades", band)
-    problem = problem_of(scene)
-    traced = trace_curve(problem, scene.curve)
-
-    error = truncation_error(problem, traced, scene.curve)
-
-    assert 0.0 < error < 0.01
-
-
-def test_truncation_error_of_a_sticking_rig_is_nothing(scene: Scene) -> None:
-    problem = problem_of(scene)
-    traced = trace_curve(problem, scene.curve)
-
-    error = truncation_error(problem, traced, scene.curve)
-
-    assert error < 1e-6
+    assert set(curve.harmonics) == {5.0}
+    assert set(curve.samples) == {256.0}
+    assert np.isfinite(curve.error).all()
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 12])

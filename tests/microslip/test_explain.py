@@ -113,11 +113,20 @@ def test_solvers_carry_the_six_relative_motions_at_the_most(model: str) -> None:
 
 
 def test_symmetry_leaves_out_about_half_of_the_unknowns() -> None:
-    unknowns = counted("model=full")["unknowns of harmonic balance"]
+    name = "unknowns of harmonic balance with 3 harmonics"
+    unknowns = counted("model=full")[name]
 
     coordinates = counted("model=full")["coordinates of harmonic balance"].kept
     assert unknowns.whole == 7 * coordinates
     assert 0.4 < unknowns.kept / unknowns.whole < 0.7
+
+
+def test_unknowns_are_those_of_63_harmonics_where_the_tolerance_says_how_many() -> None:
+    found = {each.what: each for each in pruned(load_scene("two-blades"))}
+
+    unknowns = found["unknowns of harmonic balance with 63 harmonics"]
+    assert unknowns.whole == 127 * found["coordinates of harmonic balance"].kept
+    assert 0.4 < unknowns.kept / unknowns.whole < 0.6
 
 
 def test_nothing_keeps_more_than_there_is() -> None:

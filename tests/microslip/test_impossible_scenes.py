@@ -155,7 +155,7 @@ def test_time_step_that_fills_the_memory_ends_with_one_line(
 def test_curve_of_as_many_harmonics_as_a_scene_may_have_ends(
     run: Run, quick_scene: Path
 ) -> None:
-    arguments = sets("curve.harmonics=512", "curve.samples=4096")
+    arguments = sets("curve.harmonics=255", "curve.samples=2048")
 
     ended = run("frc", str(quick_scene), *arguments)
 

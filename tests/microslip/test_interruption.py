@@ -154,29 +154,6 @@ def test_end_before_the_first_result_leaves_no_file(
 
 
 @pytest.mark.parametrize(
-    "end", [KeyboardInterrupt(), ContinuationError("stuck: try more harmonics")]
-)
-def test_curve_is_kept_when_its_error_is_not_found(
-    end: BaseException,
-    run: Run,
-    quick_scene: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def ends(*_: object) -> float:
-        raise end
-
-    monkeypatch.setattr("microslip.studies.curve.truncation_error", ends)
-
-    _, output, error = run("frc", str(quick_scene))
-
-    assert "points in quick-frc.nc" in output
-    assert "before there was a result" not in error
-    assert len(error.splitlines()) == 1
-    assert load(tmp_path / "quick-frc.nc").result.ending == "complete"
-
-
-@pytest.mark.parametrize(
     ("name", "solver"), [(CURVE, curve_until), (MARCH, march_until)]
 )
 def test_interrupted_verification_has_status_130_and_no_verdict(

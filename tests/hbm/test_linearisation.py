@@ -1,0 +1,65 @@
+"""The bordered solution against dense algebra."""
+
+import numpy as np
+import pytest
+
+from hbm.linearisation import Linearisation
+from hbm.newton import SingularError
+
+SIZE = 9
+PLACES = np.array([0, 2, 3, 6])
+"""of four unknowns in a point of nine components"""
+
+
+def drawn() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return a Jacobian, a slope and a normal."""
+    draw = np.random.default_rng(1)
+    return draw.normal(size=(4, 4)), draw.normal(size=4), draw.normal(size=SIZE)
+
+
+@pytest.mark.parametrize("several", [(), (1,), (3,)])
+def test_solutions_are_those_of_the_bordered_matrix(several: tuple[int, ...]) -> None:
+    jacobian, slope, normal = drawn()
+    right = np.random.default_rng(2).normal(size=(SIZE, *several))
+    kept, before = right.copy(), jacobian.copy()
+
+    found = Linearisation(jacobian, slope, PLACES, SIZE).solve(normal, right)
+
+    places = np.append(PLACES, SIZE - 1)
+    bordered = np.vstack([np.column_stack([jacobian, slope]), normal[places]])
+    expected = np.zeros_like(right)
+    expected[places] = np.linalg.solve(bordered, right[places])
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-13)
+    np.testing.assert_array_equal(right, kept)
+    np.testing.assert_array_equal(jacobian, before)
+
+
+def test_a_border_across_a_fold_has_a_solution() -> None:
+    jacobian, slope, _ = drawn()
+    jacobian[3] = jacobian[2]
+    normal = np.zeros(SIZE)
+    normal[PLACES] = np.linalg.svd(jacobian)[2][-1]
+    right = np.zeros(SIZE)
+    right[-1] = 1.0
+
+    along = Linearisation(jacobian, slope, PLACES, SIZE).solve(normal, right)
+
+    assert along @ normal == pytest.approx(1.0)
+    assert along[-1] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("value", [0.0, np.nan, np.inf])
+def test_what_has_no_solution_is_singular(value: float) -> None:
+    _, slope, normal = drawn()
+    linearised = Linearisation(np.full((4, 4), value), slope, PLACES, SIZE)
+
+    with pytest.raises(SingularError):
+        linearised.solve(normal, np.ones(SIZE))
+
+
+def test_without_unknowns_the_parameter_alone_is_solved_for() -> None:
+    linearised = Linearisation(np.zeros((0, 0)), np.zeros(0), PLACES[:0], 3)
+
+    found = linearised.solve(np.array([0.0, 0.0, 2.0]), np.array([5.0, 5.0, 3.0]))
+
+    np.testing.assert_array_equal(found, [0.0, 0.0, 1.5])

@@ -1,0 +1,22 @@
+"""Small systems of equations as Newton's corrector takes them."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hbm.newton import SingularError
+from microslip_mechanics.arrays import Array
+
+
+class Dense:
+    """A Jacobian, shape (n, n + 1), solved as it stands."""
+
+    def __init__(self, rows: ArrayLike) -> None:
+        """Take the rows."""
+        self.rows = np.asarray(rows, dtype=float)
+
+    def solve(self, normal: Array, right: Array) -> Array:
+        """Solve [rows; normal] d = right."""
+        try:
+            return np.linalg.solve(np.vstack([self.rows, normal]), right)
+        except np.linalg.LinAlgError as error:
+            raise SingularError from error

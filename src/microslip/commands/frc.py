@@ -26,10 +26,18 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "frc",
         help="frequency response curve by harmonic balance",
         description="Trace the frequency response curve of a scene by harmonic "
-        "balance; print a short table, write SCENE-frc.nc and SCENE-frc.png.",
+        "balance, with as many harmonics at each point as its error tolerance asks "
+        "for; locate peaks, folds and changes of stability; print a short table, write "
+        "SCENE-frc.nc and SCENE-frc.png.",
         epilog="example: microslip frc two-blades --set model=A -o model-a",
     )
     arguments.add_scene(parser)
+    parser.add_argument(
+        "--tolerance",
+        metavar="ERROR",
+        help="relative error of amplitude at each point, instead of the scene's "
+        "curve.tolerance: harmonics and samples follow from it",
+    )
     arguments.add_output(parser, "frc")
     parser.set_defaults(run=_run)
 
@@ -42,6 +50,8 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.curve import trace_curve
 
     data, picture = arguments.outputs(options, "frc")
+    if options.tolerance is not None:
+        options.overrides.append(f"curve.tolerance={options.tolerance}")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     traced = trace_curve(problem, scene.curve, watched(scene.curve))

@@ -15,6 +15,7 @@ from hbm.active import extended, moving, symmetric
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis, derivative, to_complex, to_real
 from hbm.relative import RelativeProblem, relative_problem
+from hbm.sampling import GAUSS_PLACES, GAUSS_WEIGHTS
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import (
     COULOMB,
@@ -35,6 +36,13 @@ PHASES = np.linspace(0.0, TURN / SAMPLES, 17)
 """of the motion: its events lie anywhere between two samples"""
 RATIOS = [1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9]
 """of threshold and largest speed"""
+
+
+@pytest.mark.parametrize("power", range(6))
+def test_the_rule_between_events_is_exact_up_to_the_fifth_power(power: int) -> None:
+    found = GAUSS_WEIGHTS @ GAUSS_PLACES**power
+
+    assert found == pytest.approx(1.0 / (power + 1.0), rel=1e-14)
 
 
 def sliding_point(threshold: float, **columns: float) -> ContactPoints:

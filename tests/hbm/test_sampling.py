@@ -172,6 +172,44 @@ def test_located_events_err_with_second_order(ratio: float) -> None:
     assert found == pytest.approx(2.0, abs=0.15)
 
 
+@pytest.mark.parametrize("mean", [0.003, -0.003, 0.012])
+def test_the_mean_tangent_is_the_share_of_the_period_in_contact(mean: float) -> None:
+    across, stiffness = 0.02, 7.0
+    points = contact_points(
+        friction=FRICTIONLESS, exponent=1.0, damping=0.0, stiffness=stiffness
+    )
+    contact = AlternatingFrequencyTime(
+        points, np.eye(3), FourierBasis(HARMONICS, SAMPLES)
+    )
+
+    shares = []
+    for phase in PHASES:
+        contact(motion(phase, mean=mean, across=across), FREQUENCY)
+        shares.append(contact.spectra(0)[0][0, 0, 0] / stiffness)
+
+    # A place between two samples is off by an eighth of the cell's curvature: 2e-4.
+    exact = np.arccos(-mean / across) / np.pi
+    np.testing.assert_allclose(shares, exact, rtol=0.0, atol=4e-4)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_the_mean_damping_is_the_share_of_the_period_that_sticks(ratio: float) -> None:
+    points = sliding_point(ratio * SPEED)
+    contact = AlternatingFrequencyTime(
+        points, np.eye(3), FourierBasis(HARMONICS, SAMPLES)
+    )
+
+    shares = []
+    for phase in PHASES:
+        contact(motion(phase), FREQUENCY)
+        damper = FRICTION * LOAD / (ratio * SPEED)
+        shares.append(contact.spectra(0)[1][1, 1, 0] / damper)
+
+    # The velocity is linear within a cell: its slope is off by (h / 2)² / 6, 4e-4.
+    exact = 2.0 * np.arcsin(ratio) / np.pi
+    np.testing.assert_allclose(shares, exact, rtol=2e-3)
+
+
 def by_quadrature(
     points: ContactPoints, moved: Array, kinks: list[float]
 ) -> ComplexArray:

@@ -15,6 +15,7 @@ from hbm.active import extended, moving, symmetric
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis, derivative, to_complex, to_real
 from hbm.relative import RelativeProblem, relative_problem
+from hbm.sampling import GAUSS_PLACES, GAUSS_WEIGHTS
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import (
     COULOMB,
@@ -35,6 +36,13 @@ PHASES = np.linspace(0.0, TURN / SAMPLES, 17)
 """of the motion: its events lie anywhere between two samples"""
 RATIOS = [1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9]
 """of threshold and largest speed"""
+
+
+@pytest.mark.parametrize("power", range(6))
+def test_the_rule_between_events_is_exact_up_to_the_fifth_power(power: int) -> None:
+    found = GAUSS_WEIGHTS @ GAUSS_PLACES**power
+
+    assert found == pytest.approx(1.0 / (power + 1.0), rel=1e-14)
 
 
 def sliding_point(threshold: float, **columns: float) -> ContactPoints:
@@ -162,6 +170,44 @@ def test_located_events_err_with_second_order(ratio: float) -> None:
 
     found = observed_order([1.0 / each for each in samples], errors)
     assert found == pytest.approx(2.0, abs=0.15)
+
+
+@pytest.mark.parametrize("mean", [0.003, -0.003, 0.012])
+def test_the_mean_tangent_is_the_share_of_the_period_in_contact(mean: float) -> None:
+    across, stiffness = 0.02, 7.0
+    points = contact_points(
+        friction=FRICTIONLESS, exponent=1.0, damping=0.0, stiffness=stiffness
+    )
+    contact = AlternatingFrequencyTime(
+        points, np.eye(3), FourierBasis(HARMONICS, SAMPLES)
+    )
+
+    shares = []
+    for phase in PHASES:
+        contact(motion(phase, mean=mean, across=across), FREQUENCY)
+        shares.append(contact.spectra(0)[0][0, 0, 0] / stiffness)
+
+    # A place between two samples is off by an eighth of the cell's curvature: 2e-4.
+    exact = np.arccos(-mean / across) / np.pi
+    np.testing.assert_allclose(shares, exact, rtol=0.0, atol=4e-4)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_the_mean_damping_is_the_share_of_the_period_that_sticks(ratio: float) -> None:
+    points = sliding_point(ratio * SPEED)
+    contact = AlternatingFrequencyTime(
+        points, np.eye(3), FourierBasis(HARMONICS, SAMPLES)
+    )
+
+    shares = []
+    for phase in PHASES:
+        contact(motion(phase), FREQUENCY)
+        damper = FRICTION * LOAD / (ratio * SPEED)
+        shares.append(contact.spectra(0)[1][1, 1, 0] / damper)
+
+    # The velocity is linear within a cell: its slope is off by (h / 2)² / 6, 4e-4.
+    exact = 2.0 * np.arcsin(ratio) / np.pi
+    np.testing.assert_allclose(shares, exact, rtol=2e-3)
 
 
 def by_quadrature(

@@ -1,5 +1,6 @@
 """Figures: the data that they show, labels with units, no screen."""
 
+import dataclasses
 import re
 from collections.abc import Iterable, Sequence
 
@@ -58,9 +59,40 @@ def check_labels(figure: Figure) -> None:
         assert axes.xaxis.get_tick_params()["labelbottom"], title
 
 
+def unmarked(curve: ResponseCurve) -> ResponseCurve:
+    """Return a curve of whose stability and events nothing is known."""
+    points = len(curve.event)
+    return dataclasses.replace(
+        curve, unstable=np.full(points, -1.0), event=("",) * points
+    )
+
+
+def test_unstable_stretches_and_events_are_marked_on_the_largest_amplitude(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.frequency_response(axes, small_curve)
+
+    largest = 1e3 * small_curve.amplitude[:, :3].max(axis=1)
+    unstable, *marks = axes.lines[3:]
+    drawn = np.asarray(unstable.get_ydata(), dtype=float)
+    np.testing.assert_allclose(drawn[2:], largest[2:])
+    assert np.isnan(drawn[:2]).all()
+    seen = {
+        str(mark.get_label()): (mark.get_xdata()[0], mark.get_ydata()[0])  # type: ignore[index]
+        for mark in marks
+    }
+    hertz = curves.hertz(small_curve)
+    assert seen == {
+        "peak": (hertz[1], largest[1]),
+        "fold": (hertz[2], largest[2]),
+    }
+
+
 def test_frequency_response_shows_absolute_motions_in_millimetres(
     axes: Axes, small_curve: ResponseCurve
 ) -> None:
+    small_curve = unmarked(small_curve)
+
     curves.frequency_response(axes, small_curve)
 
     hertz = [130.0, 131.0, 133.0, 134.0]
@@ -221,7 +253,7 @@ def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     slower, error = np.array([1.0, 4.0, 10.0]), np.array([0.4, -0.1, 0.05])
 
     figure = agreement_figure(
-        small_curve,
+        unmarked(small_curve),
         (frequency, marched, deviation),
         [("1 x as long", swept, 1e-4 * swept), ("4 x as long", swept, 2e-4 * swept)],
         (slower, error),

@@ -25,7 +25,7 @@ SPARE = 6.0
 
 
 WAIT = 10
-"""points before less is tried again, where it failed"""
+"""points before less is tried again, where more was needed"""
 PATIENCE = 3
 """failures in a row before the resolution is raised"""
 
@@ -91,20 +91,23 @@ class Resolution:
         finer = FourierBasis(2 * fourier.harmonics + 1, 2 * fourier.samples)
         residual, refined = self.at(finer)(point)
         step = refined.solve(normal, np.append(-residual, 0.0))
+        again, _ = self.at(finer).residual(point + step)
+        second = refined.solve(normal, np.append(-again, 0.0))
         low = residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
         rights = np.zeros((point.size, 2))
         rights[:-1, 0] = -correction.residual
         rights[:-1, 1] = correction.residual - low
         newton, sampled = correction.linearised.solve(normal, rights).T
-        before, at_newton, at_sampled, after = (
+        before, at_newton, at_sampled, after, last = (
             self.amplitudes(point + each)
-            for each in (0.0 * point, newton, newton + sampled, step)
+            for each in (0.0 * point, newton, newton + sampled, step, step + second)
         )
         size = float(before.max(initial=0.0)) or 1.0
         sampling = float(np.abs(at_sampled - at_newton).max(initial=0.0)) / size
-        truncation = float(np.abs(after - at_sampled).max(initial=0.0)) / size
-        return Estimate(truncation, sampling, point + step, finer)
+        truncation = float(np.abs(last - at_sampled).max(initial=0.0)) / size
+        truncation += float(np.abs(last - after).max(initial=0.0)) / size
+        return Estimate(truncation, sampling, point + step + second, finer)
 
     def amplitudes(self, point: Array) -> Array:
         """Return the first-harmonic amplitude of each probe [m]."""
@@ -188,7 +191,7 @@ class AdaptiveBalance:
             finer = self._finer(self.estimate)
             if finer == self.fourier:
                 return correction
-            self.fourier = finer
+            self.fourier, self._wait = finer, WAIT
             again = correct(self, self.estimate.corrected, normal, tolerance=tolerance)
             correction = replace(
                 again, residuals=correction.residuals[:-1] + again.residuals

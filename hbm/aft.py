@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis, Transform, derivative
-from hbm.sampling import Symmetry, sample
+from hbm.sampling import Forces, Symmetry, hat, sample
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
     ContactPoints,
@@ -76,8 +76,11 @@ class AlternatingFrequencyTime:
         self._velocity = Transform(rank, samples)
         self._force = Transform(rank, samples)
         self._spectrum = Transform(len(self._entries), samples)
-        self._forces = np.zeros((rows, samples))
-        self._changes = np.zeros((rows, samples))
+        self._regular, self._extra = (
+            Forces(np.zeros((rows, samples)), np.zeros((rows, samples)))
+            for _ in range(2)
+        )
+        self._hat = hat(fourier.harmonics, samples)[:, None]
         self._mixing = _mixing(basis, self._entries)
 
     def __call__(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
@@ -95,18 +98,22 @@ class AlternatingFrequencyTime:
         Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
         """
         displacement, velocity = self._motion(coefficients, frequency)
-        sample(
+        eventful = sample(
             self._points,
             displacement,
             velocity,
             self._entries,
             self._symmetry,
-            self._forces,
-            self._changes,
+            self._regular,
+            self._extra,
             self.tangents,
         )
-        force = self._analysed(self._forces)
-        return force, self._analysed(self._changes) / frequency
+        force = self._analysed(self._regular.force)
+        change = self._analysed(self._regular.change)
+        if eventful:
+            force += self._analysed(self._extra.force) / self._hat
+            change += self._analysed(self._extra.change) / self._hat
+        return force, change / frequency
 
     @property
     def tangents(self) -> Array:
@@ -151,8 +158,9 @@ class AlternatingFrequencyTime:
         displacement, velocity = self._motion(coefficients, frequency)
         half = self._symmetry.signs.size > 0
         seen = self._fourier.samples // (2 if half else 1)
+        forces = self._regular.force + self._extra.force
         smallest, largest, powers = _cycle(
-            self._points, displacement, velocity, self._forces, seen
+            self._points, displacement, velocity, forces, seen
         )
         period = 2.0 * np.pi / frequency
         return ContactCycle(smallest, largest, *(float(p) * period for p in powers))

@@ -30,7 +30,9 @@ class Linearisation:
             Number of components of a point.
         """
         self.jacobian, self.slope = jacobian, slope
-        self._places, self._size = np.append(places, size - 1), size
+        self._places = np.append(places, size - 1)
+        self._normal: Array = np.empty(0)
+        self._factors: tuple[Array, Array] = (np.empty(0), np.empty(0))
 
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian slope; normal] d = right.
@@ -43,16 +45,23 @@ class Linearisation:
         SingularError
             If there is no solution.
         """
-        count = self.slope.size
-        matrix = np.empty((count + 1, count + 1), order="F")
-        matrix[:count, :count] = self.jacobian
-        matrix[:count, count] = self.slope
-        matrix[count] = normal[self._places]
-        *_, found, failed = lapack.dgesv(
-            matrix, right[self._places], overwrite_a=True, overwrite_b=True
-        )
+        if not np.array_equal(normal, self._normal):
+            self._factors, self._normal = self._factored(normal), normal
+        found, failed = lapack.dgetrs(*self._factors, right[self._places])
         if failed != 0 or not np.all(np.isfinite(found)):
             raise SingularError
         solution = np.zeros_like(right)
         solution[self._places] = found
         return solution
+
+    def _factored(self, normal: Array) -> tuple[Array, Array]:
+        """Return the factors of the bordered matrix."""
+        count = self.slope.size
+        matrix = np.empty((count + 1, count + 1), order="F")
+        matrix[:count, :count] = self.jacobian
+        matrix[:count, count] = self.slope
+        matrix[count] = normal[self._places]
+        factors, pivots, failed = lapack.dgetrf(matrix, overwrite_a=True)
+        if failed != 0:
+            raise SingularError
+        return factors, pivots

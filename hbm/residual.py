@@ -50,16 +50,13 @@ class HarmonicBalance:
 
         Derivatives are taken by the active coefficients and by the frequency.
         """
+        residual, by_frequency = self.residual(point)
         coefficients, frequency = self.split(point)
-        stiffness, stiffness_change, load, load_change = self._linear(frequency)
+        stiffness, stiffness_change, _, load_change = self._linear(frequency)
         amplitudes = to_complex(coefficients)[..., None]
-        linear = to_real((stiffness @ amplitudes)[..., 0] - load)
         change = self._orders[:, None] * (
             (stiffness_change @ amplitudes)[..., 0] - load_change
         )
-        force, by_frequency = self.contact(coefficients, frequency)
-        residual = linear + force
-        residual[0] += self.problem.gauge @ coefficients[0]
         elastic, viscous = stiffness.real.copy(), stiffness.imag.copy()
         elastic[0] += self.problem.gauge
         jacobian = assemble(
@@ -69,13 +66,21 @@ class HarmonicBalance:
             frequency,
             self._terms,
         )
-        slope = (to_real(change) + by_frequency).ravel()[self._terms.unknowns]
+        places = self._terms.unknowns
+        slope = (to_real(change) + by_frequency).ravel()[places]
+        return residual, Linearisation(jacobian, slope, places, point.size)
+
+    def residual(self, point: Array) -> tuple[Array, Array]:
+        """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
+        coefficients, frequency = self.split(point)
+        stiffness, _, load, _ = self._linear(frequency)
+        amplitudes = to_complex(coefficients)[..., None]
+        force, by_frequency = self.contact(coefficients, frequency)
+        residual = to_real((stiffness @ amplitudes)[..., 0] - load) + force
+        residual[0] += self.problem.gauge @ coefficients[0]
         whole = np.zeros(point.size - 1)
         whole[: residual.size] = np.where(self._active, residual, 0.0).ravel()
-        self.excluded = float(
-            np.abs(np.where(self._active, 0.0, residual)).max(initial=0.0)
-        )
-        return whole, Linearisation(jacobian, slope, self._terms.unknowns, point.size)
+        return whole, by_frequency
 
     def point(self, coefficients: Array, frequency: float) -> Array:
         """Return the point of relative coefficients, shape (≤ 2H + 1, rank)."""

@@ -43,6 +43,15 @@ class Symmetry(NamedTuple):
     entry_signs: Array
 
 
+class Forces(NamedTuple):
+    """Where forces are written; the last axis is the sample."""
+
+    force: Array
+    """[N], shape (3 points, samples)"""
+    change: Array
+    """(∂force/∂velocity) velocity [N]"""
+
+
 class Samples(NamedTuple):
     """Where forces and tangents are written; the last axis is the sample."""
 
@@ -71,10 +80,10 @@ def sample(
     velocity: Array,
     entries: NDArray[np.int64],
     symmetry: Symmetry,
-    forces: Array,
-    changes: Array,
+    regular: Forces,
+    extra: Forces,
     tangents: Array,
-) -> None:
+) -> bool:
     """Write forces, (∂force/∂velocity) velocity, and chosen tangents at all samples.
 
     Parameters
@@ -88,10 +97,18 @@ def sample(
         (row, column, by velocity) of each tangent, ordered by points.
     symmetry
         Of half a period.
-    forces, changes, tangents
-        Written, the last axis with all samples.
+    regular
+        Written: what the samples see, the last axis with all samples.
+    extra
+        Written: what cells with events add to it, for :func:`hat`.
+    tangents
+        Written, both together.
+
+    Returns
+    -------
+    Whether there is an event.
     """
-    samples = forces.shape[1]
+    samples = tangents.shape[1]
     seen = samples // 2 if symmetry.signs.size else samples
     bounds = np.searchsorted(
         entries[:, 0], 3 * np.arange(points.load.size + 1, dtype=np.int64)
@@ -99,9 +116,12 @@ def sample(
     for point in range(points.load.size):
         _regular(
             points, point, displacement, velocity, entries, bounds[point],
-            bounds[point + 1], seen, forces, changes, tangents,
+            bounds[point + 1], seen, regular.force, regular.change, tangents,
         )  # fmt: skip
-    made = Samples(forces, changes, tangents, entries)
+    made = Samples(extra.force, extra.change, tangents, entries)
+    extra.force[:, :seen] = 0.0
+    extra.change[:, :seen] = 0.0
+    eventful = False
     work = Work(
         np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
     )
@@ -122,14 +142,29 @@ def sample(
                     points, point, displacement, velocity, place, after, events
                 )
                 if found > 0:
+                    eventful = True
                     _refine(
                         points, point, displacement, velocity, work, made,
                         bounds[point], bounds[point + 1], place, after,
                         events[: found + 2], symmetry,
                     )  # fmt: skip
-    mirror(forces, symmetry.partners, symmetry.signs)
-    mirror(changes, symmetry.partners, symmetry.signs)
+    for forces in (regular, extra):
+        mirror(forces.force, symmetry.partners, symmetry.signs)
+        mirror(forces.change, symmetry.partners, symmetry.signs)
     mirror(tangents, symmetry.entry_partners, symmetry.entry_signs)
+    return eventful
+
+
+def hat(harmonics: int, samples: int) -> Array:
+    """Return what linear sharing between samples makes of each order, (2 H + 1,).
+
+    The trapezoidal rule of a linear function, shared out as the nodes of a cell with
+    events are, would be multiplied by it. Dividing the extra forces by it keeps the
+    coefficients continuous when an event passes a sample.
+    """
+    orders = (np.arange(2 * harmonics + 1) + 1) // 2
+    factor: Array = (2.0 + np.cos(2.0 * np.pi * orders / samples)) / 3.0
+    return factor
 
 
 @kernel
@@ -216,19 +251,20 @@ def _deposit(
     last: int,
     place: int,
     weight: float,
+    forced: float,
     wraps: bool,
     symmetry: Symmetry,
 ) -> None:
-    """Add the weighted force and tangents in ``work`` to a sample.
+    """Add tangents in ``work``, weighted, and its force, weighted by ``forced``.
 
     ``wraps`` says that it is the first of the next half: the first of this half then
     takes it, as half a period before.
     """
     moving, slope = work.moving, work.by_velocity
     for axis in range(3):
-        row, share = 3 * point + axis, weight
+        row, share = 3 * point + axis, forced
         if wraps:
-            share = weight * symmetry.signs[row]
+            share = forced * symmetry.signs[row]
             row = symmetry.partners[row]
         made.forces[row, place] += share * work.force[axis]
         made.changes[row, place] += share * (
@@ -272,11 +308,15 @@ def _refine(
     target = 0 if wraps else after
     for piece in range(-2, 3 * (events.size - 1)):
         if piece < 0:
-            share, weight = piece + 2.0, -0.5
+            # what the trapezoidal rule has put there is taken back
+            share = piece + 2.0
+            near, far = -0.5 * (1.0 - share), -0.5 * share
+            blur = 1.0 / 6.0
         else:
             left, right = events[piece // 3], events[piece // 3 + 1]
             share = left + (right - left) * GAUSS_PLACES[piece % 3]
             weight = (right - left) * GAUSS_WEIGHTS[piece % 3]
+            near, far, blur = weight * (1.0 - share), weight * share, 0.0
         for axis in range(3):
             row = 3 * point + axis
             work.moved[axis] = (1.0 - share) * displacement[row, place] + (
@@ -290,12 +330,13 @@ def _refine(
             work.by_displacement, work.by_velocity,
         )  # fmt: skip
         _deposit(
-            point, work, made, first, last, place, weight * (1.0 - share), False,
-            symmetry,
+            point, work, made, first, last, place, near,
+            near + blur * (1.0 - 2.0 * share), False, symmetry,
         )  # fmt: skip
         _deposit(
-            point, work, made, first, last, target, weight * share, wraps, symmetry
-        )
+            point, work, made, first, last, target, far,
+            far - blur * (1.0 - 2.0 * share), wraps, symmetry,
+        )  # fmt: skip
 
 
 @kernel

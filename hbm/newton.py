@@ -126,11 +126,11 @@ def correct(
             return Correction(
                 point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
             )
-        merit = float(np.linalg.norm(residual))
+        merit = _merit(residual)
         for halving in range(HALVINGS):
             trial = point - step / 2**halving
             tried, derivative = system(trial)
-            if float(np.linalg.norm(tried)) < (1.0 - 1e-4 / 2**halving) * merit:
+            if _merit(tried) < (1.0 - 1e-4 / 2**halving) * merit:
                 break
         else:
             small = float(np.linalg.norm(step)) <= ROUNDING * float(
@@ -140,6 +140,12 @@ def correct(
             return Correction(point, residual, linearised, outcome, tuple(sizes))
         point, residual, linearised = trial, tried, derivative
         sizes.append(_size(residual))
+
+
+def _merit(residual: Array) -> float:
+    """Return what a step must lower; infinite where its square overflows."""
+    with np.errstate(over="ignore"):
+        return float(np.linalg.norm(residual))
 
 
 def _size(residual: Array) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from hbm.active import extended, moving, symmetric
 from hbm.adaptive import AdaptiveBalance, Resolution
@@ -100,7 +101,8 @@ def frequency_response(
     motions = small_motions(problem) if options.stability else None
     curve = Curve(problem, system, resolution, control, motions)
     pieces = Pieces(reduced, active, system, options.start, options.end, control)
-    yield from curve.followed(pieces, pieces.metric)
+    with threadpool_limits(1, "blas"):
+        yield from curve.followed(pieces, pieces.metric)
 
 
 def _moving(
@@ -134,5 +136,6 @@ def periodic_response(
     fourier = FourierBasis(harmonics, samples)
     balance = HarmonicBalance(reduced, fourier, extended(active, harmonics))
     start = balance.point(guess.coefficients @ reduced.selection.T, guess.frequency)
-    correction = correct_at(balance, start, control)
+    with threadpool_limits(1, "blas"):
+        correction = correct_at(balance, start, control)
     return response(problem, balance, correction)

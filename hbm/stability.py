@@ -22,7 +22,7 @@ from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 
 STEPS = 128
-"""per period"""
+"""per period, about"""
 HIGHEST = 12.0
 """modes are kept up to this multiple of the lowest one of the stuck structure …"""
 FEWEST = 6
@@ -104,12 +104,14 @@ def small_motions(problem: Problem) -> SmallMotions:
 
 
 def _regular(tangents: Array) -> Array:
-    """Return tangents, (samples, rank, rank), with :data:`STEPS` samples."""
+    """Return tangents, (samples, rank, rank), at about :data:`STEPS` samples."""
     samples = len(tangents)
     if samples < STEPS:
-        return tangents.repeat(STEPS // samples, axis=0)
-    groups = tangents.reshape(STEPS, samples // STEPS, *tangents.shape[1:])
-    mean: Array = groups.mean(axis=1)
+        return tangents.repeat(-(-STEPS // samples), axis=0)
+    size = samples // STEPS
+    while samples % size:
+        size -= 1
+    mean: Array = tangents.reshape(-1, size, *tangents.shape[1:]).mean(axis=1)
     return mean
 
 

@@ -36,6 +36,8 @@ class Agreement:
     """change of the amplitude over the last tenth of the march, relative"""
     closing_error: float
     """of the energy balance, over the input energy"""
+    unstable: int
+    """Floquet multipliers of the response outside the unit circle; −1 if not known"""
 
     @property
     def deviation(self) -> Array:
@@ -100,4 +102,5 @@ def agreement(
         float(away[-1]),
         float(drift),
         float(closing),
+        response.unstable,
     )

@@ -177,6 +177,7 @@ def _report(orbits: list[Agreement], sweeps: list[SweepAgreement]) -> None:
             + " ".join(f"{100.0 * deviation:9.4f}" for deviation in orbit.deviation[:3])
             + f"  {orbit.first_distance:10.1e}{orbit.last_distance:10.1e}"
             f"{orbit.drift:9.1e}"
+            f"{'  unstable: need not stay' if orbit.unstable > 0 else ''}"
         )
     if sweeps:
         print(SWEEPS)
@@ -234,10 +235,12 @@ def _verdict(
     """Print whether the solvers agree; return the exit status."""
     from microslip.studies.verify import falls
 
-    worst = max(orbits, key=_deviation)
+    held = [orbit for orbit in orbits if orbit.unstable <= 0]
+    worst = max(held or orbits, key=_deviation)
     stays = _deviation(worst) <= options.tolerance
+    among = "" if len(held) == len(orbits) else f" of {len(held)} stable orbits"
     print(
-        f"{'agree' if stays else 'DISAGREE'}: largest deviation of an amplitude "
+        f"{'agree' if stays else 'DISAGREE'}: largest deviation of an amplitude{among} "
         f"{100.0 * _deviation(worst):.3g} % at {worst.frequency / math.tau:.4f} Hz, "
         f"tolerance {100.0 * options.tolerance:g} %"
     )

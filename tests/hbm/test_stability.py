@@ -1,0 +1,116 @@
+"""Floquet multipliers by harmonic balance, beside closed forms and the time domain."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from hbm.fourier import FourierBasis
+from hbm.relative import relative_problem
+from hbm.residual import HarmonicBalance
+from hbm.solve import CurveOptions, frequency_response
+from hbm.stability import small_motions
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+from rigs import rig_problem
+from timedomain.floquet import floquet_multipliers
+
+HERTZ = 2.0 * np.pi
+
+
+def curve(
+    problem: Problem,
+    lowest: float,
+    highest: float,
+    harmonics: int | None = None,
+    samples: int | None = None,
+) -> list[PeriodicResponse]:
+    """Return the curve between two frequencies [Hz]."""
+    options = CurveOptions(
+        HERTZ * lowest, HERTZ * highest, harmonics=harmonics, samples=samples
+    )
+    return list(frequency_response(problem, static_equilibrium(problem), options))
+
+
+@pytest.mark.parametrize("samples", [64, 144, 512])
+def test_sticking_contacts_have_the_multipliers_of_their_linear_system(
+    samples: int,
+) -> None:
+    problem = rig_problem(model="A", friction__mu_dynamic=50.0)
+    rest = static_equilibrium(problem)
+    whole = relative_problem(problem, rest)
+    balance = HarmonicBalance(whole, FourierBasis(3, samples))
+    frequency = HERTZ * 130.0
+    balance.contact(balance.split(balance.point(whole.rest[None], frequency))[0], 1.0)
+
+    found = small_motions(problem).multipliers(balance.contact, frequency)
+
+    elastic, viscous = (part[:, :, 0] for part in balance.contact.spectra(0))
+    structure, select = problem.structure, whole.selection
+    none, one = np.zeros_like(structure.mass), np.eye(structure.dofs)
+    inverse = np.linalg.inv(structure.mass)
+    system = np.block(
+        [
+            [none, one],
+            [
+                -inverse @ (structure.stiffness + select.T @ elastic @ select),
+                -inverse @ (structure.damping + select.T @ viscous @ select),
+            ],
+        ]
+    )
+    exact = np.linalg.eigvals(expm(system * 2.0 * np.pi / frequency))
+    largest = np.sort(np.abs(exact))[::-1]
+    # the first are creep of the regularised friction, then the resonant mode
+    np.testing.assert_allclose(np.abs(found[:4]), largest[:4], rtol=2e-4)
+
+
+@pytest.mark.parametrize(
+    ("model", "law", "close"),
+    [("A", "coulomb", 1.5e-3), ("A", "gkf", 4e-3), ("B", "gkf", 4e-3)],
+)
+def test_largest_multipliers_are_those_of_the_time_domain(
+    model: str, law: str, close: float
+) -> None:
+    problem = rig_problem(model=model, friction__law=law)
+    points = curve(problem, 134.0, 136.0)
+    chosen = points[:: max(1, len(points) // 8)]
+
+    for point in chosen:
+        other = floquet_multipliers(problem, point, steps=512)
+        # measured: up to 6e-4 with Coulomb, 2.4e-3 with GKF friction, whose tangents
+        # change much within the 128 steps
+        assert abs(point.multipliers[0]) == pytest.approx(
+            abs(other.values[0]), abs=close
+        )
+
+
+def test_falling_friction_makes_a_torus_and_coulomb_friction_never() -> None:
+    falling = curve(rig_problem(model="A", friction__law="gkf"), 134.0, 136.0)
+    coulomb = curve(rig_problem(model="A"), 134.0, 136.0)
+
+    assert max(point.unstable for point in falling) == 2
+    assert "Neimark-Sacker" in {point.event for point in falling}
+    # Coulomb friction with constant load is monotone: every motion decays
+    assert {point.unstable for point in coulomb} == {0}
+
+
+def test_a_peak_is_where_dense_points_have_it() -> None:
+    problem = rig_problem(model="A")
+    fixed = {"harmonics": 15, "samples": 512}
+    peak = next(
+        each for each in curve(problem, 134.8, 135.3, **fixed) if each.event == "peak"
+    )
+    hertz = peak.frequency / HERTZ
+
+    around = [
+        curve(problem, hertz + away, 136.0, **fixed)[0]
+        for away in (-2e-3, -1e-3, 1e-3, 2e-3)
+    ]
+
+    rows = problem.probes.rows
+    sizes = [
+        float(np.hypot(*(each.coefficients[1:3] @ rows.T)).max())
+        for each in [*around, peak]
+    ]
+    # a kink or a smooth top: none of the neighbours is higher
+    assert sizes[-1] >= max(sizes[:-1])

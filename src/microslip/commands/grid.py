@@ -28,7 +28,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     )
     arguments.add_scene(parser)
     parser.add_argument(
-        "--quick", action="store_true", help="every ninth combination only"
+        "--quick", action="store_true", help="every tenth combination only"
     )
     parser.add_argument(
         "--csv", type=Path, metavar="FILE", help="also write a CSV file"

@@ -1,0 +1,63 @@
+"""The grid of parameters: what it covers, and that a failure is a result."""
+
+from dataclasses import replace
+
+import pytest
+
+from microslip.studies.grid import (
+    FRICTIONS,
+    LAWS,
+    LOADS,
+    QUICK,
+    SIGMAS,
+    THRESHOLDS,
+    attempts,
+    cases,
+)
+
+
+def test_the_grid_has_each_value_with_each_load() -> None:
+    grid = cases()
+
+    assert len(grid) == len(set(grid)) == 108
+    for values, name in (
+        (LAWS, "law"),
+        (SIGMAS, "sigma"),
+        (THRESHOLDS, "threshold"),
+        (FRICTIONS, "friction"),
+    ):
+        for value in values:
+            loads = {
+                (case.preload, case.drive)
+                for case in grid
+                if getattr(case, name) == value
+            }
+            assert loads == set(LOADS)
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("law", LAWS),
+        ("sigma", SIGMAS),
+        ("threshold", THRESHOLDS),
+        ("friction", FRICTIONS),
+        ("drive", {drive for _, drive in LOADS}),
+        ("preload", {preload for preload, _ in LOADS}),
+    ],
+)
+def test_a_quick_grid_misses_no_value(name: str, values: set[float]) -> None:
+    assert {getattr(case, name) for case in cases()[::QUICK]} == set(values)
+
+
+def test_an_attempt_tells_how_it_ended() -> None:
+    sticking = replace(cases()[0], friction=5.0, preload=100.0, drive=0.1)
+    impossible = replace(sticking, sigma=-1.0)
+
+    whole, wrong = attempts("two-blades", ("model=A",), [sticking, impossible])
+
+    assert whole.ending == "complete"
+    assert whole.points > 10
+    assert whole.error < 1e-3
+    assert wrong.points == 0
+    assert "[contact] sigma = -1.0" in wrong.ending

@@ -8,7 +8,17 @@ import shlex
 import sys
 import warnings
 
-from microslip.commands import explain, frc, grid, plot, scenes, sweep, tables, verify
+from microslip.commands import (
+    explain,
+    frc,
+    grid,
+    plot,
+    scenes,
+    sweep,
+    tables,
+    track,
+    verify,
+)
 from microslip.quantity import SceneError
 from microslip_mechanics.errors import MicroslipError
 
@@ -64,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="show the version")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (frc, sweep, verify, grid, tables, scenes, explain, plot):
+    for command in (frc, sweep, verify, track, grid, tables, scenes, explain, plot):
         command.add(commands)
     return parser
 

@@ -1,0 +1,107 @@
+"""microslip track: peaks and bifurcations against a parameter of the scene."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from microslip.studies.track import Tracked
+
+HEADER = "value           event             frequency [Hz]  amplitude [mm]    error"
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "track",
+        help="peak and bifurcations of the curve against a parameter",
+        description="Trace the curve of a scene for several values of one of its keys, "
+        "such as drive, preload or friction coefficient; print where its peaks, folds "
+        "and changes of stability are, write SCENE-track.csv and SCENE-track.png.",
+        epilog="example: microslip track two-blades excitation.force 0.5 1 2 4 "
+        "--set model=A",
+    )
+    arguments.add_scene(parser)
+    parser.add_argument("key", metavar="TABLE.KEY", help="such as excitation.force")
+    parser.add_argument("values", metavar="VALUE", nargs="+", help="of that key")
+    arguments.add_output(parser, "track")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.progress import shown
+    from microslip.scene_file import load_scene
+    from microslip.studies.track import tracked
+
+    data, picture = arguments.outputs(options, "track")
+    for value in options.values:
+        load_scene(options.scene, [*options.overrides, f"{options.key}={value}"])
+    found: list[Tracked] = []
+    print(HEADER)
+    ending = "complete"
+    try:
+        for each in shown(
+            tracked(options.scene, options.overrides, options.key, options.values),
+            total=len(options.values),
+            done=lambda _: len(found) + 1.0,
+            unit="curves",
+            name="track",
+        ):
+            found.append(each)
+            print(_lines(each), flush=True)
+    except KeyboardInterrupt:
+        ending = "interrupted"
+    if found:
+        _keep(options, found, data.with_suffix(".csv"), picture)
+    return arguments.ended(ending)
+
+
+def _lines(each: Tracked) -> str:
+    rows = [
+        f"{each.value:<15} {event.name:<16} {event.frequency / math.tau:15.6f} "
+        f"{1e3 * event.amplitude:15.6f} {event.error:8.1e}"
+        for event in each.events
+    ]
+    if not rows:
+        rows = [f"{each.value:<15} nothing located"]
+    if each.ending != "complete":
+        rows.append(f"{each.value:<15} the curve is not whole: {each.ending}")
+    return "\n".join(rows)
+
+
+def _keep(
+    options: argparse.Namespace, found: list[Tracked], table: Path, picture: Path
+) -> None:
+    """Write table and picture."""
+    import csv
+
+    from microslip.figures.track import track_figure
+    from microslip.store import save_figure
+
+    with table.open("w", encoding="utf-8", newline="") as file:
+        rows = csv.writer(file)
+        rows.writerow([options.key, "event", "frequency_hz", "amplitude_m", "error"])
+        for each in found:
+            for event in each.events:
+                hertz = event.frequency / math.tau
+                rows.writerow(
+                    [each.value, event.name, hertz, event.amplitude, event.error]
+                )
+    numbers = [_number(each.value, place) for place, each in enumerate(found)]
+    title = arguments.title(options)
+    save_figure(picture, track_figure(found, numbers, options.key, title))
+    print(f"table in {table}, picture in {picture}")
+
+
+def _number(text: str, place: int) -> float:
+    """Return the number that a value begins with, or its place in the list."""
+    try:
+        return float(text.split()[0])
+    except ValueError:
+        return float(place)

@@ -1,0 +1,53 @@
+"""Events of curves against a parameter, and the command that draws them."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from microslip.cli import main
+from microslip.studies.track import tracked
+
+SHORT = ("model=A", "curve.lowest=134 Hz", "curve.highest=136 Hz")
+
+
+def test_without_sliding_the_peak_is_proportional_to_the_drive() -> None:
+    sticky = (*SHORT, "friction.mu_dynamic=50")
+
+    one, two = tracked("two-blades", sticky, "excitation.force", ["0.5", "1 N"])
+
+    assert one.peak is not None
+    assert two.peak is not None
+    assert two.peak.amplitude == pytest.approx(2.0 * one.peak.amplitude, rel=1e-4)
+    assert two.peak.frequency == pytest.approx(one.peak.frequency, rel=1e-7)
+
+
+def test_more_drive_slides_more_and_grows_less() -> None:
+    one, two = tracked("two-blades", SHORT, "excitation.force", ["0.5", "1"])
+
+    assert one.peak is not None
+    assert two.peak is not None
+    assert two.peak.amplitude < 1.5 * one.peak.amplitude
+
+
+def test_the_command_writes_a_table_and_a_picture(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["track", "two-blades", "excitation.force", "0.5", "1"]
+    overrides = [word for each in SHORT for word in ("--set", each)]
+
+    status = main([*words, *overrides, "-o", str(tmp_path / "drive")])
+
+    assert status == 0
+    assert "peak" in capsys.readouterr().out
+    assert (tmp_path / "drive.png").stat().st_size > 10_000
+    with (tmp_path / "drive.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert {row["excitation.force"] for row in rows} == {"0.5", "1"}
+
+
+def test_a_key_that_the_scene_lacks_is_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["track", "two-blades", "excitation.farce", "1"]) == 2
+    assert "force" in capsys.readouterr().err

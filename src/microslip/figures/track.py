@@ -11,6 +11,9 @@ from microslip.figures.curve import MARKERS
 from microslip.figures.style import COLOURS, WIDTH, framed, literal
 from microslip.studies.track import Tracked
 
+MANY = 10
+"""values up to which each has its own tick"""
+
 
 def track_figure(
     found: Sequence[Tracked], values: Sequence[float], key: str, title: str
@@ -57,9 +60,14 @@ def track_figure(
     for axes in (left, right):
         if min(values) > 0.0 and max(values) > 10.0 * min(values):
             axes.set_xscale("log")
+        if len(values) <= MANY:
+            axes.set_xticks(list(values), [f"{value:g}" for value in values])
+            axes.set_xticks([], minor=True)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
     left.set_ylim(bottom=0.0)
     framed(right, x=literal(key), y="frequency [Hz]", title="Where it happens")
     right.legend(frameon=False)
+    for axes in (left, right):
+        axes.margins(x=0.04)
     figure.suptitle(literal(title))
     return figure

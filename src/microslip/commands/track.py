@@ -93,9 +93,19 @@ def _keep(
                 rows.writerow(
                     [each.value, event.name, hertz, event.amplitude, event.error]
                 )
-    numbers = [_number(each.value, place) for place, each in enumerate(found)]
+    peaks, others = [], []
+    for place, each in enumerate(found):
+        value, highest = _number(each.value, place), each.peak
+        if highest is not None:
+            hertz = highest.frequency / math.tau
+            peaks.append((value, hertz, highest.amplitude))
+        others += [
+            (value, event.name, event.frequency / math.tau)
+            for event in each.events
+            if event is not highest
+        ]
     title = arguments.title(options)
-    save_figure(picture, track_figure(found, numbers, options.key, title))
+    save_figure(picture, track_figure(peaks, others, options.key, title))
     print(f"table in {table}, picture in {picture}")
 
 

@@ -4,51 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from microslip.figures.curve import MARKERS
 from microslip.figures.style import COLOURS, WIDTH, framed, literal
-from microslip.studies.track import Tracked
 
 MANY = 10
 """values up to which each has its own tick"""
 
 
 def track_figure(
-    found: Sequence[Tracked], values: Sequence[float], key: str, title: str
+    peaks: Sequence[tuple[float, float, float]],
+    others: Sequence[tuple[float, str, float]],
+    key: str,
+    title: str,
 ) -> Figure:
     """Draw amplitude and frequency of the highest peak, and the other events.
 
-    ``values`` are those of the parameter as numbers, one for each of ``found``.
+    Parameters
+    ----------
+    peaks
+        Value of the parameter, frequency [Hz] and amplitude [m] of each.
+    others
+        Value of the parameter, name of the event, frequency [Hz].
+    key, title
+        What the parameter and the picture are called.
     """
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
-    peaks = [(value, each.peak) for value, each in zip(values, found, strict=True)]
-    known = [(value, peak) for value, peak in peaks if peak is not None]
-    places = [value for value, _ in known]
-    left.plot(
-        places,
-        [1e3 * peak.amplitude for _, peak in known],
-        "-^",
-        color=COLOURS[0],
-        linewidth=WIDTH,
-    )
-    right.plot(
-        places,
-        [peak.frequency / (2.0 * np.pi) for _, peak in known],
-        "-^",
-        color=COLOURS[0],
-        linewidth=WIDTH,
-        label="highest peak",
-    )
+    places = [value for value, *_ in peaks]
+    values = sorted({*places, *(value for value, *_ in others)}) or [1.0]
+    line = {"color": COLOURS[0], "linewidth": WIDTH}
+    left.plot(places, [1e3 * amplitude for *_, amplitude in peaks], "-^", **line)
+    hertz = [frequency for _, frequency, _ in peaks]
+    right.plot(places, hertz, "-^", label="highest peak", **line)
     for kind, marker in MARKERS.items():
-        seen = [
-            (value, event.frequency / (2.0 * np.pi))
-            for value, each in zip(values, found, strict=True)
-            for event in each.events
-            if event.name == kind and event is not each.peak
-        ]
+        seen = [(value, found) for value, name, found in others if name == kind]
         if seen:
             right.plot(
                 *zip(*seen, strict=True),

@@ -6,13 +6,11 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hbm.active import extended
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Linearised, Outcome, SingularError, correct
-from hbm.relative import RelativeProblem
-from hbm.residual import HarmonicBalance
+from hbm.path import Path
+from hbm.residual import Balance
 from microslip_mechanics.arrays import Array
 
 HARMONICS = 255
@@ -32,9 +30,9 @@ PATIENCE = 3
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """What one Newton step at twice the resolution says of a point.
+    """What two Newton steps at twice the resolution say of a point.
 
-    The step leaves an error no larger than itself where the series converges like 1/H,
+    They leave an error no larger than themselves where the series converges like 1/H,
     as dry friction does, and a much smaller one where it converges faster.
     """
 
@@ -43,7 +41,7 @@ class Estimate:
     sampling: float
     """and by the distance of the samples"""
     corrected: Array
-    """the point after the step"""
+    """the point after the steps"""
     fourier: FourierBasis
     """its resolution"""
 
@@ -54,33 +52,30 @@ class Estimate:
 
 
 class Resolution:
-    """One problem at any number of harmonics and samples, made when first asked for."""
+    """A path at any number of harmonics and samples, made when first asked for."""
 
-    def __init__(
-        self, problem: RelativeProblem, active: NDArray[np.bool_], probes: Array
-    ) -> None:
-        """Resolve ``problem`` in ``active`` coefficients of the probing orders.
+    def __init__(self, path: Path, probes: Array) -> None:
+        """Resolve ``path``; its points are judged by the amplitude of the probes.
 
-        ``probes`` has shape ``(probes, dofs)``: the amplitudes whose error counts.
+        ``probes`` has shape ``(probes, dofs)``.
         """
-        self._problem, self._active, self._probes = problem, active, probes
-        self.rank = problem.rank
-        self._made: dict[FourierBasis, HarmonicBalance] = {}
+        self._path, self._probes = path, probes
+        self.rank = path.rank
+        self._made: dict[FourierBasis, Balance] = {}
 
-    def at(self, fourier: FourierBasis) -> HarmonicBalance:
-        """Return the harmonic balance at one resolution."""
+    def at(self, fourier: FourierBasis) -> Balance:
+        """Return the system at one resolution."""
         if fourier not in self._made:
-            self._made[fourier] = HarmonicBalance(
-                self._problem, fourier, extended(self._active, fourier.harmonics)
-            )
+            self._made[fourier] = self._path.balance(fourier)
         return self._made[fourier]
 
     def estimate(
         self, correction: Correction, fourier: FourierBasis, normal: Array
     ) -> Estimate:
-        """Return the error of a converged point, by one correction at twice the order.
+        """Return the error of a converged point, by two steps at twice the order.
 
-        The corrected point lies in the plane through the point normal to ``normal``.
+        Both have the same factors. The corrected point lies in the plane through the
+        point that is normal to ``normal``.
 
         Raises
         ------
@@ -113,8 +108,8 @@ class Resolution:
         """Return the first-harmonic amplitude of each probe [m]."""
         rank = self.rank
         first = point[rank : 2 * rank] - 1j * point[2 * rank : 3 * rank]
-        seen = self._problem.first_harmonic(first, float(point[-1]), self._probes)
-        return np.abs(seen)
+        problem, frequency = self._path.at(float(point[-1]))
+        return np.abs(problem.first_harmonic(first, frequency, self._probes))
 
 
 class AdaptiveBalance:

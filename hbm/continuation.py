@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from typing import Protocol
+from dataclasses import replace
 
 import numpy as np
 
-from hbm.newton import Correction, Linearised, Outcome, System, correct
+from hbm.newton import (
+    Correction,
+    Linearised,
+    Outcome,
+    SingularError,
+    System,
+    correct,
+)
 from hbm.predictor import Predictor
+from hbm.settler import UNSETTLED, Settler
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 
@@ -19,91 +27,10 @@ class ContinuationError(MicroslipError):
     """The curve cannot go on; the text says where, why and what to try."""
 
 
-@dataclass(frozen=True, slots=True)
-class StepControl:
-    """Arc-length steps that aim at a fixed number of Newton iterations."""
-
-    initial: float = 0.02
-    smallest: float = 1e-7
-    largest: float = 0.25
-    miss: float = 0.005
-    """by which a predicted point may be wrong"""
-    many_iterations: int = 6
-    slack: float = 0.01
-    """distance by which a correction may leave the prediction in any case"""
-    tolerance: float = 1e-9
-    """of the largest residual"""
-    most_points: int = 5000
-    """after which a curve is given up"""
-    sharpest_turn: float = 0.5
-    """a step turns the tangent by no more than what has this cosine"""
-
-    def __post_init__(self) -> None:
-        """Check the order of the steps."""
-        if not 0.0 < self.smallest <= self.initial <= self.largest:
-            raise ValueError(
-                f"steps {self.smallest:g}, {self.initial:g}, {self.largest:g}: give "
-                "0 < smallest <= initial <= largest"
-            )
-        if self.tolerance <= 0.0:
-            raise ValueError(f"tolerance {self.tolerance:g}: give a positive one")
-
-    def after(self, step: float, missed: float, order: int, iterations: int) -> float:
-        """Return the next step.
-
-        It grows or shrinks so that the extrapolation misses the next point by
-        :attr:`miss`; it shrinks if Newton's iteration was slow all the same.
-
-        Parameters
-        ----------
-        step, missed
-            Last step, and by how much extrapolation missed the point there.
-        order
-            Of the extrapolation.
-        iterations
-            Of Newton.
-        """
-        factor = math.pow(self.miss / max(missed, 1e-9), 1.0 / (order + 1))
-        if iterations > self.many_iterations:
-            factor = min(factor, 0.7)
-        return min(max(step * min(max(factor, 0.3), 2.0), self.smallest), self.largest)
-
-
-class Settler(Protocol):
-    """What makes a converged point good enough to keep."""
-
-    def settle(
-        self, correction: Correction, normal: Array, tolerance: float
-    ) -> Correction:
-        """Return the point to keep, in the plane normal to ``normal``; it may fail."""
-
-    def keep(self) -> None:
-        """Learn that the last point is kept."""
-
-    def retreat(self, times: int) -> None:
-        """Learn that the last point was not kept, for the n-th time in a row."""
-
-
-class Unsettled:
-    """Keeps each point as it is."""
-
-    def settle(
-        self,
-        correction: Correction,
-        normal: Array,  # noqa: ARG002
-        tolerance: float,  # noqa: ARG002
-    ) -> Correction:
-        """Return the point."""
-        return correction
-
-    def keep(self) -> None:
-        """Do nothing."""
-
-    def retreat(self, times: int) -> None:
-        """Do nothing."""
-
-
-UNSETTLED = Unsettled()
+FEWEST = 4
+"""steps of a closed curve"""
+ASIDE = 0.1
+"""length of a step from which it may pass a point, over its own"""
 
 Metric = Callable[[Array], Array]
 """point (n + 1,) ↦ the change of each component that counts as one unit of arc"""
@@ -121,6 +48,8 @@ def trace(
     direction: Array | None = None,
 ) -> Iterator[Correction]:
     """Yield the points of a curve from one value of its parameter to another.
+
+    A closed curve ends with the point at which it began.
 
     Parameters
     ----------
@@ -153,18 +82,22 @@ def trace(
         direction = np.zeros_like(start)
         direction[-1] = math.copysign(1.0, end - begin)
     scale = metric(accepted.point)
-    direction = tangent(accepted.linearised, direction, scale)
-    accepted = replace(accepted, tangent=direction, joined=False)
+    direction = _begun(accepted, direction, scale)
+    first = accepted = replace(accepted, tangent=direction, joined=False)
     yield accepted
     low, high = sorted((begin, end))
     past, went = Predictor(), 0.0
-    for _ in range(control.most_points):
+    for number in range(control.most_points):
         missed = past.append(accepted.point, direction, scale, went)
         if went > 0.0:
             step = control.after(went, missed, past.order, accepted.iterations)
         candidate, went = _next(system, past, direction, scale, step, control, settler)
         if not low < candidate.point[-1] < high:
             yield _border(system, accepted, candidate, (low, high), control, settler)
+            return
+        if number >= FEWEST and _passes(first, accepted, candidate, scale):
+            closed = correct_at(system, first.point, control, settler)
+            yield replace(closed, tangent=first.tangent)
             return
         scale = metric(candidate.point)
         direction = candidate.along / float(np.linalg.norm(candidate.along / scale))
@@ -198,6 +131,36 @@ def correct_at(
     if found.outcome is not Outcome.CONVERGED:
         raise ContinuationError(_text(float(guess[-1]), found, control))
     return found
+
+
+def _begun(first: Correction, direction: Array, scale: Array) -> Array:
+    """Return the unit tangent at the first point.
+
+    Raises
+    ------
+    ContinuationError
+        If there is none: the point lies on a fold or on a branch point.
+    """
+    try:
+        return tangent(first.linearised, direction, scale)
+    except SingularError:
+        raise ContinuationError(
+            f"the curve cannot begin at parameter {float(first.point[-1]):.9g}: it "
+            "folds or branches there; begin a little beside it"
+        ) from None
+
+
+def _passes(
+    first: Correction, before: Correction, after: Correction, scale: Array
+) -> bool:
+    """Return whether a step passes the first point in its direction."""
+    step = (after.point - before.point) / scale
+    away = (first.point - before.point) / scale
+    length = float(np.linalg.norm(step))
+    share = float(step @ away) / length**2
+    aside = float(np.linalg.norm(away - share * step))
+    same = float((first.along / scale) @ step) > 0.5 * length
+    return 0.0 < share <= 1.0 and aside < ASIDE * length and same
 
 
 def tangent(linearised: Linearised, direction: Array, scale: Array) -> Array:
@@ -235,12 +198,12 @@ def _next(
         close = moved <= max(0.5 * step, control.slack)
         if candidate.outcome is Outcome.CONVERGED and close:
             candidate = settler.settle(candidate, normal, control.tolerance)
+        candidate = _directed(candidate, direction, scale)
         if candidate.outcome is Outcome.CONVERGED:
-            turned = tangent(candidate.linearised, direction, scale)
-            cosine = float((turned / scale) @ (direction / scale))
+            cosine = float((candidate.along / scale) @ (direction / scale))
             if (close and cosine > control.sharpest_turn) or step <= control.smallest:
                 settler.keep()
-                return replace(candidate, tangent=turned), step
+                return candidate, step
         elif step <= control.smallest:
             where = float(past.predict(0.0)[-1])
             raise ContinuationError(_text(where, candidate, control))
@@ -250,6 +213,17 @@ def _next(
         if step < 0.1 * control.largest:
             past.order = 1
         step = max(step * 0.5, control.smallest)
+
+
+def _directed(candidate: Correction, direction: Array, scale: Array) -> Correction:
+    """Return a converged point with its tangent; failed, if it has none."""
+    if candidate.outcome is not Outcome.CONVERGED:
+        return candidate
+    try:
+        turned = tangent(candidate.linearised, direction, scale)
+    except SingularError:
+        return replace(candidate, outcome=Outcome.SINGULAR)
+    return replace(candidate, tangent=turned)
 
 
 def _border(

@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from operator import itemgetter
 
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance, Resolution
-from hbm.continuation import ContinuationError, Metric, StepControl
-from hbm.events import Segment, folds
+from hbm.continuation import ContinuationError, Metric
+from hbm.events import Segment, crossings, excess, folds
 from hbm.newton import Correction, Outcome
 from hbm.residual import HarmonicBalance
 from hbm.stability import SmallMotions
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
+SAME = 0.02
+"""share of a step within which a multiplier at +1 belongs to a fold"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,62 +38,53 @@ class Curve:
     """for stability, if it is wanted"""
 
     def followed(
-        self, corrections: Iterable[Correction], metric: Metric
+        self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
     ) -> Iterator[PeriodicResponse]:
-        """Yield the response at each point, and at each event between two points."""
-        before: Correction | None = None
-        last: PeriodicResponse | None = None
+        """Yield the response at each point, and at each event between two points.
+
+        ``beginning`` is what the first point is marked as.
+        """
+        before: tuple[Correction, PeriodicResponse] | None = None
         for correction in corrections:
-            joined = before is not None and correction.joined
-            made = self._made(correction, "" if joined or before is None else "restart")
-            if joined and before is not None and last is not None:
-                yield from self._between(before, correction, last, made, metric)
+            mark = beginning if before is None else "restart"
+            made = self._made(correction, "" if correction.joined else mark)
+            if before is not None and correction.joined:
+                yield from self._between(*before, correction, made, metric)
             yield made
-            before, last = correction, made
+            before = correction, made
 
     def _between(
         self,
         before: Correction,
-        after: Correction,
         last: PeriodicResponse,
+        after: Correction,
         made: PeriodicResponse,
         metric: Metric,
     ) -> Iterator[PeriodicResponse]:
         """Yield the events between two neighbouring points, in their order."""
         fourier = self.system.fourier
         self.system.fourier = self.system.settled
-        segment = Segment(
-            self.system, before, after, metric(before.point), self.control.tolerance
-        )
+        scale, tolerance = metric(before.point), self.control.tolerance
+        segment = Segment(self.system, before, after, scale, tolerance)
+        tests = self._tests(last, made)
         found = [
-            (name, place)
-            for name, test in self._tests(last, made)
-            if (place := segment.locate(test)) is not None
+            (segment.place(located.point), name, located)
+            for name, test, ends in tests
+            if (located := segment.locate(test, ends)) is not None
         ]
-        events = []
-        for name, place in found:
-            settled = self.system.settle(
-                place, metric(place.point), self.control.tolerance
-            )
+        for _, name, located in sorted(_told(found, segment.length), key=itemgetter(0)):
+            settled = self.system.settle(located, metric(located.point), tolerance)
             if settled.outcome is Outcome.CONVERGED:
-                events.append(self._made(settled, name))
+                yield self._made(settled, name)
         self.system.fourier = fourier
-        forward = after.point[-1] >= before.point[-1]
-        yield from sorted(
-            events, key=lambda each: each.frequency if forward else -each.frequency
-        )
 
-    def _tests(
-        self, last: PeriodicResponse, made: PeriodicResponse
-    ) -> list[tuple[str, Callable[[Correction], float]]]:
-        """Return what is to be located: names and functions that vanish there."""
-        tests: list[tuple[str, Callable[[Correction], float]]] = [
-            ("fold", folds),
-            ("peak", self._slope),
-        ]
-        if last.unstable >= 0 and made.unstable != last.unstable:
-            kind = crossing(last.multipliers, made.multipliers)
-            tests.append((kind, self._growth))
+    def _tests(self, last: PeriodicResponse, made: PeriodicResponse) -> list[Test]:
+        """Return what is to be located between two responses."""
+        tests: list[Test] = [("fold", folds, None), ("peak", self._slope, None)]
+        before, after = last.multipliers, made.multipliers
+        for which, kind in crossings(before, after):
+            ends = excess(before, which), excess(after, which)
+            tests.append((kind, partial(self._growth, which), ends))
         return tests
 
     def _slope(self, correction: Correction) -> float:
@@ -106,41 +102,53 @@ class Curve:
         place = int(sizes[0].argmax())
         return float(sizes[1][place] - sizes[0][place]) / small
 
-    def _growth(self, correction: Correction) -> float:
-        """Return by how much the largest multiplier exceeds one."""
-        multipliers = self._multipliers(
-            self.resolution.at(self.system.fourier), correction.point
+    def _growth(self, which: int, correction: Correction) -> float:
+        """Return by how much a multiplier exceeds one, by its place in their order."""
+        balance, point = self.resolution.at(self.system.fourier).at_frequency(
+            correction.point
         )
-        return float(np.abs(multipliers).max(initial=0.0) - 1.0)
+        balance.contact(*balance.split(point))
+        return excess(self._multipliers(balance, point), which)
 
     def _multipliers(self, balance: HarmonicBalance, point: Array) -> ComplexArray:
+        """Return the multipliers at a point at which the contacts were called."""
         if self.motions is None:
             return np.empty(0, complex)
-        coefficients, frequency = balance.split(point)
-        balance.contact(coefficients, frequency)
-        return self.motions.multipliers(balance.contact, frequency)
+        return self.motions.multipliers(balance.contact, float(point[-1]))
 
     def _made(self, correction: Correction, event: str) -> PeriodicResponse:
         """Return the response at a settled point."""
-        point, fourier, error = self.system.kept(correction.point)
-        balance = self.resolution.at(fourier)
+        kept, fourier, error = self.system.kept(correction.point)
+        balance, point = self.resolution.at(fourier).at_frequency(kept)
         made = response(self.problem, balance, replace(correction, point=point))
-        multipliers = np.empty(0, complex)
-        if self.motions is not None:
-            multipliers = self.motions.multipliers(balance.contact, made.frequency)
-        return replace(made, error=error, event=event, multipliers=multipliers)
+        multipliers = self._multipliers(balance, point)
+        return replace(
+            made,
+            error=error,
+            event=event,
+            multipliers=multipliers,
+            parameter=float(kept[-1]),
+        )
 
 
-def crossing(before: ComplexArray, after: ComplexArray) -> str:
-    """Return how stability changes between two sets of Floquet multipliers.
+Test = tuple[str, Callable[[Correction], float], tuple[float, float] | None]
+"""name, function that vanishes, its values at the ends if they are known"""
+Found = tuple[float, str, Correction]
+"""place along a segment, name, point"""
 
-    The multiplier that is outside the unit circle tells: at +1, where the curve does
-    not fold, another branch begins; at −1 a period doubles; elsewhere a torus begins.
+
+def _told(found: Sequence[Found], length: float) -> list[Found]:
+    """Return the events without the branch points that are folds.
+
+    At a fold a multiplier is +1 as well.
     """
-    outside = max(before[0], after[0], key=abs)
-    if abs(outside.imag) > 1e-6 * abs(outside):
-        return "Neimark-Sacker"
-    return "branch point" if outside.real > 0.0 else "period doubling"
+    places = [place for place, name, _ in found if name == "fold"]
+    return [
+        (place, name, located)
+        for place, name, located in found
+        if name != "branch point"
+        or all(abs(place - each) > SAME * length for each in places)
+    ]
 
 
 def response(

@@ -8,14 +8,15 @@ evaluations being a corrected point (theory §6).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.optimize
 
 from hbm.continuation import tangent
 from hbm.newton import Correction, Outcome, SingularError, System, correct
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.response import MARGIN
 
 PRECISION = 1e-5
 """of a located place, over the length of the step in which it is"""
@@ -33,26 +34,30 @@ class Segment:
     tolerance: float
     """of the residual"""
 
-    def locate(self, test: Callable[[Correction], float]) -> Correction | None:
+    @property
+    def length(self) -> float:
+        """Distance of the points along the tangent at the first."""
+        return self.place(self.after.point)
+
+    def locate(
+        self,
+        test: Callable[[Correction], float],
+        ends: tuple[float, float] | None = None,
+    ) -> Correction | None:
         """Return the point between the two at which ``test`` is zero.
 
-        None if it has no change of sign, or if a point between does not converge.
+        ``ends`` are its values at the two, if they are known better. None if it has no
+        change of sign, or if a point between does not converge.
         """
-        first, last = test(self.before), test(self.after)
-        if not first * last < 0.0:
+        first, last = ends or (test(self.before), test(self.after))
+        length = self.length
+        if not first * last < 0.0 or length <= 0.0:
             return None
-        length = self._place(self.after.point)
-        if length <= 0.0:
-            return None
-        latest: list[Correction] = []
 
         def value(place: float) -> float:
             if place <= 0.0:
                 return first
-            if place >= length:
-                return last
-            latest.append(self._at(place, length))
-            return test(latest[-1])
+            return last if place >= length else test(self._at(place, length))
 
         try:
             root = scipy.optimize.brentq(
@@ -62,7 +67,7 @@ class Segment:
         except (_LostError, SingularError):
             return None
 
-    def _place(self, point: Array) -> float:
+    def place(self, point: Array) -> float:
         """Return the distance from the first point along its tangent."""
         along = self.before.along / self.scale
         return float(along @ ((point - self.before.point) / self.scale))
@@ -78,15 +83,7 @@ class Segment:
         )
         if found.outcome is not Outcome.CONVERGED:
             raise _LostError
-        along = tangent(found.linearised, direction, self.scale)
-        return Correction(
-            found.point,
-            found.residual,
-            found.linearised,
-            found.outcome,
-            found.residuals,
-            along,
-        )
+        return replace(found, tangent=tangent(found.linearised, direction, self.scale))
 
 
 class _LostError(ArithmeticError):
@@ -96,3 +93,34 @@ class _LostError(ArithmeticError):
 def folds(correction: Correction) -> float:
     """Return what is zero at a fold: the parameter's part of the tangent."""
     return float(correction.along[-1])
+
+
+def excess(multipliers: ComplexArray, which: int) -> float:
+    """Return by how much a multiplier, known by its place, exceeds one."""
+    return float(np.abs(multipliers[which]) - 1.0 - MARGIN)
+
+
+def crossings(before: ComplexArray, after: ComplexArray) -> list[tuple[int, str]]:
+    """Return which Floquet multipliers cross the unit circle, and what that means.
+
+    A multiplier is known by its place in the order of moduli, the largest first, of a
+    complex pair the first. At +1, where the curve does not fold, another branch begins;
+    at −1 a period doubles; elsewhere a torus begins.
+    """
+    few, many = sorted((_outside(before), _outside(after)))
+    values = before if _outside(before) == many else after
+    found = []
+    for which in range(few, many):
+        value = values[which]
+        if abs(value.imag) > 1e-6 * abs(value):
+            if which == few or abs(values[which - 1] - value.conjugate()) > 1e-9:
+                found.append((which, "Neimark-Sacker"))
+        else:
+            kind = "branch point" if value.real > 0.0 else "period doubling"
+            found.append((which, kind))
+    return found
+
+
+def _outside(multipliers: ComplexArray) -> int:
+    """Return the number of multipliers outside the unit circle."""
+    return int((np.abs(multipliers) > 1.0 + MARGIN).sum())

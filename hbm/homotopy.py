@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hbm.active import extended
-from hbm.continuation import ContinuationError, StepControl, correct_at
+from hbm.continuation import ContinuationError, correct_at
 from hbm.fourier import FourierBasis
+from hbm.path import Path
 from hbm.relative import RelativeProblem
 from hbm.residual import HarmonicBalance
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 
 SMALLEST_STEP = 1e-3
@@ -22,34 +22,26 @@ SMOOTH = 1e4
 """times the threshold velocity with which a homotopy begins"""
 
 
-def approached(
-    problem: RelativeProblem,
-    active: NDArray[np.bool_],
-    frequency: float,
-    control: StepControl,
-) -> Iterator[tuple[str, Array]]:
-    """Yield coefficients of the response at a frequency, and how they were found.
+def approached(path: Path, parameter: float, control: StepControl) -> Array | None:
+    """Return coefficients of the response at a parameter, (2H + 1, rank), if found.
 
     The drive grows from nothing, or the threshold velocity of friction falls from a
-    large value, or friction grows from nothing. What does not arrive is left out.
+    large value, or friction grows from nothing, at coarse resolutions in turn.
     """
     for fourier in FOURIERS:
-        for name, easier in HOMOTOPIES.items():
+        for easier in HOMOTOPIES:
             try:
-                yield (
-                    name,
-                    _followed(problem, easier, fourier, active, frequency, control),
-                )
+                return _followed(path, parameter, easier, fourier, control)
             except ContinuationError:
                 continue
+    return None
 
 
 def _followed(
-    problem: RelativeProblem,
+    path: Path,
+    parameter: float,
     easier: Callable[[RelativeProblem, float], RelativeProblem],
     fourier: FourierBasis,
-    active: NDArray[np.bool_],
-    frequency: float,
     control: StepControl,
 ) -> Array:
     """Return the coefficients at the end of a homotopy, shape (2H + 1, rank).
@@ -59,7 +51,8 @@ def _followed(
     ContinuationError
         If it does not arrive.
     """
-    mask = extended(active, fourier.harmonics)
+    problem, frequency = path.at(parameter)
+    mask = path.mask(fourier.harmonics)
     place, step = 0.0, 0.25
     point = HarmonicBalance(problem, fourier, mask).point(
         problem.rest[None, :], frequency
@@ -98,4 +91,4 @@ def _friction(problem: RelativeProblem, share: float) -> RelativeProblem:
     return replace(problem, points=points)
 
 
-HOMOTOPIES = {"drive": _drive, "threshold": _threshold, "friction": _friction}
+HOMOTOPIES = (_drive, _threshold, _friction)

@@ -34,6 +34,11 @@ class Linearisation:
         self._normal: Array = np.empty(0)
         self._factors: tuple[Array, Array] = (np.empty(0), np.empty(0))
 
+    def along(self, slope: Array) -> Linearisation:
+        """Return the same, ``slope`` being the derivative by the last component."""
+        places, last = self._places[:-1], int(self._places[-1])
+        return Linearisation(self.jacobian, slope[places], places, last + 1)
+
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian slope; normal] d = right.
 

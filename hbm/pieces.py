@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hbm.adaptive import AdaptiveBalance
-from hbm.continuation import ContinuationError, StepControl, trace
+from hbm.continuation import ContinuationError, trace
 from hbm.homotopy import approached
 from hbm.newton import Correction
-from hbm.relative import RelativeProblem
+from hbm.path import Path
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 
 RESTARTS = 6
@@ -24,36 +24,56 @@ LEAPS = (1e-4, 1e-3, 5e-3, 2e-2)
 
 @dataclass(frozen=True, slots=True)
 class Pieces:
-    """The corrections along a curve from ``start`` to ``end``, in order."""
+    """The corrections along a curve from ``start`` to ``end``, in order.
 
-    problem: RelativeProblem
-    active: NDArray[np.bool_]
-    """coefficients of the probing orders that move, (11, rank)"""
+    A curve that folds back and returns to ``start`` is followed from ``end`` as well.
+    """
+
+    path: Path
     system: AdaptiveBalance
     start: float
-    """[rad/s]"""
+    """parameter at which the curve begins"""
     end: float
     control: StepControl
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
-        begin, guess = self.start, self._still(self.start)
+        guess, heading = self._still(self.start), self.end
         for attempt in range(RESTARTS + 1):
-            last = math.nan
+            last: Correction | None = None
             try:
-                for correction in self._traced(guess):
-                    last = float(correction.point[-1])
+                for correction in self._traced(guess, heading):
+                    last = correction
                     yield correction
-            except ContinuationError as error:
-                if attempt == RESTARTS:
+            except ContinuationError:
+                if last is not None and last.along[-1] != 0.0:
+                    onwards = math.copysign(1.0, last.along[-1])
+                    heading = max(self.start, self.end, key=lambda each: onwards * each)
+                reached = float((guess if last is None else last.point)[-1])
+                again = self._again(reached, heading, begun=last is not None)
+                if again is None or attempt == RESTARTS:
                     raise
-                reached = begin if math.isnan(last) else last
-                again = self._again(reached, first=math.isnan(last) and attempt == 0)
-                if again is None:
-                    raise ContinuationError(str(error)) from None
-                begin, guess = float(again[-1]), again
+                guess = again
             else:
-                return
+                if last is None or last.point[-1] == self.end or heading == self.start:
+                    return
+                guess, heading = self._still(self.end), self.start
+
+    def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
+        """Yield corrections from a point in a direction, until the range ends.
+
+        Or until the curve closes.
+        """
+        yield from trace(
+            self.system,
+            guess,
+            self.end,
+            metric=self.metric,
+            control=replace(self.control, most_points=1000),
+            settler=self.system,
+            begin=self.start,
+            direction=direction,
+        )
 
     def metric(self, point: Array) -> Array:
         """Return the change of each component that counts as one unit of arc.
@@ -61,39 +81,41 @@ class Pieces:
         Relative changes of mean motion and vibration each, and a tenth of the range: a
         preload makes mean values large, and must not hide the vibration.
         """
-        means = self.problem.rank
+        means = self.path.rank
         scale = np.full(point.size, float(np.linalg.norm(point[means:-1])) + 1e-15)
         scale[:means] = float(np.linalg.norm(point[:means])) + 1e-15
-        scale[-1] = abs(self.end - self.start) / 10.0
+        scale[-1] = self.path.unit(float(point[-1]))
         return scale
 
-    def _traced(self, guess: Array) -> Iterator[Correction]:
+    def _traced(self, guess: Array, heading: float) -> Iterator[Correction]:
         return trace(
             self.system,
             guess,
-            self.end,
+            heading,
             metric=self.metric,
             control=self.control,
             settler=self.system,
-            begin=self.start,
+            begin=self.start if heading == self.end else self.end,
         )
 
-    def _again(self, reached: float, *, first: bool) -> Array | None:
+    def _again(self, reached: float, heading: float, *, begun: bool) -> Array | None:
         """Return a point from which the curve can go on, past what resists."""
-        for leap in (0.0, *LEAPS) if first else LEAPS:
-            frequency = reached + leap * (self.end - self.start)
-            if (self.end - frequency) * (self.end - self.start) <= 0.0:
+        way = math.copysign(abs(self.end - self.start), heading - reached)
+        for leap in LEAPS if begun else (0.0, *LEAPS):
+            parameter = reached + leap * way
+            if (heading - parameter) * way <= 0.0:
                 return None
-            found = approached(self.problem, self.active, frequency, self.control)
-            for _, coefficients in found:
-                guess = self._still(frequency)
+            coefficients = approached(self.path, parameter, self.control)
+            if coefficients is not None:
+                guess = self._still(parameter)
                 guess[: coefficients.size] = coefficients.ravel()
                 self.system.restart(coefficients.shape[0] // 2)
                 return guess
         return None
 
-    def _still(self, frequency: float) -> Array:
+    def _still(self, parameter: float) -> Array:
         """Return the point at rest."""
+        problem, _ = self.path.at(parameter)
         point = np.zeros(self.system.size)
-        point[: self.problem.rank], point[-1] = self.problem.rest, frequency
+        point[: problem.rank], point[-1] = problem.rest, parameter
         return point

@@ -8,8 +8,6 @@ from microslip_mechanics.arrays import Array
 
 MOST = 3
 """earlier points that are looked back upon"""
-
-
 STEEPEST = 0.2
 """most that an extrapolation may leave the tangent, over the step"""
 
@@ -25,10 +23,6 @@ class Predictor:
         self._scale: Array = np.empty(0)
         self.order = 1
         """of the extrapolation that predicted the last point best"""
-
-    def forget(self) -> None:
-        """Begin anew, where the past says nothing about what comes."""
-        self._points, self._places, self.order = [], [], 1
 
     def append(self, point: Array, tangent: Array, scale: Array, step: float) -> float:
         """Add a point that lies ``step`` further on, and its unit tangent.

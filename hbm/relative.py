@@ -81,10 +81,16 @@ class RelativeProblem:
         )
 
 
-def relative_problem(problem: Problem, rest: StaticState) -> RelativeProblem:
-    """Return the problem in relative coordinates; ``rest`` is its equilibrium."""
+def relative_problem(
+    problem: Problem, rest: StaticState, condensed: CondensedStructure | None = None
+) -> RelativeProblem:
+    """Return the problem in relative coordinates; ``rest`` is its equilibrium.
+
+    ``condensed`` is its structure, if it is known.
+    """
     basis, selection = problem.interface.relative_motion()
-    condensed = condense(problem, selection)
+    if condensed is None:
+        condensed = condense(problem, selection)
     force = np.array([problem.preload, -1j * problem.drive])
     position = selection @ rest.displacement
     rank = basis.shape[1]

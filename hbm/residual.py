@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,21 @@ from hbm.jacobian import assemble, terms
 from hbm.linearisation import Linearisation
 from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array, ComplexArray
+
+
+class Balance(Protocol):
+    """A system whose points are harmonic balances at some frequency."""
+
+    fourier: FourierBasis
+
+    def __call__(self, point: Array) -> tuple[Array, Linearisation]:
+        """Return the residual [N], (size − 1,), and what solves with its Jacobian."""
+
+    def residual(self, point: Array) -> tuple[Array, Array]:
+        """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
+
+    def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
+        """Return harmonic balance at the point's parameter, and the point for it."""
 
 
 class HarmonicBalance:
@@ -81,6 +98,10 @@ class HarmonicBalance:
         whole = np.zeros(point.size - 1)
         whole[: residual.size] = np.where(self._active, residual, 0.0).ravel()
         return whole, by_frequency
+
+    def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
+        """Return itself and the point, whose last component is the frequency."""
+        return self, point
 
     def point(self, coefficients: Array, frequency: float) -> Array:
         """Return the point of relative coefficients, shape (≤ 2H + 1, rank)."""

@@ -6,18 +6,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from hbm.active import extended, moving, symmetric
 from hbm.adaptive import AdaptiveBalance, Resolution
-from hbm.continuation import StepControl, correct_at
+from hbm.continuation import correct_at
 from hbm.curve import Curve, response
 from hbm.fourier import FourierBasis
+from hbm.path import along_frequency
 from hbm.pieces import Pieces
-from hbm.relative import RelativeProblem, relative_problem
-from hbm.residual import HarmonicBalance
 from hbm.stability import small_motions
+from hbm.step_control import StepControl
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
@@ -91,8 +89,8 @@ def frequency_response(
         initial=min(0.02, options.largest_step),
         largest=options.largest_step,
     )
-    reduced, active = _moving(problem, rest, options.start)
-    resolution = Resolution(reduced, active, problem.probes.rows)
+    path = along_frequency(problem, rest, options.start, options.end)
+    resolution = Resolution(path, problem.probes.rows)
     system = AdaptiveBalance(
         resolution,
         options.first,
@@ -100,19 +98,9 @@ def frequency_response(
     )
     motions = small_motions(problem) if options.stability else None
     curve = Curve(problem, system, resolution, control, motions)
-    pieces = Pieces(reduced, active, system, options.start, options.end, control)
+    pieces = Pieces(path, system, options.start, options.end, control)
     with threadpool_limits(1, "blas"):
         yield from curve.followed(pieces, pieces.metric)
-
-
-def _moving(
-    problem: Problem, rest: StaticState, frequency: float
-) -> tuple[RelativeProblem, NDArray[np.bool_]]:
-    """Return the problem without what a symmetry keeps still, and its active orders."""
-    whole = relative_problem(problem, rest)
-    active = moving(whole, frequency)
-    kept, odd = symmetric(active)
-    return whole.restricted(kept, odd), active[:, kept]
 
 
 def periodic_response(
@@ -132,10 +120,10 @@ def periodic_response(
         If the point does not converge.
     """
     control = StepControl(tolerance=tolerance * problem.force_scale)
-    reduced, active = _moving(problem, rest, guess.frequency)
-    fourier = FourierBasis(harmonics, samples)
-    balance = HarmonicBalance(reduced, fourier, extended(active, harmonics))
-    start = balance.point(guess.coefficients @ reduced.selection.T, guess.frequency)
+    path = along_frequency(problem, rest, guess.frequency, guess.frequency)
+    balance = path.balance(FourierBasis(harmonics, samples))
+    relative = guess.coefficients @ path.problem.selection.T
+    start = balance.point(relative, guess.frequency)
     with threadpool_limits(1, "blas"):
         correction = correct_at(balance, start, control)
     return response(problem, balance, correction)

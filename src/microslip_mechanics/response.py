@@ -48,6 +48,8 @@ class PeriodicResponse:
     """Floquet multipliers, the largest first; empty if they are not known"""
     event: str = ""
     """what the point is located as: peak, fold, …; empty for a point of the trace"""
+    parameter: float = np.nan
+    """of the scene, along which the point was found; ω itself along frequency"""
 
     @property
     def unstable(self) -> int:

@@ -6,10 +6,11 @@ from numpy.typing import NDArray
 
 from contact_tables import contact_points
 from hbm.active import extended, moving, symmetric
-from hbm.continuation import StepControl, correct_at
+from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import HarmonicBalance
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from hbm.active import moving, symmetric
 from hbm.adaptive import PATIENCE, WAIT, AdaptiveBalance, Resolution
-from hbm.continuation import StepControl, correct_at
+from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis
-from hbm.relative import relative_problem
+from hbm.path import along_frequency
 from hbm.solve import CurveOptions, frequency_response
+from hbm.step_control import StepControl
 from honesty import VARIANTS, block, errors
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
@@ -22,11 +22,9 @@ FREQUENCY = 11.0
 
 
 def resolution_of(problem: Problem) -> Resolution:
-    whole = relative_problem(problem, static_equilibrium(problem))
-    active = moving(whole, FREQUENCY)
-    kept, odd = symmetric(active)
-    part = whole.restricted(kept, odd)
-    return Resolution(part, active[:, kept], problem.probes.rows)
+    rest = static_equilibrium(problem)
+    path = along_frequency(problem, rest, FREQUENCY, 2.0 * FREQUENCY)
+    return Resolution(path, problem.probes.rows)
 
 
 def adaptive(

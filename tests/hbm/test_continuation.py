@@ -7,14 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from hbm.continuation import (
-    ContinuationError,
-    StepControl,
-    correct_at,
-    tangent,
-    trace,
-)
+from hbm.continuation import ContinuationError, correct_at, tangent, trace
 from hbm.newton import Correction, Outcome, System
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from systems import Dense
 

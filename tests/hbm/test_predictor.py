@@ -124,16 +124,3 @@ def test_an_extrapolation_that_leaves_the_tangent_by_much_is_not_trusted() -> No
     exact = Polynomial(2).at(PLACES[-1] + 0.99 * limit)
     np.testing.assert_allclose(near, exact, rtol=0.0, atol=1e-10)
     np.testing.assert_array_equal(far, line[0] + 1.01 * limit * line[1])
-
-
-def test_what_is_forgotten_predicts_nothing() -> None:
-    curve = Polynomial(3)
-    predictor, _ = followed(curve, PLACES)
-
-    predictor.forget()
-    missed = predictor.append(curve.at(0.5), curve.tangent(0.5), ONES, 1.0)
-
-    assert missed == 0.0
-    assert predictor.order == 1
-    expected = curve.at(0.5) + 0.1 * curve.tangent(0.5)
-    np.testing.assert_array_equal(predictor.predict(0.1), expected)

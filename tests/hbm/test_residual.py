@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from convergence import observed_order
-from hbm.continuation import StepControl, correct_at
+from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis, Transform, derivative, to_complex
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

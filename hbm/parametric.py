@@ -1,0 +1,65 @@
+"""Harmonic balance at one frequency, along a parameter of the problem (theory §6)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.fourier import FourierBasis
+from hbm.linearisation import Linearisation
+from hbm.relative import RelativeProblem
+from hbm.residual import HarmonicBalance
+from microslip_mechanics.arrays import Array
+
+DIFFERENCE = 1e-6
+"""of the parameter, over its unit, for the derivative by it"""
+PAST = 4
+"""parameters that are remembered"""
+
+
+class ParametricBalance:
+    """Residual with a parameter of the problem as the last component of a point."""
+
+    def __init__(
+        self,
+        problem_at: Callable[[float], tuple[RelativeProblem, float]],
+        fourier: FourierBasis,
+        active: NDArray[np.bool_],
+        unit: Callable[[float], float],
+    ) -> None:
+        """Plan for problems and frequencies that depend on a parameter.
+
+        ``unit`` is the change of the parameter that counts.
+        """
+        self._problem_at, self.fourier, self._active = problem_at, fourier, active
+        self._unit = unit
+        self._past: dict[float, HarmonicBalance] = {}
+
+    def __call__(self, point: Array) -> tuple[Array, Linearisation]:
+        """Return the residual [N], (size − 1,), and what solves with its Jacobian."""
+        balance, inner = self.at_frequency(point)
+        residual, linearised = balance(inner)
+        difference = DIFFERENCE * self._unit(float(point[-1]))
+        ahead = point.copy()
+        ahead[-1] += difference
+        later, _ = self.residual(ahead)
+        return residual, linearised.along((later - residual) / difference)
+
+    def residual(self, point: Array) -> tuple[Array, Array]:
+        """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
+        balance, inner = self.at_frequency(point)
+        return balance.residual(inner)
+
+    def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
+        """Return harmonic balance at the point's parameter, and the point for it."""
+        parameter = float(point[-1])
+        problem, frequency = self._problem_at(parameter)
+        if parameter not in self._past:
+            while len(self._past) >= PAST:
+                self._past.pop(next(iter(self._past)))
+            self._past[parameter] = HarmonicBalance(problem, self.fourier, self._active)
+        inner = point.copy()
+        inner[-1] = frequency
+        return self._past[parameter], inner

@@ -1,0 +1,45 @@
+"""What is done to a converged point before a trace keeps it."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from hbm.newton import Correction
+from microslip_mechanics.arrays import Array
+
+
+class Settler(Protocol):
+    """What makes a converged point good enough to keep."""
+
+    def settle(
+        self, correction: Correction, normal: Array, tolerance: float
+    ) -> Correction:
+        """Return the point to keep, in the plane normal to ``normal``; it may fail."""
+
+    def keep(self) -> None:
+        """Learn that the last point is kept."""
+
+    def retreat(self, times: int) -> None:
+        """Learn that the last point was not kept, for the n-th time in a row."""
+
+
+class Unsettled:
+    """Keeps each point as it is."""
+
+    def settle(
+        self,
+        correction: Correction,
+        normal: Array,  # noqa: ARG002
+        tolerance: float,  # noqa: ARG002
+    ) -> Correction:
+        """Return the point."""
+        return correction
+
+    def keep(self) -> None:
+        """Do nothing."""
+
+    def retreat(self, times: int) -> None:
+        """Do nothing."""
+
+
+UNSETTLED = Unsettled()

@@ -1,0 +1,56 @@
+"""Lengths of the steps along a curve (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class StepControl:
+    """Arc-length steps that are as long as extrapolation is good."""
+
+    initial: float = 0.02
+    smallest: float = 1e-7
+    largest: float = 0.25
+    miss: float = 0.005
+    """by which a predicted point may be wrong"""
+    many_iterations: int = 6
+    slack: float = 0.01
+    """distance by which a correction may leave the prediction in any case"""
+    tolerance: float = 1e-9
+    """of the largest residual"""
+    most_points: int = 5000
+    """after which a curve is given up"""
+    sharpest_turn: float = 0.5
+    """a step turns the tangent by no more than what has this cosine"""
+
+    def __post_init__(self) -> None:
+        """Check the order of the steps."""
+        if not 0.0 < self.smallest <= self.initial <= self.largest:
+            raise ValueError(
+                f"steps {self.smallest:g}, {self.initial:g}, {self.largest:g}: give "
+                "0 < smallest <= initial <= largest"
+            )
+        if self.tolerance <= 0.0:
+            raise ValueError(f"tolerance {self.tolerance:g}: give a positive one")
+
+    def after(self, step: float, missed: float, order: int, iterations: int) -> float:
+        """Return the next step.
+
+        It grows or shrinks so that the extrapolation misses the next point by
+        :attr:`miss`; it shrinks if Newton's iteration was slow all the same.
+
+        Parameters
+        ----------
+        step, missed
+            Last step, and by how much extrapolation missed the point there.
+        order
+            Of the extrapolation.
+        iterations
+            Of Newton.
+        """
+        factor = math.pow(self.miss / max(missed, 1e-9), 1.0 / (order + 1))
+        if iterations > self.many_iterations:
+            factor = min(factor, 0.7)
+        return min(max(step * min(max(factor, 0.3), 2.0), self.smallest), self.largest)

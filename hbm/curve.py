@@ -34,8 +34,8 @@ class Curve:
     system: AdaptiveBalance
     resolution: Resolution
     control: StepControl
-    motions: SmallMotions | None
-    """for stability, if it is wanted"""
+    motions: Callable[[float], SmallMotions] | None
+    """parameter ↦ the structure for small motions, if stability is wanted"""
 
     def followed(
         self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
@@ -73,7 +73,9 @@ class Curve:
             if (located := segment.locate(test, ends)) is not None
         ]
         for _, name, located in sorted(_told(found, segment.length), key=itemgetter(0)):
-            settled = self.system.settle(located, metric(located.point), tolerance)
+            normal = located.along / metric(located.point) ** 2
+            normal /= np.abs(normal).max()
+            settled = self.system.settle(located, normal, tolerance)
             if settled.outcome is Outcome.CONVERGED:
                 yield self._made(settled, name)
         self.system.fourier = fourier
@@ -108,20 +110,24 @@ class Curve:
             correction.point
         )
         balance.contact(*balance.split(point))
-        return excess(self._multipliers(balance, point), which)
+        parameter = float(correction.point[-1])
+        return excess(self._multipliers(balance, point, parameter), which)
 
-    def _multipliers(self, balance: HarmonicBalance, point: Array) -> ComplexArray:
+    def _multipliers(
+        self, balance: HarmonicBalance, point: Array, parameter: float
+    ) -> ComplexArray:
         """Return the multipliers at a point at which the contacts were called."""
         if self.motions is None:
             return np.empty(0, complex)
-        return self.motions.multipliers(balance.contact, float(point[-1]))
+        motions = self.motions(parameter)
+        return motions.multipliers(balance.contact, float(point[-1]))
 
     def _made(self, correction: Correction, event: str) -> PeriodicResponse:
         """Return the response at a settled point."""
         kept, fourier, error = self.system.kept(correction.point)
         balance, point = self.resolution.at(fourier).at_frequency(kept)
         made = response(self.problem, balance, replace(correction, point=point))
-        multipliers = self._multipliers(balance, point)
+        multipliers = self._multipliers(balance, point, float(kept[-1]))
         return replace(
             made,
             error=error,

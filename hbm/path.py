@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hbm.active import extended, moving, symmetric
-from hbm.condensation import CondensedStructure
 from hbm.fourier import FourierBasis
-from hbm.parametric import ParametricBalance
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import Balance, HarmonicBalance
-from microslip_mechanics.arrays import Array
+from hbm.stability import SmallMotions, small_motions
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.static import StaticState, static_equilibrium
-
-WIDE = 10.0
-"""ratio of two values from which equal ratios, not differences, count as equal"""
-PAST = 8
-"""problems that are remembered"""
+from microslip_mechanics.static import StaticState
 
 
 class Path(Protocol):
@@ -45,12 +37,17 @@ class Path(Protocol):
     def unit(self, parameter: float) -> float:
         """Return the change that counts as one unit of arc."""
 
+    def motions(self, parameter: float) -> SmallMotions:
+        """Return the structure for small motions."""
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True)
 class AlongFrequency:
     """One problem; its excitation frequency changes."""
 
+    whole: Problem
     problem: RelativeProblem
+    """of what moves"""
     active: NDArray[np.bool_]
     """coefficients of the probing orders that move, (11, rank)"""
     range: float
@@ -77,6 +74,14 @@ class AlongFrequency:
         """Return a tenth of the range."""
         return self.range / 10.0
 
+    def motions(self, parameter: float) -> SmallMotions:  # noqa: ARG002
+        """Return the structure for small motions."""
+        return self._motions
+
+    @cached_property
+    def _motions(self) -> SmallMotions:
+        return small_motions(self.whole)
+
 
 def along_frequency(
     problem: Problem,
@@ -97,90 +102,20 @@ def along_frequency(
     symmetry
         Whether what a symmetry keeps still is left out: a branch that breaks it needs
         all.
+
+    Raises
+    ------
+    ValueError
+        If a frequency is not positive.
     """
-    whole = relative_problem(problem, rest)
+    if min(start, end) <= 0.0:
+        raise ValueError(f"frequencies {start:g} and {end:g} rad/s: give positive ones")
+    relative, width = relative_problem(problem, rest), abs(end - start)
     if not symmetry:
-        return AlongFrequency(
-            whole, np.ones((11, whole.rank), dtype=bool), abs(end - start)
-        )
-    active = moving(whole, start)
+        every = np.ones((11, relative.rank), dtype=bool)
+        return AlongFrequency(problem, relative, every, width)
+    active = moving(relative, start)
     kept, odd = symmetric(active)
     return AlongFrequency(
-        whole.restricted(kept, odd), active[:, kept], abs(end - start)
+        problem, relative.restricted(kept, odd), active[:, kept], width
     )
-
-
-class AlongParameter:
-    """A problem that depends on a parameter; its excitation frequency stays.
-
-    The structure is condensed anew only where the parameter changes it.
-    """
-
-    def __init__(
-        self,
-        problem_at: Callable[[float], Problem],
-        frequency: float,
-        start: float,
-        end: float,
-    ) -> None:
-        """Plan for parameters from ``start`` to ``end`` at ``frequency`` [rad/s]."""
-        self._problem_at, self._frequency = problem_at, frequency
-        self._start, self._end = start, end
-        self._condensed: tuple[Problem, CondensedStructure] | None = None
-        self._past: dict[float, RelativeProblem] = {}
-        values = (start, 0.5 * (start + end), end)
-        seen = [moving(self._whole(value), frequency) for value in values]
-        active = np.logical_or.reduce(seen)
-        self._kept, self._odd = symmetric(active)
-        self._active = active[:, self._kept]
-        self.rank = self._kept.size
-
-    def at(self, parameter: float) -> tuple[RelativeProblem, float]:
-        """Return the problem at one value, and the frequency."""
-        if parameter not in self._past:
-            while len(self._past) >= PAST:
-                self._past.pop(next(iter(self._past)))
-            whole = self._whole(parameter)
-            self._past[parameter] = whole.restricted(self._kept, self._odd)
-        return self._past[parameter], self._frequency
-
-    def mask(self, harmonics: int) -> NDArray[np.bool_]:
-        """Return the active coefficients, shape (2 harmonics + 1, rank)."""
-        return extended(self._active, harmonics)
-
-    def balance(self, fourier: FourierBasis) -> ParametricBalance:
-        """Return harmonic balance at one resolution."""
-        return ParametricBalance(
-            self.at, fourier, self.mask(fourier.harmonics), self.unit
-        )
-
-    def unit(self, parameter: float) -> float:
-        """Return a tenth of the range, or the same share of its logarithm."""
-        low, high = sorted((self._start, self._end))
-        if low > 0.0 and high > WIDE * low:
-            return max(parameter, 0.1 * low) * math.log(high / low) / 10.0
-        return (high - low) / 10.0
-
-    def _whole(self, parameter: float) -> RelativeProblem:
-        """Return the problem at one value, in all relative coordinates."""
-        problem = self._problem_at(parameter)
-        known = None
-        if self._condensed is not None and _alike(problem, self._condensed[0]):
-            known = self._condensed[1]
-        made = relative_problem(problem, static_equilibrium(problem), known)
-        self._condensed = problem, made.condensed
-        return made
-
-
-def _alike(one: Problem, two: Problem) -> bool:
-    """Return whether two problems have one structure, seen by the same contacts."""
-    names = ("mass", "damping", "stiffness")
-    pairs = [
-        (getattr(one.structure, name), getattr(two.structure, name)) for name in names
-    ]
-    pairs.append((one.interface.displacement, two.interface.displacement))
-    return all(first is last or _equal(first, last) for first, last in pairs)
-
-
-def _equal(first: Array, last: Array) -> bool:
-    return first.shape == last.shape and not np.any(first != last)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_tables import contact_points
-from hbm.solve import CurveOptions, frequency_response, periodic_response
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response, periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from hbm.fourier import to_complex
-from hbm.solve import CurveOptions, frequency_response, periodic_response
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response, periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from convergence import observed_order
-from hbm.solve import CurveOptions, frequency_response
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem

@@ -6,8 +6,9 @@ import pytest
 from hbm.adaptive import PATIENCE, WAIT, AdaptiveBalance, Resolution
 from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis
+from hbm.options import CurveOptions
 from hbm.path import along_frequency
-from hbm.solve import CurveOptions, frequency_response
+from hbm.solve import frequency_response
 from hbm.step_control import StepControl
 from honesty import VARIANTS, block, errors
 from microslip_mechanics.arrays import Array

@@ -9,7 +9,8 @@ import scipy.linalg
 
 from contact_tables import contact_points
 from hbm.fourier import to_complex
-from hbm.solve import CurveOptions, frequency_response
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Problem

@@ -8,9 +8,10 @@ import pytest
 from contact_tables import contact_points
 from hbm.continuation import ContinuationError
 from hbm.fourier import FourierBasis, to_complex
+from hbm.options import CurveOptions
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
-from hbm.solve import CurveOptions, frequency_response, periodic_response
+from hbm.solve import frequency_response, periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem

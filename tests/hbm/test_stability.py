@@ -5,9 +5,10 @@ import pytest
 from scipy.linalg import expm
 
 from hbm.fourier import FourierBasis
+from hbm.options import CurveOptions
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
-from hbm.solve import CurveOptions, frequency_response
+from hbm.solve import frequency_response
 from hbm.stability import small_motions
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hbm.continuation import ContinuationError
-from hbm.solve import CurveOptions, frequency_response
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
 from microslip.progress import Watch
 from microslip.scene_file import Curve
 from microslip_mechanics.problem import Problem

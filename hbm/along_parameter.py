@@ -1,0 +1,116 @@
+"""A path along a parameter of the problem, at one excitation frequency (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.active import extended, moving, symmetric
+from hbm.condensation import CondensedStructure
+from hbm.fourier import FourierBasis
+from hbm.parametric import ParametricBalance
+from hbm.relative import RelativeProblem, relative_problem
+from hbm.stability import SmallMotions, small_motions
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import static_equilibrium
+
+WIDE = 10.0
+"""ratio of two values from which equal ratios, not differences, count as equal"""
+PAST = 8
+"""problems that are remembered"""
+
+
+class AlongParameter:
+    """A problem that depends on a parameter; its excitation frequency stays.
+
+    The structure is condensed anew only where the parameter changes it.
+    """
+
+    def __init__(
+        self,
+        problem_at: Callable[[float], Problem],
+        frequency: float,
+        start: float,
+        end: float,
+    ) -> None:
+        """Plan for parameters from ``start`` to ``end`` at ``frequency`` [rad/s].
+
+        Raises
+        ------
+        ValueError
+            If the frequency is not positive.
+        """
+        if frequency <= 0.0:
+            raise ValueError(f"frequency {frequency:g} rad/s: give a positive one")
+        self._problem_at, self._frequency = problem_at, frequency
+        self._start, self._end = start, end
+        self._condensed: tuple[Problem, CondensedStructure] | None = None
+        self._motions: tuple[Problem, SmallMotions] | None = None
+        self._past: dict[float, RelativeProblem] = {}
+        values = (start, 0.5 * (start + end), end)
+        seen = [moving(self._whole(value), frequency) for value in values]
+        active = np.logical_or.reduce(seen)
+        self._kept, self._odd = symmetric(active)
+        self._active = active[:, self._kept]
+        self.rank = self._kept.size
+
+    def at(self, parameter: float) -> tuple[RelativeProblem, float]:
+        """Return the problem at one value, and the frequency."""
+        if parameter not in self._past:
+            while len(self._past) >= PAST:
+                self._past.pop(next(iter(self._past)))
+            whole = self._whole(parameter)
+            self._past[parameter] = whole.restricted(self._kept, self._odd)
+        return self._past[parameter], self._frequency
+
+    def mask(self, harmonics: int) -> NDArray[np.bool_]:
+        """Return the active coefficients, shape (2 harmonics + 1, rank)."""
+        return extended(self._active, harmonics)
+
+    def balance(self, fourier: FourierBasis) -> ParametricBalance:
+        """Return harmonic balance at one resolution."""
+        return ParametricBalance(
+            self.at, fourier, self.mask(fourier.harmonics), self.unit
+        )
+
+    def unit(self, parameter: float) -> float:
+        """Return a tenth of the range, or the same share of its logarithm."""
+        low, high = sorted((self._start, self._end))
+        if low > 0.0 and high > WIDE * low:
+            return max(parameter, 0.1 * low) * math.log(high / low) / 10.0
+        return (high - low) / 10.0
+
+    def motions(self, parameter: float) -> SmallMotions:
+        """Return the structure for small motions."""
+        problem = self._problem_at(parameter)
+        if self._motions is None or not _alike(problem, self._motions[0]):
+            self._motions = problem, small_motions(problem)
+        return self._motions[1]
+
+    def _whole(self, parameter: float) -> RelativeProblem:
+        """Return the problem at one value, in all relative coordinates."""
+        problem = self._problem_at(parameter)
+        known = None
+        if self._condensed is not None and _alike(problem, self._condensed[0]):
+            known = self._condensed[1]
+        made = relative_problem(problem, static_equilibrium(problem), known)
+        self._condensed = problem, made.condensed
+        return made
+
+
+def _alike(one: Problem, two: Problem) -> bool:
+    """Return whether two problems have one structure, seen by the same contacts."""
+    names = ("mass", "damping", "stiffness")
+    pairs = [
+        (getattr(one.structure, name), getattr(two.structure, name)) for name in names
+    ]
+    pairs.append((one.interface.displacement, two.interface.displacement))
+    return all(first is last or _equal(first, last) for first, last in pairs)
+
+
+def _equal(first: Array, last: Array) -> bool:
+    return first.shape == last.shape and not np.any(first != last)

@@ -1,0 +1,59 @@
+"""What a user asks of a curve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hbm.fourier import FourierBasis
+from hbm.step_control import StepControl
+
+
+@dataclass(frozen=True, slots=True)
+class CurveOptions:
+    """Range, resolution and accuracy of a curve."""
+
+    start: float
+    """first excitation frequency [rad/s], or value of another parameter"""
+    end: float
+    """last one"""
+    error: float = 1e-3
+    """of the amplitude at each point, relative: harmonics and samples follow from it"""
+    harmonics: int | None = None
+    """fixed number instead"""
+    samples: int | None = None
+    """fixed number per period; 16 (harmonics + 1) if left out"""
+    tolerance: float = 1e-8
+    """largest unbalanced force over the smaller of preload and drive"""
+    largest_step: float = 0.25
+    """relative change of the response, or share of a tenth of the range"""
+    stability: bool = True
+    """whether Floquet multipliers are computed"""
+
+    def __post_init__(self) -> None:
+        """Check the range."""
+        if not np.isfinite([self.start, self.end]).all() or self.start == self.end:
+            raise ValueError(
+                f"from {self.start:g} to {self.end:g}: give two different finite values"
+            )
+        for name in ("error", "tolerance", "largest_step"):
+            value = getattr(self, name)
+            if not 0.0 < value < np.inf:
+                raise ValueError(f"{name} {value:g}: give a positive number")
+        if self.samples is not None and self.harmonics is None:
+            raise ValueError("samples without harmonics: give both, or harmonics alone")
+
+    @property
+    def first(self) -> FourierBasis:
+        """Resolution of the first point."""
+        harmonics = self.harmonics or 1
+        return FourierBasis(harmonics, self.samples or 16 * (harmonics + 1))
+
+    def control(self, force_scale: float) -> StepControl:
+        """Return the steps; ``force_scale`` [N] is what forces are compared with."""
+        return StepControl(
+            tolerance=self.tolerance * force_scale,
+            initial=min(0.02, self.largest_step),
+            largest=self.largest_step,
+        )

@@ -1,0 +1,71 @@
+"""Everything that tracing along one path needs, put together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from hbm.adaptive import AdaptiveBalance, Resolution
+from hbm.curve import Curve
+from hbm.options import CurveOptions
+from hbm.path import Path
+from hbm.pieces import Pieces
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+
+
+class Tracer:
+    """Follows a path with the accuracy that a user asks for."""
+
+    def __init__(self, problem: Problem, path: Path, options: CurveOptions) -> None:
+        """Plan for ``path``; ``problem``, one on it, says what is large."""
+        self.path = path
+        resolution = Resolution(path, problem.probes.rows)
+        self.system = AdaptiveBalance(
+            resolution,
+            options.first,
+            tolerance=None if options.harmonics else options.error,
+        )
+        self.control = options.control(problem.force_scale)
+        motions = path.motions if options.stability else None
+        self.curve = Curve(problem, self.system, resolution, self.control, motions)
+        self.pieces = Pieces(
+            path, self.system, options.start, options.end, self.control
+        )
+
+    def responses(self) -> Iterator[PeriodicResponse]:
+        """Yield the responses from one end of the range to the other."""
+        yield from self.curve.followed(self.pieces, self.pieces.metric)
+
+    def from_response(
+        self, known: PeriodicResponse, selection: Array, mark: str
+    ) -> Iterator[PeriodicResponse]:
+        """Yield the responses to both sides of one, until the range ends.
+
+        Or until the curve closes.
+
+        Parameters
+        ----------
+        known
+            Where to begin.
+        selection
+            Map from the structure to the coordinates of the path, (rank, dofs).
+        mark
+            What the first response of each side is marked as.
+        """
+        guess = np.zeros(self.system.size)
+        relative = (known.coefficients @ selection.T).ravel()
+        guess[: relative.size] = relative
+        guess[-1] = known.parameter
+        direction = np.zeros_like(guess)
+        for side in (1.0, -1.0):
+            self.system.restart(known.harmonics)
+            direction[-1] = side
+            corrections = self.pieces.from_point(guess, direction)
+            last = known
+            for last in self.curve.followed(corrections, self.pieces.metric, mark):
+                yield last
+            if last.parameter == known.parameter:
+                return  # the curve is closed

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -82,6 +83,14 @@ class AlternatingFrequencyTime:
         )
         self._hat = hat(fourier.harmonics, samples)[:, None]
         self._mixing = _mixing(basis, self._entries)
+
+    def moved(self, points: ContactPoints, offset: Array) -> AlternatingFrequencyTime:
+        """Return the same for other values of the contacts; both share buffers."""
+        other = copy.copy(self)
+        other._points, other._offset = points, offset
+        if not np.array_equal(other._entries, _entries(points)):
+            raise ValueError("the contacts have other tangents: plan for them anew")
+        return other
 
     def __call__(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
         """Return force and its derivative by ω for y, each shape (2H + 1, rank).

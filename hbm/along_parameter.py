@@ -9,14 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.active import extended, moving, symmetric
-from hbm.condensation import CondensedStructure
 from hbm.fourier import FourierBasis
 from hbm.parametric import ParametricBalance
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.stability import SmallMotions, small_motions
-from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.static import StaticState, static_equilibrium
 
 WIDE = 10.0
 """ratio of two values from which equal ratios, not differences, count as equal"""
@@ -48,7 +46,7 @@ class AlongParameter:
             raise ValueError(f"frequency {frequency:g} rad/s: give a positive one")
         self._problem_at, self._frequency = problem_at, frequency
         self._start, self._end = start, end
-        self._condensed: tuple[Problem, CondensedStructure] | None = None
+        self._last: tuple[Problem, RelativeProblem, StaticState] | None = None
         self._motions: tuple[Problem, SmallMotions] | None = None
         self._past: dict[float, RelativeProblem] = {}
         values = (start, 0.5 * (start + end), end)
@@ -94,12 +92,23 @@ class AlongParameter:
     def _whole(self, parameter: float) -> RelativeProblem:
         """Return the problem at one value, in all relative coordinates."""
         problem = self._problem_at(parameter)
-        known = None
-        if self._condensed is not None and _alike(problem, self._condensed[0]):
-            known = self._condensed[1]
-        made = relative_problem(problem, static_equilibrium(problem), known)
-        self._condensed = problem, made.condensed
+        known = rest = None
+        if self._last is not None:
+            earlier, known, rest = self._last
+            if not _same_at_rest(problem, earlier):
+                rest = None
+            if not _alike(problem, earlier):
+                known = rest = None
+        rest = rest or static_equilibrium(problem)
+        made = relative_problem(problem, rest, known)
+        self._last = problem, made, rest
         return made
+
+
+def _same_at_rest(one: Problem, two: Problem) -> bool:
+    """Return whether two problems of one structure have one equilibrium."""
+    pairs = zip(one.interface.points, two.interface.points, strict=True)
+    return _equal(one.preload, two.preload) and all(_equal(*pair) for pair in pairs)
 
 
 def _alike(one: Problem, two: Problem) -> bool:
@@ -112,5 +121,5 @@ def _alike(one: Problem, two: Problem) -> bool:
     return all(first is last or _equal(first, last) for first, last in pairs)
 
 
-def _equal(first: Array, last: Array) -> bool:
+def _equal(first: np.ndarray, last: np.ndarray) -> bool:
     return first.shape == last.shape and not np.any(first != last)

@@ -35,6 +35,7 @@ class ParametricBalance:
         """
         self._problem_at, self.fourier, self._active = problem_at, fourier, active
         self._unit = unit
+        self._balance: HarmonicBalance | None = None
         self._past: dict[float, HarmonicBalance] = {}
 
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
@@ -57,9 +58,11 @@ class ParametricBalance:
         parameter = float(point[-1])
         problem, frequency = self._problem_at(parameter)
         if parameter not in self._past:
+            if self._balance is None:
+                self._balance = HarmonicBalance(problem, self.fourier, self._active)
             while len(self._past) >= PAST:
                 self._past.pop(next(iter(self._past)))
-            self._past[parameter] = HarmonicBalance(problem, self.fourier, self._active)
+            self._past[parameter] = self._balance.moved(problem)
         inner = point.copy()
         inner[-1] = frequency
         return self._past[parameter], inner

@@ -82,17 +82,18 @@ class RelativeProblem:
 
 
 def relative_problem(
-    problem: Problem, rest: StaticState, condensed: CondensedStructure | None = None
+    problem: Problem, rest: StaticState, known: RelativeProblem | None = None
 ) -> RelativeProblem:
     """Return the problem in relative coordinates; ``rest`` is its equilibrium.
 
-    ``condensed`` is its structure, if it is known.
+    ``known`` is one of the same structure and contact geometry, if there is one.
     """
-    basis, selection = problem.interface.relative_motion()
-    if condensed is None:
+    if known is None:
+        basis, selection = problem.interface.relative_motion()
         condensed = condense(problem, selection)
+    else:
+        basis, selection, condensed = known.basis, known.selection, known.condensed
     force = np.array([problem.preload, -1j * problem.drive])
-    position = selection @ rest.displacement
     rank = basis.shape[1]
     made = RelativeProblem(
         problem.interface.points,
@@ -102,7 +103,7 @@ def relative_problem(
         condensed,
         force,
         np.zeros((rank, rank)),
-        position,
+        selection @ rest.displacement,
         np.zeros(problem.structure.dofs),
     )
     return replace(made, gauge=_free_positions(made))

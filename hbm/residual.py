@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from typing import Protocol
 
 import numpy as np
@@ -48,17 +49,34 @@ class HarmonicBalance:
 
         The others stay at rest by symmetry; all are active if left out.
         """
-        self.problem, self.fourier, self.rank = problem, fourier, problem.rank
+        self.fourier, self.rank = fourier, problem.rank
         shape = (fourier.coefficients, self.rank)
         self._active = np.ones(shape, dtype=bool) if active is None else active
-        self._still = np.zeros(shape)
-        self._still[0] = problem.rest
         self.contact = problem.contact(fourier)
-        self._force = np.zeros((fourier.harmonics + 1, problem.force.shape[1]), complex)
-        self._force[:2] = problem.force
+        self._take(problem)
         self._orders = 1j * np.arange(fourier.harmonics + 1)
         self._terms = terms(self._active)
         self._wanted = np.vstack([self._active[:1], self._active[1::2]])
+
+    def moved(self, problem: RelativeProblem) -> HarmonicBalance:
+        """Return the same for other contacts and loads in the same coordinates.
+
+        Both share the buffers of the contacts.
+        """
+        other = copy.copy(self)
+        other.contact = self.contact.moved(problem.points, problem.offset)
+        other._take(problem)
+        return other
+
+    def _take(self, problem: RelativeProblem) -> None:
+        """Take over what one problem brings."""
+        self.problem = problem
+        self._still = np.zeros(self._active.shape)
+        self._still[0] = problem.rest
+        self._force = np.zeros(
+            (len(self._still) // 2 + 1, problem.force.shape[1]), complex
+        )
+        self._force[:2] = problem.force
         self._at = np.nan
         self._structure: tuple[ComplexArray, ...] = ()
 

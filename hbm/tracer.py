@@ -58,7 +58,7 @@ class Tracer:
         guess = np.zeros(self.system.size)
         relative = (known.coefficients @ selection.T).ravel()
         guess[: relative.size] = relative
-        guess[-1] = known.parameter
+        guess[-1] = known.frequency
         direction = np.zeros_like(guess)
         for side in (1.0, -1.0):
             self.system.restart(known.harmonics)
@@ -67,5 +67,5 @@ class Tracer:
             last = known
             for last in self.curve.followed(corrections, self.pieces.metric, mark):
                 yield last
-            if last.parameter == known.parameter:
+            if last.frequency == known.frequency:
                 return  # the curve is closed

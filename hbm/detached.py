@@ -1,0 +1,149 @@
+"""Curves that do not hang together with a known one, sought by the drive (theory §6).
+
+At a few frequencies the drive grows from little to a multiple of its value, through
+folds. A response that is passed at the wanted drive and does not lie on a known curve
+is a point of another one, which is followed to both sides until it closes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from hbm.along_parameter import AlongParameter
+from hbm.continuation import ContinuationError, correct_at
+from hbm.curve import response
+from hbm.fourier import FourierBasis
+from hbm.options import CurveOptions
+from hbm.path import AlongFrequency
+from hbm.tracer import Tracer
+from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+
+LEAST, MOST = 0.05, 4.0
+"""drives between which is sought, over the wanted one"""
+COARSE = 1e-2
+"""relative error of amplitude while seeking"""
+ALIKE = 0.03
+"""relative difference up to which two responses are one"""
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """Where detached curves of one problem are sought."""
+
+    problem: Problem
+    path: AlongFrequency
+    options: CurveOptions
+
+    def curves(
+        self,
+        known: Sequence[PeriodicResponse],
+        frequencies: Sequence[float],
+        progress: Callable[[int], object] = int,
+    ) -> Iterator[PeriodicResponse]:
+        """Yield the responses on detached curves, the first of each side marked so.
+
+        Parameters
+        ----------
+        known
+            Responses along the known curve, in order.
+        frequencies
+            At which the drive is varied [rad/s].
+        progress
+            Is told how many of them are done.
+
+        Raises
+        ------
+        ContinuationError
+            If a detached curve cannot be followed.
+        """
+        found = list(known)
+        for done, frequency in enumerate(frequencies):
+            progress(done)
+            for candidate in self.at_frequency(frequency):
+                if self._lies_on(found, candidate):
+                    continue
+                tracer = Tracer(self.problem, self.path, self.options)
+                selection = self.path.problem.selection
+                for each in tracer.from_response(candidate, selection, "detached"):
+                    found.append(each)
+                    yield each
+
+    def at_frequency(self, frequency: float) -> list[PeriodicResponse]:
+        """Return the responses at the wanted drive that lie on one curve of drives."""
+        options = replace(
+            self.options, start=LEAST, end=MOST, error=COARSE, stability=False
+        )
+        path = AlongParameter(self._driven, frequency, LEAST, MOST)
+        tracer = Tracer(self.problem, path, options)
+        passed: list[PeriodicResponse] = []
+        before: PeriodicResponse | None = None
+        try:
+            for each in tracer.responses():
+                if before is not None and _between(before, each):
+                    passed += self._wanted(before, each)
+                before = each
+        except ContinuationError:
+            return passed
+        return passed
+
+    def _wanted(
+        self, before: PeriodicResponse, after: PeriodicResponse
+    ) -> list[PeriodicResponse]:
+        """Return the response at the wanted drive between two, if it converges."""
+        finer = max(before, after, key=lambda each: each.harmonics)
+        fourier = FourierBasis(finer.harmonics, finer.samples)
+        balance = self.path.balance(fourier)
+        share = (1.0 - before.parameter) / (after.parameter - before.parameter)
+        motion = np.zeros((fourier.coefficients, self.problem.structure.dofs))
+        for part, each in ((1.0 - share, before), (share, after)):
+            count = min(len(each.coefficients), len(motion))
+            motion[:count] += part * each.coefficients[:count]
+        relative = motion @ self.path.problem.selection.T
+        guess = balance.point(relative, before.frequency)
+        try:
+            correction = correct_at(
+                balance, guess, self.options.control(self.problem.force_scale)
+            )
+            return [response(self.problem, balance, correction)]
+        except ContinuationError:
+            return []
+
+    def _driven(self, share: float) -> Problem:
+        return replace(self.problem, drive=share * self.problem.drive)
+
+    def _lies_on(
+        self, curve: Sequence[PeriodicResponse], candidate: PeriodicResponse
+    ) -> bool:
+        """Return whether a response, in its probes' first harmonic, lies on a curve."""
+        sought = self._first_harmonic(candidate)
+        size = float(np.abs(sought).max())
+        for before, after in pairwise(curve):
+            width = after.frequency - before.frequency
+            share = (candidate.frequency - before.frequency) / width if width else 0.0
+            if after.event not in MARKS and 0.0 <= share <= 1.0:
+                one, two = self._first_harmonic(before), self._first_harmonic(after)
+                away = np.abs(one + share * (two - one) - sought).max()
+                if away <= ALIKE * size + 0.5 * np.abs(two - one).max():
+                    return True
+        return False
+
+    def _first_harmonic(self, response: PeriodicResponse) -> ComplexArray:
+        """Return order 1 of the probes [m]."""
+        cosine, sine = response.coefficients[1:3] @ self.problem.probes.rows.T
+        amplitudes: ComplexArray = cosine - 1j * sine
+        return amplitudes
+
+
+MARKS = ("restart", "detached", "branch")
+"""of responses at which a curve begins anew"""
+
+
+def _between(before: PeriodicResponse, after: PeriodicResponse) -> bool:
+    """Return whether the wanted drive lies between two responses."""
+    return (before.parameter - 1.0) * (after.parameter - 1.0) <= 0.0

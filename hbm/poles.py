@@ -16,8 +16,8 @@ from microslip_mechanics.structure import Structure
 
 ALIKE = 0.9
 """of the shapes before and after a step that is not divided (MAC)"""
-SMALLEST = 1.0 / 64.0
-"""share of the way between two structures that is not divided"""
+LARGEST, SMALLEST = 1.0 / 4.0, 1.0 / 64.0
+"""shares of the way between two structures: first tried, and not divided further"""
 
 NONE = complex(np.nan, np.nan)
 """in place of a pole that does not exist"""
@@ -95,7 +95,7 @@ def _step(
     before: Structure, after: Structure, share: float, current: Poles
 ) -> tuple[float, Poles, NDArray[np.int64]]:
     """Return how far a step towards ``after`` came, the poles there, their origins."""
-    step = 1.0 - share
+    step = min(LARGEST, 1.0 - share) if before.dofs == after.dofs else 1.0
     while True:
         target = share + step
         reached = poles(_between(before, after, target))

@@ -50,7 +50,7 @@ class EquivalentContact:
 def equivalent_contact(
     problem: Problem, response: PeriodicResponse
 ) -> EquivalentContact:
-    """Return the describing function of each contact coordinate (theory, eq. 20).
+    """Return the describing function of each contact coordinate (theory §6).
 
     Mean and first harmonic of the response count. A coordinate at rest gets the mean
     of its tangents over the period: what a small motion at another frequency feels.

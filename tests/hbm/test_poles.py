@@ -86,13 +86,21 @@ def test_columns_keep_their_mode_where_frequencies_cross() -> None:
     np.testing.assert_allclose(np.abs(table[:, 1]), 15.0)
 
 
+def test_shapes_decide_where_values_alone_would_mislead() -> None:
+    table = followed(
+        [diagonal((10.0, 0.01), (15.0, 0.01)), diagonal((21.0, 0.01), (8.0, 0.01))]
+    )
+
+    np.testing.assert_allclose(np.abs(table[1]), [21.0, 8.0])
+
+
 def test_modes_that_exchange_their_shapes_do_not_jump() -> None:
     # Two coupled pendula: frequencies veer, and shapes turn by a right angle.
     def pendula(detuning: float) -> Structure:
-        stiffness = np.array([[100.0 + detuning, -20.0], [-20.0, 100.0 - detuning]])
+        stiffness = np.array([[1000.0 + detuning, -40.0], [-40.0, 1000.0 - detuning]])
         return Structure(np.eye(2), 0.01 * np.eye(2), stiffness, ("one", "other"))
 
-    table = followed([pendula(-40.0), pendula(40.0)])
+    table = followed([pendula(-400.0), pendula(400.0)])
 
     np.testing.assert_allclose(table[0], table[1], rtol=1e-9)
     assert table[0, 0].imag < table[0, 1].imag

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from hbm.continuation import ContinuationError
+from hbm.equivalent import one_harmonic_response
 from hbm.poles import damping_ratios, frequencies
 from microslip.quantity import SceneError
 from microslip.studies import poles as study
@@ -92,12 +93,12 @@ def test_more_drive_turns_the_stuck_mode_into_sliding_ones() -> None:
 def test_a_value_without_a_response_leaves_a_gap(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    solve, calls = study.one_harmonic_response, itertools.count()
+    calls = itertools.count()
 
     def failing(*arguments: object) -> object:
         if next(calls) == 1:
             raise ContinuationError("stuck: try less")
-        return solve(*arguments)  # type: ignore[arg-type]
+        return one_harmonic_response(*arguments)  # type: ignore[arg-type]
 
     monkeypatch.setattr(study, "one_harmonic_response", failing)
     question, found = asked(["9", "10", "11"])
@@ -109,7 +110,7 @@ def test_a_value_without_a_response_leaves_a_gap(
         "stuck: try less",
         "complete",
     ]
-    assert np.isnan(table).any(axis=1).tolist() == [False, True, False]
+    assert np.isnan(table.imag).any(axis=1).tolist() == [False, True, False]
 
 
 def test_the_command_writes_a_table_and_a_picture(run: Run, tmp_path: Path) -> None:

@@ -1,0 +1,217 @@
+"""Contacts as springs and dampers that do the same in one harmonic (theory §6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.linalg
+
+from hbm.aft import AlternatingFrequencyTime
+from hbm.continuation import ContinuationError
+from hbm.fourier import FourierBasis, to_complex
+from hbm.solve import CurveOptions, frequency_response, periodic_response
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import FRICTIONLESS
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import StaticState
+from microslip_mechanics.structure import Structure
+
+SAMPLES = 1024
+"""of the contacts per period"""
+STILL = 1e-9
+"""amplitude over the largest one, up to which a coordinate is at rest"""
+ORDERS = (3, 7, 15, 31, 63, 127)
+"""harmonics with which a one-harmonic response is solved again"""
+DETOUR = 15
+"""harmonics of the curve that leads there if that fails"""
+
+
+@dataclass(frozen=True, slots=True)
+class EquivalentContact:
+    """A spring and a damper along each row of the interface's displacement."""
+
+    stiffness: Array
+    """[N/m], shape (3 points,)"""
+    damping: Array
+    """[N s/m], shape (3 points,)"""
+
+    def joined(self, problem: Problem) -> Structure:
+        """Return the structure with these springs and dampers."""
+        rows, structure = problem.interface.displacement, problem.structure
+        return replace(
+            structure,
+            damping=structure.damping + (rows.T * self.damping) @ rows,
+            stiffness=structure.stiffness + (rows.T * self.stiffness) @ rows,
+        )
+
+
+def equivalent_contact(
+    problem: Problem, response: PeriodicResponse
+) -> EquivalentContact:
+    """Return the describing function of each contact coordinate (theory §6).
+
+    Mean and first harmonic of the response count. A coordinate at rest gets the mean
+    of its tangents over the period: what a small motion at another frequency feels.
+    """
+    motion = response.coefficients[:3] @ problem.interface.displacement.T
+    force, tangents = _evaluated(problem, motion, response.frequency, response.samples)
+    stiffness, damping = tangents.stiffness.copy(), tangents.damping.copy()
+    moved, felt = to_complex(motion)[1], to_complex(force)[1]
+    moves = np.abs(moved) > STILL * np.abs(moved).max(initial=0.0)
+    quotient = felt[moves] / moved[moves]
+    stiffness[moves], damping[moves] = quotient.real, quotient.imag / response.frequency
+    return EquivalentContact(stiffness, damping)
+
+
+def one_harmonic_response(
+    problem: Problem,
+    rest: StaticState,
+    limits: tuple[float, float],
+    frequency: float | None = None,
+) -> PeriodicResponse:
+    """Return the response with mean and first harmonic at one frequency.
+
+    Parameters
+    ----------
+    problem, rest
+        What is solved, and its static equilibrium.
+    limits
+        Range of excitation frequencies [rad/s] in which the curve is traced.
+    frequency
+        Where the response is wanted [rad/s]; at the largest amplitude if left out.
+
+    Raises
+    ------
+    ContinuationError
+        If the curve does not get there.
+    """
+    start, end = limits
+    if frequency is not None:
+        start, end = _towards(frequency, limits), frequency
+    options = CurveOptions(start, end, harmonics=1, samples=SAMPLES, stability=False)
+    curve = list(frequency_response(problem, rest, options))
+    if frequency is not None:
+        return curve[-1]
+    return max(curve, key=lambda each: float(amplitudes(problem, each).max()))
+
+
+def one_harmonic_error(
+    problem: Problem,
+    rest: StaticState,
+    response: PeriodicResponse,
+    limits: tuple[float, float],
+    tolerance: float,
+) -> float:
+    """Return how far a response is from that with more harmonics at its frequency.
+
+    Parameters
+    ----------
+    problem, rest, response
+        What is solved, its static equilibrium, and the one-harmonic response.
+    limits
+        Range [rad/s] of the curve that leads to the response, if Newton's iteration
+        from the one-harmonic response does not.
+    tolerance
+        Relative change of the amplitude from which more harmonics are taken.
+
+    Returns
+    -------
+    Largest difference of the probes' amplitudes, over the largest amplitude; NaN if no
+    response with more harmonics was found.
+    """
+    try:
+        better = _solved_again(problem, rest, response, tolerance)
+    except ContinuationError:
+        start = _towards(response.frequency, limits)
+        options = CurveOptions(
+            start, response.frequency, harmonics=DETOUR, stability=False
+        )
+        try:
+            *_, better = frequency_response(problem, rest, options)
+        except ContinuationError:
+            return float("nan")
+    return _distance(problem, response, better)
+
+
+def free_structure(problem: Problem, rest: StaticState) -> Structure:
+    """Return the structure on the normal contacts of the equilibrium alone."""
+    tangents = _at_rest(problem, rest)
+    normal = np.arange(tangents.stiffness.size) % 3 == 0
+    return EquivalentContact(
+        np.where(normal, tangents.stiffness, 0.0),
+        np.where(normal, tangents.damping, 0.0),
+    ).joined(problem)
+
+
+def stuck_structure(problem: Problem, rest: StaticState) -> Structure:
+    """Return the same without any sliding where there is friction."""
+    points, rows = problem.interface.points, problem.interface.displacement
+    loaded = (rest.normal_force > 0.0) | points.constant_load
+    tied = np.repeat((points.friction != FRICTIONLESS) & loaded, 3)
+    tied[::3] = False
+    whole = free_structure(problem, rest)
+    kept = np.eye(whole.dofs)
+    if tied.any():
+        kept = scipy.linalg.null_space(rows[tied])
+    return Structure(
+        kept.T @ whole.mass @ kept,
+        kept.T @ whole.damping @ kept,
+        kept.T @ whole.stiffness @ kept,
+        tuple(f"motion {number}" for number in range(kept.shape[1])),
+    )
+
+
+def amplitudes(problem: Problem, response: PeriodicResponse) -> Array:
+    """Return the first harmonic of each probe [m], shape (probes,)."""
+    seen = response.coefficients[1:3] @ problem.probes.rows.T
+    found: Array = np.hypot(*seen)
+    return found
+
+
+def _at_rest(problem: Problem, rest: StaticState) -> EquivalentContact:
+    """Return the tangents at the equilibrium."""
+    rows = problem.interface.displacement
+    motion = np.zeros((3, len(rows)))
+    motion[0] = rows @ rest.displacement
+    return _evaluated(problem, motion, 1.0, SAMPLES)[1]
+
+
+def _evaluated(
+    problem: Problem, motion: Array, frequency: float, samples: int
+) -> tuple[Array, EquivalentContact]:
+    """Return coefficients of the points' forces [N] and their mean tangents."""
+    points = problem.interface.points
+    fourier = FourierBasis(1, samples)
+    contact = AlternatingFrequencyTime(points, np.eye(motion.shape[1]), fourier)
+    force, _ = contact(motion, frequency)
+    means = (np.diagonal(each[..., 0]) for each in contact.spectra(0))
+    return force, EquivalentContact(*means)
+
+
+def _solved_again(
+    problem: Problem, rest: StaticState, response: PeriodicResponse, tolerance: float
+) -> PeriodicResponse:
+    """Return the response with as many harmonics as the tolerance asks for."""
+    for harmonics in ORDERS:
+        before = response
+        response = periodic_response(
+            problem, rest, before, harmonics=harmonics, samples=16 * (harmonics + 1)
+        )
+        if _distance(problem, before, response) <= tolerance:
+            break
+    return response
+
+
+def _distance(
+    problem: Problem, response: PeriodicResponse, better: PeriodicResponse
+) -> float:
+    found, reference = amplitudes(problem, response), amplitudes(problem, better)
+    size = float(reference.max(initial=0.0)) or 1.0
+    return float(np.abs(found - reference).max(initial=0.0)) / size
+
+
+def _towards(frequency: float, limits: tuple[float, float]) -> float:
+    """Return the limit from which a curve leads to a frequency."""
+    return limits[0] if frequency > limits[0] else limits[1]

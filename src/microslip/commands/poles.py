@@ -1,0 +1,179 @@
+"""microslip poles: frequencies and damping of the linearised scene against friction."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from microslip.studies.poles import Linearised, Question
+    from microslip_mechanics.arrays import ComplexArray
+
+HEADER = """\
+value      response in one harmonic                poles of the linearised scene
+      frequency [Hz]  amplitude [mm]  off by   frequency [Hz] (damping ratio [%])"""
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "poles",
+        help="frequencies and damping of the linearised scene against friction",
+        description="Replace each contact by a spring and a damper that do the same in "
+        "one harmonic (friction's energy per period included); print the poles of that "
+        "linear structure within the curve's range and how far its response is from "
+        "that with all harmonics, write SCENE-poles.csv and SCENE-poles.png.",
+        epilog="example: microslip poles two-blades friction 0 0.1 0.3 1 --set model=A",
+    )
+    arguments.add_scene(parser)
+    parser.add_argument(
+        "key",
+        metavar="TABLE.KEY",
+        nargs="?",
+        default="friction",
+        help='what is varied, such as preload.force (default: "friction", the '
+        "coefficient mu_dynamic, and mu_static in proportion)",
+    )
+    parser.add_argument(
+        "values",
+        metavar="VALUE",
+        nargs="*",
+        help="of that key (default: from no friction to 32 times the scene's)",
+    )
+    parser.add_argument(
+        "--frequency",
+        type=arguments.positive,
+        metavar="HZ",
+        help="of the response that decides springs and dampers (default: where its "
+        "amplitude is largest)",
+    )
+    arguments.add_output(parser, "poles")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.progress import shown
+    from microslip.studies.poles import Question, linearised
+
+    data, picture = arguments.outputs(options, "poles")
+    frequency = options.frequency and math.tau * options.frequency
+    question = Question(options.scene, tuple(options.overrides), options.key, frequency)
+    values = options.values or question.usual_values()
+    for value in values:
+        question.at(value)
+    found: list[Linearised] = []
+    print(HEADER)
+    ending = "complete"
+    try:
+        for each in shown(
+            linearised(question, values),
+            total=len(values),
+            done=lambda _: len(found) + 1.0,
+            unit="values",
+            name="poles",
+        ):
+            found.append(each)
+            print(_line(question, each), flush=True)
+    except KeyboardInterrupt:
+        ending = "interrupted"
+    if any(each.linear for each in found):
+        _keep(options, question, found, data.with_suffix(".csv"), picture)
+    elif ending == "complete":
+        ending = "no value has a response"
+    return arguments.ended(ending)
+
+
+def _line(question: Question, each: Linearised) -> str:
+    from hbm.poles import damping_ratios, frequencies, poles
+    from microslip.studies.poles import limits_of, within
+
+    linear = each.linear
+    if linear is None:
+        return f"{each.value:<10} no response: {each.ending}"
+    values = poles(linear.structure).values
+    values = values[within(values, limits_of(question.at(each.value)))]
+    shown = [
+        f"{hertz:.4f} ({100.0 * ratio:.3f})"
+        for hertz, ratio in zip(
+            frequencies(values), damping_ratios(values), strict=True
+        )
+    ]
+    off = "unknown" if math.isnan(linear.error) else f"{100.0 * linear.error:.3f} %"
+    return (
+        f"{each.value:<10} {linear.response.frequency / math.tau:9.4f} "
+        f"{1e3 * linear.amplitude:15.6f} {off:>9}   {'  '.join(shown) or 'none'}"
+    )
+
+
+def _keep(
+    options: argparse.Namespace,
+    question: Question,
+    found: list[Linearised],
+    table: Path,
+    picture: Path,
+) -> None:
+    """Write table and picture of the values that have a response."""
+    from microslip.figures.poles import poles_figure
+    from microslip.store import save_figure
+    from microslip.studies.poles import branches, limit_lines, limits_of
+
+    span = limits_of(question.at(found[0].value))
+    lines = branches(found, span)
+    _write(table, options.key, found, lines)
+    limits = {name: limit_lines(found, name, span) for name in ("free", "stuck")}
+    places = [_number(each.value, place) for place, each in enumerate(found)]
+    key = "friction coefficient µd" if options.key == "friction" else options.key
+    title = arguments.title(options)
+    save_figure(picture, poles_figure(places, lines, limits, span, key, title))
+    print(f"table in {table}, picture in {picture}")
+
+
+def _write(path: Path, key: str, found: list[Linearised], lines: ComplexArray) -> None:
+    """Write a row for each pole of each value."""
+    import csv
+
+    from microslip.store import StoreError
+
+    names = (
+        *(key, "branch", "frequency_hz", "damping_ratio", "real_1_s", "imag_rad_s"),
+        *("response_frequency_hz", "response_amplitude_m", "response_error"),
+        "friction_energy_j",
+    )
+    try:
+        with path.open("w", encoding="utf-8", newline="") as file:
+            rows = csv.writer(file)
+            rows.writerow(names)
+            for each, poles in zip(found, lines, strict=True):
+                rows.writerows(_rows(each, poles))
+    except OSError as error:
+        raise StoreError(f"{path} cannot be written: {error.strerror}") from None
+
+
+def _rows(each: Linearised, poles: ComplexArray) -> list[list[object]]:
+    """Return what the table says of each pole of a value."""
+    from hbm.poles import damping_ratios, frequencies
+
+    if each.linear is None:
+        return []
+    response, error = each.linear.response, each.linear.error
+    hertz = response.frequency / math.tau
+    shared = [hertz, each.linear.amplitude, error, response.friction_energy]
+    columns = zip(frequencies(poles), damping_ratios(poles), poles, strict=True)
+    return [
+        [each.value, branch, decay, ratio, pole.real, pole.imag, *shared]
+        for branch, (decay, ratio, pole) in enumerate(columns, start=1)
+        if not math.isnan(decay)
+    ]
+
+
+def _number(text: str, place: int) -> float:
+    """Return the number that a value begins with, or its place in the list."""
+    try:
+        return float(text.split()[0])
+    except ValueError:
+        return float(place)

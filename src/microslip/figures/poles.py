@@ -1,0 +1,111 @@
+"""Pictures of poles against a parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from microslip.figures.style import COLOURS, WIDTH, framed, literal
+from microslip_mechanics.arrays import Array, ComplexArray
+
+LIMITS = {"free": ":", "stuck": "--"}
+"""lines of the poles without friction and without sliding"""
+NOTHING = complex(np.nan, np.nan)
+
+
+def poles_figure(
+    places: Sequence[float],
+    branches: ComplexArray,
+    limits: Mapping[str, ComplexArray],
+    span: tuple[float, float],
+    key: str,
+    title: str,
+) -> Figure:
+    """Draw frequency and damping against the parameter, and the paths of the poles.
+
+    Parameters
+    ----------
+    places
+        Values of the parameter, shape (values,).
+    branches
+        Poles [rad/s], shape (values, branches); NaN where there is none.
+    limits
+        The same without friction ("free") and without sliding ("stuck").
+    span
+        Range that the frequencies must be in to be shown [rad/s].
+    key, title
+        What the parameter and the picture are called.
+    """
+    figure = Figure(figsize=(12.0, 4.2), layout="constrained")
+    frequency, damping, path = figure.subplots(1, 3)
+    order = np.argsort(places, kind="stable")
+    where = np.array(places, dtype=float)[order]
+    shown = np.where(_inside(branches, span), branches, NOTHING)[order]
+    for number, branch in enumerate(shown.T):
+        colour = COLOURS[number % len(COLOURS)]
+        line = {"color": colour, "linewidth": 1.5 * WIDTH, "markersize": 3.0}
+        frequency.plot(where, _hertz(branch), "-o", **line)
+        damping.plot(where, _ratio(branch), "-o", **line)
+        path.plot(_positive(-branch.real), _hertz(branch), "-o", **line)
+    for name, style in LIMITS.items():
+        lines = np.where(_inside(limits[name], span), limits[name], NOTHING)[order]
+        line = {"color": "0.35", "linewidth": WIDTH, "linestyle": style}
+        for axes, heights in ((frequency, _hertz(lines)), (damping, _ratio(lines))):
+            drawn = axes.plot(where, heights, **line)
+            if drawn:
+                drawn[0].set_label(name)
+    _finish(frequency, damping, path, where, key)
+    figure.suptitle(literal(title))
+    return figure
+
+
+def _finish(frequency: Axes, damping: Axes, path: Axes, where: Array, key: str) -> None:
+    """Scale, name and frame the panels."""
+    damping.set_yscale("log")
+    path.set_xscale("log")
+    framed(frequency, x=literal(key), y="frequency [Hz]", title="Free decay")
+    framed(damping, x=literal(key), y="damping ratio [%]", title="Damping")
+    framed(
+        path, x="rate of decay [1/s]", y="frequency [Hz]", title="Paths of the poles"
+    )
+    for axes in (frequency, damping):
+        _scale(axes, where)
+        axes.legend(frameon=False)
+    for axes in (frequency, damping, path):
+        axes.margins(x=0.04)
+
+
+def _scale(axes: Axes, where: Array) -> None:
+    """Choose a logarithmic parameter where it spans decades; zero stays beside it."""
+    positive = where[where > 0.0]
+    if positive.size and where.min() >= 0.0 and where.max() > 10.0 * positive.min():
+        axes.set_xscale("symlog", linthresh=positive.min(), linscale=0.5)
+        low, high = np.log10([positive.min(), where.max()])
+        decades = 10.0 ** np.arange(np.ceil(low), np.floor(high) + 1.0)
+        ticks = [0.0, *decades] if where.min() == 0.0 else [*decades]
+        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.set_xticks([], minor=True)
+
+
+def _inside(values: ComplexArray, span: tuple[float, float]) -> NDArray[np.bool_]:
+    with np.errstate(invalid="ignore"):
+        inside: NDArray[np.bool_] = (values.imag >= span[0]) & (values.imag <= span[1])
+    return inside
+
+
+def _hertz(values: ComplexArray) -> Array:
+    return values.imag / (2.0 * np.pi)
+
+
+def _ratio(values: ComplexArray) -> Array:
+    """Return damping ratios [%]."""
+    return _positive(-100.0 * values.real / np.abs(values))
+
+
+def _positive(values: Array) -> Array:
+    """Return what a logarithmic axis can show, the rest as NaN."""
+    return np.where(values > 0.0, values, np.nan)

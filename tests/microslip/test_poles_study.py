@@ -1,0 +1,182 @@
+"""Poles of the linearised scene against a parameter, and the command for them."""
+
+import csv
+import itertools
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hbm.continuation import ContinuationError
+from hbm.equivalent import one_harmonic_response
+from hbm.poles import damping_ratios, frequencies
+from microslip.quantity import SceneError
+from microslip.studies import poles as study
+from microslip.studies.poles import (
+    FRICTION,
+    SHARES,
+    Linearised,
+    Question,
+    branches,
+    limit_lines,
+    limits_of,
+    linearised,
+)
+
+Run = Callable[..., tuple[int, str, str]]
+A = ("model=A",)
+
+
+def asked(values: list[str], key: str = FRICTION) -> tuple[Question, list[Linearised]]:
+    """Return model A at some values of a key."""
+    question = Question("two-blades", A, key)
+    return question, list(linearised(question, values))
+
+
+def test_branches_go_from_the_free_to_the_stuck_structure() -> None:
+    question, found = asked(["0", "0.0003", "0.05", "0.2", "0.4", "9"])
+    span = limits_of(question.at("0.3"))
+
+    table = branches(found, span)
+    free, stuck = (limit_lines(found, name, span) for name in ("free", "stuck"))
+
+    assert table.shape == (6, 2)
+    hertz, ratio = frequencies(table), damping_ratios(table)
+    np.testing.assert_allclose(hertz[0], frequencies(free[0]), rtol=1e-5)
+    # one mode ends as that of the tied blades, the other does not oscillate any more
+    last = int(hertz[-1].argmax())
+    np.testing.assert_allclose(hertz[-1, last], frequencies(stuck[-1, 0]), rtol=1e-5)
+    assert hertz[-1, 1 - last] == 0.0
+    assert ratio[-1, 1 - last] == 1.0
+    # sliding damps more than either limit
+    assert ratio[1:5].max(axis=0).min() > 3.0 * ratio[0].max()
+
+
+def test_the_friction_coefficients_stay_in_proportion() -> None:
+    question = Question("two-blades", ("friction.law=gkf",), FRICTION)
+
+    friction = question.at("0.12").rig.friction
+
+    assert friction.mu_dynamic == 0.12
+    assert friction.mu_static == pytest.approx(0.24)
+
+
+def test_usual_values_go_from_none_to_sticking() -> None:
+    values = [
+        float(text) for text in Question("two-blades", (), FRICTION).usual_values()
+    ]
+
+    assert values[0] == 0.0
+    assert len(values) == len(SHARES)
+    ratios = [after / before for before, after in itertools.pairwise(values[1:])]
+    np.testing.assert_allclose(ratios, ratios[0], rtol=1e-3)
+    assert values[-1] == pytest.approx(0.3 * SHARES[-1], rel=1e-3)
+
+
+@pytest.mark.parametrize("lacking", ["friction.mu_dynamic=0", "friction.law=none"])
+def test_without_friction_there_is_nothing_to_vary(lacking: str) -> None:
+    with pytest.raises(SceneError, match="no friction to vary"):
+        Question("two-blades", (lacking,), FRICTION).usual_values()
+
+
+def test_more_drive_turns_the_stuck_mode_into_sliding_ones() -> None:
+    _, (weak, strong) = asked(["0.01", "1"], "excitation.force")
+
+    assert weak.linear is not None
+    assert strong.linear is not None
+    assert weak.linear.error < 1e-6
+    assert 0.01 < strong.linear.error < 0.3
+
+
+def test_a_value_without_a_response_leaves_a_gap(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    calls = itertools.count()
+
+    def failing(*arguments: object) -> object:
+        if next(calls) == 1:
+            raise ContinuationError("stuck: try less")
+        return one_harmonic_response(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(study, "one_harmonic_response", failing)
+    question, found = asked(["9", "10", "11"])
+
+    table = branches(found, limits_of(question.at("9")))
+
+    assert [each.ending for each in found] == [
+        "complete",
+        "stuck: try less",
+        "complete",
+    ]
+    assert np.isnan(table.imag).any(axis=1).tolist() == [False, True, False]
+
+
+def test_the_command_writes_a_table_and_a_picture(run: Run, tmp_path: Path) -> None:
+    status, output, error = run(
+        *("poles", "two-blades", "friction", "0", "0.2", "5", "--set", "model=A")
+    )
+
+    assert (status, error) == (0, "")
+    assert (tmp_path / "two-blades-poles.png").stat().st_size > 20_000
+    with (tmp_path / "two-blades-poles.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["friction"] for row in rows] == ["0", "0", "0.2", "0.2", "5", "5"]
+    for row in rows:
+        pole = complex(float(row["real_1_s"]), float(row["imag_rad_s"]))
+        assert float(row["damping_ratio"]) == pytest.approx(-pole.real / abs(pole))
+        assert float(row["response_error"]) < 0.01
+    printed = re.findall(r"(\d+\.\d{4}) \((\d+\.\d{3})\)", output)
+    in_table = {f"{float(row['frequency_hz']):.4f}" for row in rows}
+    assert len(printed) == 5
+    assert {hertz for hertz, _ in printed} < in_table
+
+
+def test_the_frequency_of_the_response_may_be_given(run: Run, tmp_path: Path) -> None:
+    status, output, _ = run(
+        *("poles", "two-blades", "friction", "0.3", "--set", "model=A"),
+        *("--frequency", "134", "-o", str(tmp_path / "fixed")),
+    )
+
+    assert status == 0
+    assert "134.0000" in output
+    assert (tmp_path / "fixed.csv").is_file()
+
+
+def test_values_before_an_interruption_are_kept(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped(*arguments: object) -> Iterator[Linearised]:
+        yield from itertools.islice(linearised(*arguments), 1)  # type: ignore[arg-type]
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(study, "linearised", stopped)
+    words = ("poles", "two-blades", "friction", "5", "9", "--set", "model=A")
+
+    status, _, error = run(*words)
+
+    assert status == 130
+    assert error == "microslip: interrupted; what was computed is kept\n"
+    table = (tmp_path / "two-blades-poles.csv").read_text(encoding="utf-8")
+    assert len(table.splitlines()) == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("friction", "much"), "mu_dynamic"),
+        (("friction", "-1"), "mu_dynamic"),
+        (("friction.mu_dynamic",), "give values"),
+        (("friction.my_dynamic", "1"), "mu_dynamic"),
+    ],
+)
+def test_wrong_values_are_refused_in_one_line(
+    words: tuple[str, ...], named: str, run: Run, tmp_path: Path
+) -> None:
+    status, output, error = run("poles", "two-blades", "--", *words)
+
+    assert (status, output) == (2, "")
+    assert named in error
+    assert error.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []

@@ -14,8 +14,8 @@ from convergence import observed_order
 from hbm.active import extended, moving, symmetric
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis, derivative, to_complex, to_real
+from hbm.refinement import GAUSS_PLACES, GAUSS_WEIGHTS
 from hbm.relative import RelativeProblem, relative_problem
-from hbm.sampling import GAUSS_PLACES, GAUSS_WEIGHTS
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import (
     COULOMB,

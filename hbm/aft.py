@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis, Transform, derivative
-from hbm.sampling import Forces, Symmetry, hat, sample
+from hbm.sampling import Forces, hat, sample
+from hbm.symmetry import symmetry
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
     ContactPoints,
@@ -70,7 +71,7 @@ class AlternatingFrequencyTime:
         self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
         self._offset = np.zeros(rows) if offset is None else offset
         self._entries = _entries(points)
-        self._symmetry = _symmetry(basis, self._entries, odd)
+        self._symmetry = symmetry(basis, self._entries, odd)
         samples = fourier.samples
         self._seen = samples // 2 + 1 if self._symmetry.signs.size else samples
         self._displacement = Transform(rank, samples)
@@ -216,43 +217,6 @@ def _mixing(basis: Array, entries: NDArray[np.int64]) -> Array:
     for place, (row, column, kind) in enumerate(entries):
         mixing[kind, :, :, place] = np.outer(basis[row], basis[column])
     return mixing.reshape(2 * rank**2, len(entries))
-
-
-def _symmetry(
-    basis: Array, entries: NDArray[np.int64], odd: NDArray[np.bool_] | None
-) -> Symmetry:
-    """Return which rows and tangents look like others half a period later.
-
-    Odd coordinates change their sign then: a point moves like its mirror image did. No
-    symmetry if some point has no mirror image among the points.
-    """
-    none = Symmetry(*(np.empty(0, kind) for kind in (int, float, int, float)))
-    if odd is None:
-        return none
-    later = (basis * np.where(odd, -1.0, 1.0)).reshape(len(basis) // 3, 3, len(odd))
-    faces = basis.reshape(later.shape)
-    close = 1e-9 * np.abs(basis).max(initial=0.0)
-    partners, signs = np.empty(len(basis), dtype=int), np.empty(len(basis))
-    for point, wanted in enumerate(later):
-        sign = np.where((wanted * faces).sum(axis=2) < 0.0, -1.0, 1.0)
-        away = np.abs(wanted - sign[..., None] * faces).max(axis=(1, 2), initial=0.0)
-        if not (away <= close).any():
-            return none
-        image, rows = int((away <= close).argmax()), slice(3 * point, 3 * point + 3)
-        partners[rows], signs[rows] = 3 * image + np.arange(3), sign[image]
-    places = {tuple(entry): place for place, entry in enumerate(entries.tolist())}
-    turned = [
-        places.get((int(partners[row]), int(partners[column]), kind), -1)
-        for row, column, kind in entries.tolist()
-    ]
-    if -1 in turned:
-        return none
-    return Symmetry(
-        partners,
-        signs,
-        np.array(turned, dtype=int),
-        signs[entries[:, 0]] * signs[entries[:, 1]],
-    )
 
 
 @kernel

@@ -1,7 +1,8 @@
-"""Results to netCDF files and back; docs/files.md describes the schema."""
+"""Results to files, netCDF ones back as well; docs/files.md describes the schema."""
 
 from __future__ import annotations
 
+import csv
 import dataclasses
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -16,6 +17,8 @@ from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from matplotlib.figure import Figure
 
 Result: TypeAlias = ResponseCurve | TimeHistory
@@ -123,6 +126,24 @@ def save_figure(path: Path, figure: Figure) -> None:
         raise StoreError(
             f"{path} cannot be written: give an ending such as .png, .pdf or .svg"
         ) from None
+
+
+def save_table(
+    path: Path, names: Iterable[str], rows: Iterable[Iterable[object]]
+) -> None:
+    """Write a table with a line of names as CSV.
+
+    Raises
+    ------
+    StoreError
+        If the file cannot be written.
+    """
+    try:
+        with path.open("w", encoding="utf-8", newline="") as file:
+            csv.writer(file).writerows([names, *rows])
+    except OSError as error:
+        reason = error.strerror or error
+        raise StoreError(f"{path} cannot be written: {reason}") from None
 
 
 def load(path: Path) -> Stored:

@@ -1,5 +1,6 @@
 """Result files: they come back bit for bit, explain themselves, and fail in words."""
 
+import csv
 import dataclasses
 from collections.abc import Callable
 from pathlib import Path
@@ -9,7 +10,16 @@ import pytest
 from matplotlib.figure import Figure
 from scipy.io import netcdf_file
 
-from microslip.store import SCHEMAS, Result, Stored, StoreError, load, save, save_figure
+from microslip.store import (
+    SCHEMAS,
+    Result,
+    Stored,
+    StoreError,
+    load,
+    save,
+    save_figure,
+    save_table,
+)
 from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
@@ -316,3 +326,24 @@ def test_picture_has_the_format_of_its_ending(
     save_figure(path, Figure(figsize=(1.0, 1.0)))
 
     assert path.read_bytes().startswith(start)
+
+
+def test_table_is_read_back_as_it_was_written(tmp_path: Path) -> None:
+    path, rows = tmp_path / "table.csv", [("a, b", 0.1 + 0.2), ("", -1e-300)]
+
+    save_table(path, ("name", "value"), rows)
+
+    with path.open(encoding="utf-8", newline="") as file:
+        names, *found = csv.reader(file)
+    assert names == ["name", "value"]
+    assert [(name, float(value)) for name, value in found] == rows
+
+
+@pytest.mark.parametrize("name", ["nowhere/table.csv", "folder.csv"])
+def test_table_that_cannot_be_written_is_told_in_words(
+    tmp_path: Path, name: str
+) -> None:
+    (tmp_path / "folder.csv").mkdir()
+
+    with pytest.raises(StoreError, match=f"{name} cannot be written: "):
+        save_table(tmp_path / name, ("name",), [])

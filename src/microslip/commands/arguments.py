@@ -56,11 +56,29 @@ def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
         chosen = chosen.with_suffix("")
     if not chosen.name:
         raise OutputError(f"{chosen} is a folder: give a file name for the results")
-    if not chosen.parent.is_dir():
-        raise OutputError(
-            f"there is no folder {chosen.parent} to write to: make it first"
-        )
+    _demand_folder(chosen)
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
+
+
+def add_table(parser: argparse.ArgumentParser) -> None:
+    """Add where a table goes."""
+    parser.add_argument(
+        "--csv", type=Path, metavar="FILE", help="also write a CSV file"
+    )
+
+
+def table(options: argparse.Namespace) -> Path | None:
+    """Return the path of the table, if there is to be one, in a folder that exists.
+
+    Raises
+    ------
+    OutputError
+        If it does not.
+    """
+    chosen: Path | None = options.csv
+    if chosen is not None:
+        _demand_folder(chosen)
+    return chosen
 
 
 def title(options: argparse.Namespace) -> str:
@@ -85,3 +103,10 @@ def positive(text: str) -> float:
     if not (number > 0.0 and math.isfinite(number)):
         raise argparse.ArgumentTypeError(f"{text} is not positive and finite")
     return number
+
+
+def _demand_folder(path: Path) -> None:
+    if not path.parent.is_dir():
+        raise OutputError(
+            f"there is no folder {path.parent} to write to: make it first"
+        )

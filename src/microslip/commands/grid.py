@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from microslip.studies.grid import Attempt
 
 HEADER = "law        sigma   V_lim    mu preload   drive points   error  time  ending"
@@ -30,9 +31,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument(
         "--quick", action="store_true", help="every tenth combination only"
     )
-    parser.add_argument(
-        "--csv", type=Path, metavar="FILE", help="also write a CSV file"
-    )
+    arguments.add_table(parser)
     parser.set_defaults(run=_run)
 
 
@@ -41,8 +40,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.grid import QUICK, attempts, cases
 
-    if options.csv is not None and not options.csv.parent.is_dir():
-        raise arguments.OutputError(f"there is no folder {options.csv.parent}")
+    table = arguments.table(options)
     load_scene(options.scene, options.overrides)
     chosen = cases()[:: QUICK if options.quick else 1]
     found: list[Attempt] = []
@@ -60,8 +58,8 @@ def _run(options: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         return arguments.ended("interrupted")
     finally:
-        if options.csv is not None:
-            _write(options.csv, found)
+        if table is not None:
+            _write(table, found)
     whole = sum(attempt.ending == "complete" for attempt in found)
     print(f"{whole} of {len(found)} curves are traced from end to end")
     return 0 if whole >= SHARE * len(found) else 1
@@ -77,14 +75,11 @@ def _line(attempt: Attempt) -> str:
 
 
 def _write(path: Path, found: list[Attempt]) -> None:
-    import csv
-    import dataclasses
+    from dataclasses import astuple, fields
 
-    with path.open("w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file)
-        for number, attempt in enumerate(found):
-            row = dataclasses.asdict(attempt)
-            row = {**row.pop("case"), **row}
-            if number == 0:
-                table.writerow(row)
-            table.writerow(row.values())
+    from microslip.store import save_table
+    from microslip.studies.grid import Attempt, Case
+
+    names = [field.name for field in (*fields(Case), *fields(Attempt)[1:])]
+    rows = [(*astuple(each.case), *astuple(each)[1:]) for each in found]
+    save_table(path, names, rows)

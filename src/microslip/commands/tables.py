@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from microslip.studies.tables import Row
 
 HEADER = """\
@@ -36,9 +37,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "sweep; print the paper's energy, ours, their ratio, errors and run time.",
         epilog="example: microslip tables --csv tables.csv",
     )
-    parser.add_argument(
-        "--csv", type=Path, metavar="FILE", help="also write a CSV file"
-    )
+    arguments.add_table(parser)
     parser.add_argument(
         "--quick",
         action="store_true",
@@ -51,8 +50,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.progress import shown
     from microslip.studies.tables import PAPER, SENSITIVITIES, rows
 
-    if options.csv is not None and not options.csv.parent.is_dir():
-        raise arguments.OutputError(f"there is no folder {options.csv.parent}")
+    table = arguments.table(options)
     variants = (*PAPER, *SENSITIVITIES)
     found: list[Row] = []
     try:
@@ -68,8 +66,8 @@ def _run(options: argparse.Namespace) -> int:
         return arguments.ended("interrupted")
     finally:
         _print(found)
-        if options.csv is not None:
-            _write(options.csv, found)
+        if table is not None:
+            _write(table, found)
     return 0
 
 
@@ -114,9 +112,7 @@ def _jamming(row: Row) -> str:
 
 
 def _write(path: Path, found: list[Row]) -> None:
-    import csv
-
-    from microslip.store import StoreError
+    from microslip.store import save_table
 
     names = (
         "variant",
@@ -127,24 +123,15 @@ def _write(path: Path, found: list[Row]) -> None:
         "closing error",
         "march [s]",
     )
-    try:
-        with path.open("w", newline="", encoding="utf-8") as file:
-            table = csv.writer(file)
-            table.writerow(names)
-            for row in found:
-                paper = row.variant.paper
-                table.writerow(
-                    [
-                        row.variant.name,
-                        "" if math.isnan(paper) else paper,
-                        repr(row.energy),
-                        "" if math.isnan(paper) else repr(row.energy / paper),
-                        ""
-                        if math.isnan(row.half_step_change)
-                        else row.half_step_change,
-                        row.closing_error,
-                        row.seconds,
-                    ]
-                )
-    except OSError as error:
-        raise StoreError(f"{path} cannot be written: {error.strerror}") from None
+    save_table(path, names, [_cells(row) for row in found])
+
+
+def _cells(row: Row) -> tuple[object, ...]:
+    paper = row.variant.paper
+    numbers = (paper, row.energy, row.energy / paper, row.half_step_change)
+    return (
+        row.variant.name,
+        *("" if math.isnan(number) else number for number in numbers),
+        row.closing_error,
+        row.seconds,
+    )

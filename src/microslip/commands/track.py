@@ -79,20 +79,22 @@ def _keep(
     options: argparse.Namespace, found: list[Tracked], table: Path, picture: Path
 ) -> None:
     """Write table and picture."""
-    import csv
-
     from microslip.figures.track import track_figure
-    from microslip.store import save_figure
+    from microslip.store import save_figure, save_table
 
-    with table.open("w", encoding="utf-8", newline="") as file:
-        rows = csv.writer(file)
-        rows.writerow([options.key, "event", "frequency_hz", "amplitude_m", "error"])
-        for each in found:
-            for event in each.events:
-                hertz = event.frequency / math.tau
-                rows.writerow(
-                    [each.value, event.name, hertz, event.amplitude, event.error]
-                )
+    names = (options.key, "event", "frequency_hz", "amplitude_m", "error")
+    rows = [
+        (
+            each.value,
+            event.name,
+            event.frequency / math.tau,
+            event.amplitude,
+            event.error,
+        )
+        for each in found
+        for event in each.events
+    ]
+    save_table(table, names, rows)
     peaks, others = [], []
     for place, each in enumerate(found):
         value, highest = _number(each.value, place), each.peak

@@ -1,0 +1,135 @@
+"""Gauss rules between the transitions within a cell (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.symmetry import Symmetry
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.jit import kernel
+
+GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
+GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
+
+
+class Samples(NamedTuple):
+    """Where forces and tangents are written; the last axis is the sample."""
+
+    forces: Array
+    changes: Array
+    """(∂force/∂velocity) velocity"""
+    tangents: Array
+    entries: NDArray[np.int64]
+    """(row, column, by velocity) of each tangent"""
+
+
+class Work(NamedTuple):
+    """Scratch of one contact evaluation."""
+
+    moved: Array
+    moving: Array
+    force: Array
+    by_displacement: Array
+    by_velocity: Array
+
+
+@kernel
+def refine(
+    points: ContactPoints,
+    point: int,
+    displacement: Array,
+    velocity: Array,
+    work: Work,
+    made: Samples,
+    first: int,
+    last: int,
+    place: int,
+    after: int,
+    events: Array,
+    symmetry: Symmetry,
+) -> None:
+    """Replace the trapezoidal rule in one cell by Gauss rules between its events.
+
+    What a node sees is shared out to the two samples as a linear function would be.
+    """
+    wraps = place + 1 == made.forces.shape[1] // 2 and symmetry.signs.size > 0
+    target = 0 if wraps else after
+    for piece in range(-2, 3 * (events.size - 1)):
+        if piece < 0:
+            # what the trapezoidal rule has put there is taken back
+            share = piece + 2.0
+            near, far = -0.5 * (1.0 - share), -0.5 * share
+            blur = 1.0 / 6.0
+        else:
+            left, right = events[piece // 3], events[piece // 3 + 1]
+            share = left + (right - left) * GAUSS_PLACES[piece % 3]
+            weight = (right - left) * GAUSS_WEIGHTS[piece % 3]
+            near, far, blur = weight * (1.0 - share), weight * share, 0.0
+        for axis in range(3):
+            row = 3 * point + axis
+            work.moved[axis] = (1.0 - share) * displacement[row, place] + (
+                share * displacement[row, after]
+            )
+            work.moving[axis] = (1.0 - share) * velocity[row, place] + (
+                share * velocity[row, after]
+            )
+        contact_force(
+            points, point, work.moved, work.moving, work.force,
+            work.by_displacement, work.by_velocity,
+        )  # fmt: skip
+        _deposit(
+            point, work, made, first, last, place, near,
+            near + blur * (1.0 - 2.0 * share), False, symmetry,
+        )  # fmt: skip
+        _deposit(
+            point, work, made, first, last, target, far,
+            far - blur * (1.0 - 2.0 * share), wraps, symmetry,
+        )  # fmt: skip
+
+
+@kernel
+def _deposit(
+    point: int,
+    work: Work,
+    made: Samples,
+    first: int,
+    last: int,
+    place: int,
+    weight: float,
+    forced: float,
+    wraps: bool,
+    symmetry: Symmetry,
+) -> None:
+    """Add tangents in ``work``, weighted, and its force, weighted by ``forced``.
+
+    ``wraps`` says that it is the first of the next half: the first of this half then
+    takes it, as half a period before.
+    """
+    moving, slope = work.moving, work.by_velocity
+    for axis in range(3):
+        row, share = 3 * point + axis, forced
+        if wraps:
+            share = forced * symmetry.signs[row]
+            row = symmetry.partners[row]
+        made.forces[row, place] += share * work.force[axis]
+        made.changes[row, place] += share * (
+            slope[axis, 0] * moving[0]
+            + slope[axis, 1] * moving[1]
+            + slope[axis, 2] * moving[2]
+        )
+    for entry in range(first, last):
+        row = made.entries[entry, 0] - 3 * point
+        column = made.entries[entry, 1] - 3 * point
+        target, share = entry, weight
+        if wraps:
+            share = weight * symmetry.entry_signs[entry]
+            target = symmetry.entry_partners[entry]
+        if made.entries[entry, 2] == 0:
+            made.tangents[target, place] += share * work.by_displacement[row, column]
+        else:
+            made.tangents[target, place] += share * slope[row, column]

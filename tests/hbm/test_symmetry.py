@@ -1,0 +1,87 @@
+"""Half a period with its symmetry against the whole one."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from hbm.active import extended, moving, symmetric
+from hbm.aft import AlternatingFrequencyTime
+from hbm.fourier import FourierBasis
+from hbm.relative import RelativeProblem, relative_problem
+from microslip_mechanics.static import static_equilibrium
+from rigs import rig_problem
+from sliding import (
+    FREQUENCY,
+    HARMONICS,
+    SAMPLES,
+    SPEED,
+    TURN,
+    motion,
+    sliding_point,
+)
+
+pytestmark = pytest.mark.kernels
+
+
+def rig(
+    **overrides: object,
+) -> tuple[RelativeProblem, RelativeProblem, NDArray[np.bool_]]:
+    """Return a rig by half periods and by whole ones, and what of it moves."""
+    problem = rig_problem(**overrides)
+    whole = relative_problem(problem, static_equilibrium(problem))
+    active = moving(whole, FREQUENCY)
+    kept, odd = symmetric(active)
+    assert odd is not None
+    half = whole.restricted(kept, odd)
+    return half, dataclasses.replace(half, odd=None), active[:, kept]
+
+
+@pytest.mark.parametrize("samples", [64, 66, 256])
+@pytest.mark.parametrize("law", ["coulomb", "gkf"])
+@pytest.mark.parametrize("model", ["A", "B", "full"])
+def test_half_a_period_says_all_of_the_rig(model: str, law: str, samples: int) -> None:
+    half, whole, active = rig(model=model, friction__law=law)
+    fourier, draw = FourierBasis(HARMONICS, samples), np.random.default_rng(7)
+    one, other = half.contact(fourier), whole.contact(fourier)
+    moves = extended(active, HARMONICS)
+
+    for size in np.geomspace(1e-7, 1e-3, 40):
+        moved = size * draw.standard_normal(moves.shape) * moves
+        moved[0] = half.rest * draw.uniform(0.5, 1.5)
+        force, by_frequency = one(moved, FREQUENCY)
+        expected, expected_by_frequency = other(moved, FREQUENCY)
+
+        unit = np.abs(expected).max()
+        np.testing.assert_allclose(force, expected, rtol=0.0, atol=1e-11 * unit)
+        unit = np.abs(expected_by_frequency).max()
+        np.testing.assert_allclose(
+            by_frequency, expected_by_frequency, rtol=0.0, atol=1e-11 * unit
+        )
+        for found, exact in zip(
+            one.spectra(HARMONICS), other.spectra(HARMONICS), strict=True
+        ):
+            unit = np.abs(exact).max()
+            np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-10 * unit)
+        seen, cycle = (each.cycle(moved, FREQUENCY) for each in (one, other))
+        assert seen.friction == pytest.approx(cycle.friction, rel=1e-9)
+
+
+@pytest.mark.parametrize("share", [-0.9, -0.5, -0.1, 0.1, 0.5])
+def test_a_turn_in_the_last_cell_of_half_a_period_is_shared_with_its_first(
+    share: float,
+) -> None:
+    points, basis = sliding_point(1e-3 * SPEED), np.eye(3)[:, 1:2]
+    phase = share * TURN / SAMPLES
+    moved, fourier = motion(phase)[:, 1:2], FourierBasis(HARMONICS, SAMPLES)
+
+    force, tangents = [], []
+    for odd in (np.array([True]), None):
+        contact = AlternatingFrequencyTime(points, basis, fourier, odd=odd)
+        force.append(contact(moved, FREQUENCY)[0])
+        tangents.append(contact.spectra(2 * HARMONICS)[1])
+
+    np.testing.assert_allclose(force[0], force[1], rtol=0.0, atol=1e-14)
+    unit = np.abs(tangents[1]).max()
+    np.testing.assert_allclose(tangents[0], tangents[1], rtol=0.0, atol=1e-13 * unit)

@@ -1,0 +1,181 @@
+"""Transitions between samples: against quadrature, and when they pass a sample."""
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from contact_tables import contact_points
+from convergence import observed_order
+from hbm.fourier import derivative, to_complex
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.law import (
+    COULOMB,
+    FRICTIONLESS,
+    GENERAL_KINETIC,
+    ContactPoints,
+    contact_force,
+)
+from sliding import (
+    FREQUENCY,
+    HARMONICS,
+    LOAD,
+    SPEED,
+    TURN,
+    coefficients,
+    motion,
+    sliding_point,
+    turned,
+)
+
+pytestmark = pytest.mark.kernels
+
+
+def by_quadrature(
+    points: ContactPoints, moved: Array, kinks: list[float]
+) -> ComplexArray:
+    """Return the force's amplitudes by adaptive quadrature between its kinks."""
+    orders = np.arange(HARMONICS + 1)
+    displacing, moving = to_complex(moved), to_complex(derivative(moved))
+    force, unused = np.zeros(3), np.zeros((2, 3, 3))
+
+    def at(phase: float) -> Array:
+        turning = np.exp(1j * orders * phase)
+        displacement = (turning @ displacing).real
+        velocity = FREQUENCY * (turning @ moving).real
+        contact_force(points, 0, displacement, velocity, force, unused[0], unused[1])
+        return force
+
+    places = sorted({0.0, TURN, *(kink % TURN for kink in kinks)})
+    amplitudes = np.zeros((HARMONICS + 1, 3), complex)
+    for axis in range(3):
+        for order in orders:
+            for start, end in itertools.pairwise(places):
+                for part, wave in ((1.0, np.cos), (-1j, np.sin)):
+                    value, _ = quad(
+                        lambda x, a=axis, k=order, w=wave: at(x)[a] * w(k * x),
+                        start,
+                        end,
+                        epsabs=1e-10,
+                        epsrel=1e-10,
+                        limit=200,
+                    )
+                    share = 1.0 if order == 0 else 2.0
+                    amplitudes[order, axis] += share * part * value / TURN
+    return amplitudes
+
+
+def turns(threshold: float, phase: float, wide: float = 0.0) -> list[float]:
+    """Return where V sin(θ − phase) passes ± the threshold, and a speed beyond."""
+    angles = [np.arcsin(threshold / SPEED), np.arcsin(min(wide / SPEED, 1.0))]
+    return [
+        phase + half + sign * angle
+        for angle in angles
+        for half in (0.0, np.pi)
+        for sign in (-1.0, 1.0)
+    ]
+
+
+@pytest.mark.parametrize(("threshold", "stribeck"), [(1e-3, 0.05), (1e-6, 0.01)])
+def test_falling_friction_is_that_of_quadrature(
+    threshold: float, stribeck: float
+) -> None:
+    points = sliding_point(
+        threshold, friction=GENERAL_KINETIC, static=0.6, stribeck=stribeck
+    )
+    moved, errors = motion(0.037), []
+    exact = by_quadrature(points, moved, turns(threshold, 0.037, 3.0 * stribeck))
+
+    samples = [128, 256, 512]
+    errors = [np.abs(coefficients(points, moved, n) - exact).max() for n in samples]
+
+    # Twice the samples, a quarter of the error at least where they resolve the fall.
+    assert errors[0] < 1e-2 * 0.6 * LOAD
+    assert errors[2] < errors[0] / 10.0
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
+@pytest.mark.parametrize("law", [FRICTIONLESS, COULOMB])
+def test_faces_that_separate_are_those_of_quadrature(law: int, exponent: float) -> None:
+    mean, across, threshold = 0.003, 0.02, 1e-4
+    points = contact_points(
+        friction=law, exponent=exponent, stiffness=1e3, threshold=threshold
+    )
+    moved = motion(0.041, mean=mean, across=across)
+    opens = [1.041 + sign * np.arccos(-mean / across) for sign in (-1.0, 1.0)]
+    exact = by_quadrature(points, moved, [*opens, *turns(threshold, 0.041)])
+
+    samples = [64, 128, 256, 512]
+    errors = [np.abs(coefficients(points, moved, n) - exact).max() for n in samples]
+
+    # The root of Hunt and Crossley's damping falls with order 3/2, all else with 2.
+    assert errors[0] < 1e-2 * np.abs(exact).max()
+    order = observed_order([1.0 / each for each in samples], errors)
+    assert order > 1.4
+
+
+def steps_of(
+    points: ContactPoints, samples: int, *, mean: float = 0.0, across: float = 0.0
+) -> Array:
+    """Return how the amplitudes change while the motion's phase passes a sample.
+
+    Relative to the force, over 2000 steps, seen from the motion: (steps,).
+    """
+    phases = np.linspace(0.0, TURN / samples, 2001)
+    seen = np.array(
+        [
+            turned(
+                coefficients(points, motion(phase, mean=mean, across=across), samples),
+                -phase,
+            )
+            for phase in phases
+        ]
+    )
+    away: Array = np.abs(np.diff(seen, axis=0)).max(axis=(1, 2)) / np.abs(seen).max()
+    return away
+
+
+@pytest.mark.parametrize("samples", [64, 128])
+def test_sharp_turns_that_pass_a_sample_change_the_force_smoothly(samples: int) -> None:
+    steps = steps_of(sliding_point(1e-7 * SPEED), samples)
+
+    # Without location half a cell of friction would jump: 4 / samples.
+    assert steps.max() < 1e-3 / samples
+    assert steps.max() < 5.0 * np.median(steps)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.2])
+def test_slow_turns_that_pass_a_sample_do_not_make_the_force_jump(
+    ratio: float,
+) -> None:
+    points = sliding_point(ratio * SPEED)
+
+    jumps = [steps_of(points, samples).max() for samples in (64, 128)]
+
+    # A cell with an event adds what a cell without has, to third order: shares that are
+    # not made up for linear sharing would jump by 8e-3.
+    assert jumps[0] < 1e-6
+    assert jumps[1] < jumps[0] / 8.0
+
+
+@pytest.mark.parametrize(("exponent", "order"), [(1.5, 2.5), (2.0, 3.0)])
+def test_kinks_that_pass_a_sample_make_small_jumps(
+    exponent: float, order: float
+) -> None:
+    points = contact_points(friction=FRICTIONLESS, exponent=exponent, damping=0.0)
+
+    jumps = [
+        steps_of(points, samples, mean=0.003, across=0.02).max()
+        for samples in (64, 128, 256)
+    ]
+
+    # What differs is a force of δ^p over a cell, order p + 1; a linear one is the same.
+    assert jumps[0] < 3e-4
+    assert observed_order([1.0, 0.5, 0.25], jumps) == pytest.approx(order, abs=0.3)
+
+
+def test_a_linear_touch_that_passes_a_sample_does_not_make_the_force_jump() -> None:
+    points = contact_points(friction=FRICTIONLESS, exponent=1.0, damping=0.0)
+
+    assert steps_of(points, 64, mean=0.003, across=0.02).max() < 1e-7

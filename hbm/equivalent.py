@@ -10,7 +10,8 @@ import scipy.linalg
 from hbm.aft import AlternatingFrequencyTime
 from hbm.continuation import ContinuationError
 from hbm.fourier import FourierBasis, to_complex
-from hbm.solve import CurveOptions, frequency_response, periodic_response
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response, periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import FRICTIONLESS
 from microslip_mechanics.problem import Problem

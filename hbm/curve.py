@@ -22,8 +22,8 @@ from microslip_mechanics.response import PeriodicResponse
 
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
-SAME = 0.02
-"""share of a step within which a multiplier at +1 belongs to a fold"""
+UPRIGHT = 0.1
+"""part of the parameter in a unit tangent below which a multiplier +1 is a fold's"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,7 @@ class Curve:
             for name, test, ends in tests
             if (located := segment.locate(test, ends)) is not None
         ]
-        for _, name, located in sorted(_told(found, segment.length), key=itemgetter(0)):
+        for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
             settled = self.system.settle(located, normal, tolerance)
@@ -143,17 +143,15 @@ Found = tuple[float, str, Correction]
 """place along a segment, name, point"""
 
 
-def _told(found: Sequence[Found], length: float) -> list[Found]:
+def _told(found: Sequence[Found], scale: Array) -> list[Found]:
     """Return the events without the branch points that are folds.
 
-    At a fold a multiplier is +1 as well.
+    At a fold, where the curve is upright, a multiplier is +1 as well.
     """
-    places = [place for place, name, _ in found if name == "fold"]
     return [
         (place, name, located)
         for place, name, located in found
-        if name != "branch point"
-        or all(abs(place - each) > SAME * length for each in places)
+        if name != "branch point" or abs(located.along[-1] / scale[-1]) > UPRIGHT
     ]
 
 

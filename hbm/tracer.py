@@ -55,10 +55,7 @@ class Tracer:
         mark
             What the first response of each side is marked as.
         """
-        guess = np.zeros(self.system.size)
-        relative = (known.coefficients @ selection.T).ravel()
-        guess[: relative.size] = relative
-        guess[-1] = known.frequency
+        guess = self.guess(known, selection)
         direction = np.zeros_like(guess)
         for side in (1.0, -1.0):
             self.system.restart(known.harmonics)
@@ -69,3 +66,11 @@ class Tracer:
                 yield last
             if last.frequency == known.frequency:
                 return  # the curve is closed
+
+    def guess(self, known: PeriodicResponse, selection: Array) -> Array:
+        """Return the point of a response, as a guess along frequency."""
+        guess = np.zeros(self.system.size)
+        relative = (known.coefficients @ selection.T).ravel()
+        guess[: relative.size] = relative
+        guess[-1] = known.frequency
+        return guess

@@ -108,6 +108,8 @@ def small_curve() -> ResponseCurve:
         multiplier=draw.uniform(0.9, 1.1, points),
         unstable=np.array([-1.0, 0.0, 1.0, 2.0]),
         event=("", "peak", "fold", ""),
+        parameter=2.0 * np.pi * np.array([130.0, 131.0, 133.0, 134.0]),
+        along="",
         ending="complete",
     )
 

@@ -10,6 +10,7 @@ import warnings
 
 from microslip.commands import (
     explain,
+    follow,
     frc,
     grid,
     plot,
@@ -80,6 +81,7 @@ def _parser() -> argparse.ArgumentParser:
         sweep,
         verify,
         track,
+        follow,
         poles,
         grid,
         tables,

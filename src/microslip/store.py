@@ -47,6 +47,7 @@ CURVE: Schema = {
     "multiplier": (("point",), "1", "largest modulus of a Floquet multiplier"),
     "unstable": (("point",), "1", "Floquet multipliers outside the unit circle"),
     "event": (("point", "name"), "", "what the point is located as"),
+    "parameter": (("point",), "SI", "what the curve is followed along"),
     "probes": (("probe", "name"), "", "what is watched"),
     "contacts": (("contact", "name"), "", "contact points"),
 }

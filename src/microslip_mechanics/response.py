@@ -109,14 +109,21 @@ class ResponseCurve:
     """number of multipliers outside the unit circle; −1 if not known, (points,)"""
     event: tuple[str, ...]
     """what each point is located as: peak, fold, …; empty for points of the trace"""
+    parameter: Array
+    """what the curve is followed along, in SI units; ω itself along frequency"""
+    along: str
+    """name of that parameter; empty along frequency"""
     ending: str
     """how the curve ended: "complete", "interrupted", or the cause"""
 
 
 def response_curve(
-    problem: Problem, points: Sequence[PeriodicResponse], ending: str
+    problem: Problem,
+    points: Sequence[PeriodicResponse],
+    ending: str,
+    along: str = "",
 ) -> ResponseCurve:
-    """Gather periodic responses to a curve."""
+    """Gather periodic responses to a curve along frequency, or along a parameter."""
     probes = (len(problem.probes.names),)
     contacts = (problem.interface.count,)
     seen = [_seen(point, problem.probes.rows) for point in points]
@@ -149,6 +156,8 @@ def response_curve(
         np.array([np.abs(p.multipliers).max(initial=0.0) for p in points]),
         column("unstable"),
         tuple(point.event for point in points),
+        column("parameter"),
+        along,
         ending,
     )
 

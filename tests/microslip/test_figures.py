@@ -81,7 +81,7 @@ def test_unstable_stretches_and_events_are_marked_on_the_largest_amplitude(
         str(mark.get_label()): (mark.get_xdata()[0], mark.get_ydata()[0])  # type: ignore[index]
         for mark in marks
     }
-    hertz = curves.hertz(small_curve)
+    hertz = curves.abscissa(small_curve)
     assert seen == {
         "peak": (hertz[1], largest[1]),
         "fold": (hertz[2], largest[2]),
@@ -108,7 +108,7 @@ def test_sliding_velocity_shows_relative_motions(
 ) -> None:
     curves.sliding_velocity(axes, small_curve)
 
-    hertz = curves.hertz(small_curve)
+    hertz = curves.abscissa(small_curve)
     check_lines(axes.lines, hertz, [small_curve.velocity_peak[:, 3]])
     assert legend(axes) == ["element to excited"]
     assert axes.get_ylabel() == "velocity [m/s]"
@@ -121,7 +121,7 @@ def test_dissipated_energy_shows_friction_and_contact_damping_in_millijoules(
     curves.dissipated_energy(axes, small_curve)
 
     energies = [1e3 * small_curve.friction_energy, 1e3 * small_curve.damping_energy]
-    check_lines(axes.lines, curves.hertz(small_curve), energies)
+    check_lines(axes.lines, curves.abscissa(small_curve), energies)
     assert legend(axes) == ["friction", "normal contact damping"]
     assert axes.get_ylabel() == "energy [mJ]"
 
@@ -131,7 +131,7 @@ def test_normal_forces_show_the_range_of_every_point(
 ) -> None:
     curves.normal_forces(axes, small_curve)
 
-    hertz = curves.hertz(small_curve)
+    hertz = curves.abscissa(small_curve)
     check_lines(axes.lines, hertz, [*small_curve.normal_largest.T])
     assert legend(axes) == ["B1", "B2", "A1"]
     assert axes.get_ylabel() == "force [N]"
@@ -265,7 +265,7 @@ def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     check_lines(response.lines[3:], frequency, [*1e3 * marched.T[:3]])
     check_lines(deviations.lines, frequency, [100.0 * deviation])
     check_lines(envelopes.lines[:2], swept, [0.1 * swept, 0.2 * swept])
-    hertz = curves.hertz(small_curve)
+    hertz = curves.abscissa(small_curve)
     check_lines(envelopes.lines[2:], hertz, [1e3 * small_curve.peak[:, 0]])
     assert legend(envelopes) == ["1 x as long", "4 x as long", "curve"]
     check_lines(energies.lines, slower, [[40.0, 10.0, 5.0]])

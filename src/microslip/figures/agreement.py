@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.curve import FREQUENCY, frequency_response, hertz
+from microslip.figures.curve import FREQUENCY, abscissa, frequency_response
 from microslip.figures.style import COLOURS, WIDTH, absolute, framed, literal, readable
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import ResponseCurve
@@ -71,7 +71,9 @@ def _envelopes(
 ) -> None:
     for colour, (name, frequency, envelope) in zip(COLOURS[1:], sweeps, strict=False):
         axes.plot(frequency, 1e3 * envelope, color=colour, lw=WIDTH, label=name)
-    axes.plot(hertz(curve), 1e3 * curve.peak[:, 0], "k", lw=WIDTH * 1.5, label="curve")
+    axes.plot(
+        abscissa(curve), 1e3 * curve.peak[:, 0], "k", lw=WIDTH * 1.5, label="curve"
+    )
     title = f"Envelope of the sweeps, {readable(curve.probes[0])}"
     framed(axes, x=FREQUENCY, y="peak [mm]", title=title)
     axes.legend(frameon=False)

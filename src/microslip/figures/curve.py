@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -25,14 +27,19 @@ MARKERS = {
     "branch point": "o",
     "Neimark-Sacker": "*",
     "period doubling": "D",
+    "branch": "P",
+    "detached": "p",
     "restart": "x",
 }
 """for each event of a curve"""
 FREQUENCY = "excitation frequency [Hz]"
+BEGINNINGS = ("branch", "detached", "restart")
+"""events at which a line does not go on from the point before"""
 
 
 def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     """Draw amplitude, sliding velocity, dissipated energy and normal forces."""
+    curve = parted(curve)
     figure = Figure(figsize=(10.0, 7.0), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True)
     frequency_response(panels[0, 0], curve)
@@ -48,14 +55,19 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
     lines = zip(COLOURS, STYLES, absolute(curve.probes), strict=False)
     for colour, style, place in lines:
         axes.plot(
-            hertz(curve),
+            abscissa(curve),
             1e3 * curve.amplitude[:, place],
             style,
             color=colour,
             linewidth=WIDTH * 2.0,
             label=readable(curve.probes[place]),
         )
-    framed(axes, x=FREQUENCY, y="amplitude [mm]", title="First harmonic, along z")
+    framed(
+        axes,
+        x=abscissa_name(curve),
+        y="amplitude [mm]",
+        title="First harmonic, along z",
+    )
     axes.set_ylim(bottom=0.0)
     _events(axes, curve)
     axes.legend(frameon=False)
@@ -68,7 +80,7 @@ def _events(axes: Axes, curve: ResponseCurve) -> None:
     unstable = np.where(curve.unstable > 0, largest, np.nan)
     if (curve.unstable > 0).any():
         axes.plot(
-            hertz(curve),
+            abscissa(curve),
             unstable,
             color="0.15",
             linewidth=WIDTH * 0.8,
@@ -79,7 +91,7 @@ def _events(axes: Axes, curve: ResponseCurve) -> None:
         places = events == kind
         if places.any():
             axes.plot(
-                hertz(curve)[places],
+                abscissa(curve)[places],
                 largest[places],
                 marker,
                 color="0.15",
@@ -93,15 +105,20 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the largest relative velocity in time, logarithmically."""
     for colour, place in zip(COLOURS, relative(curve.probes), strict=False):
         axes.plot(
-            hertz(curve),
+            abscissa(curve),
             curve.velocity_peak[:, place],
             color=colour,
             linewidth=WIDTH * 1.5,
             label=readable(curve.probes[place]),
         )
-    if (curve.velocity_peak[:, relative(curve.probes)] > 0.0).all():
+    if not (curve.velocity_peak[:, relative(curve.probes)] <= 0.0).any():
         axes.set_yscale("log")
-    framed(axes, x=FREQUENCY, y="velocity [m/s]", title="Largest relative velocity")
+    framed(
+        axes,
+        x=abscissa_name(curve),
+        y="velocity [m/s]",
+        title="Largest relative velocity",
+    )
     axes.legend(frameon=False)
 
 
@@ -112,9 +129,13 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
         (COLOURS[1], "normal contact damping", curve.damping_energy),
     ):
         axes.plot(
-            hertz(curve), 1e3 * energy, color=colour, linewidth=WIDTH * 1.5, label=name
+            abscissa(curve),
+            1e3 * energy,
+            color=colour,
+            linewidth=WIDTH * 1.5,
+            label=name,
         )
-    framed(axes, x=FREQUENCY, y="energy [mJ]", title="Dissipated per period")
+    framed(axes, x=abscissa_name(curve), y="energy [mJ]", title="Dissipated per period")
     axes.legend(frameon=False, loc="upper left")
 
 
@@ -123,9 +144,11 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     for colour, places in zip(COLOURS, faces(curve.contacts).values(), strict=False):
         for style, place in zip(STYLES, places, strict=False):
             low, high = curve.normal_smallest[:, place], curve.normal_largest[:, place]
-            axes.fill_between(hertz(curve), low, high, color=colour, alpha=0.12, lw=0.0)
+            axes.fill_between(
+                abscissa(curve), low, high, color=colour, alpha=0.12, lw=0.0
+            )
             axes.plot(
-                hertz(curve),
+                abscissa(curve),
                 high,
                 style,
                 color=colour,
@@ -133,15 +156,34 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
                 label=curve.contacts[place],
             )
     title = "Normal forces: range over a period, line at the largest"
-    framed(axes, x=FREQUENCY, y="force [N]", title=title)
-    low, high = (
-        curve.normal_smallest.min(initial=0.0),
-        curve.normal_largest.max(initial=0),
-    )
-    axes.set_ylim(low, 1.05 * high if high > 0.0 else None)
+    framed(axes, x=abscissa_name(curve), y="force [N]", title=title)
+    lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
+    highest = float(np.nanmax(curve.normal_largest, initial=0.0))
+    axes.set_ylim(lowest, 1.05 * highest if highest > 0.0 else None)
     axes.legend(frameon=False, ncols=2)
 
 
-def hertz(curve: ResponseCurve) -> np.ndarray:
-    """Return the excitation frequency [Hz]."""
-    return curve.frequency / (2.0 * np.pi)
+def abscissa(curve: ResponseCurve) -> np.ndarray:
+    """Return the excitation frequency [Hz], or the parameter that is followed."""
+    return curve.parameter if curve.along else curve.frequency / (2.0 * np.pi)
+
+
+def abscissa_name(curve: ResponseCurve) -> str:
+    """Return what stands below the axis."""
+    return literal(curve.along) if curve.along else FREQUENCY
+
+
+def parted(curve: ResponseCurve) -> ResponseCurve:
+    """Return a curve with an empty point before each at which a line begins anew."""
+    places = [i for i, name in enumerate(curve.event) if i and name in BEGINNINGS]
+    if not places:
+        return curve
+    changed: dict[str, object] = {}
+    for field in dataclasses.fields(curve):
+        value = getattr(curve, field.name)
+        if isinstance(value, np.ndarray):
+            changed[field.name] = np.insert(value, places, np.nan, axis=0)
+    for name in ("event", "outcome"):
+        texts = np.insert(np.array(getattr(curve, name), dtype=object), places, "")
+        changed[name] = tuple(texts)
+    return dataclasses.replace(curve, **changed)  # type: ignore[arg-type]

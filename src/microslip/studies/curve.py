@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,21 +36,31 @@ def trace_curve(problem: Problem, curve: Curve, watch: Watch = iter) -> Traced:
         harmonics=curve.harmonics,
         samples=curve.samples,
     )
-    responses: list[PeriodicResponse] = []
-    ending = "complete"
-    try:
-        for response in watch(frequency_response(problem, rest, options)):
-            responses.append(response)  # noqa: PERF402  (what is there must be kept)
-    except ContinuationError as error:
-        ending = str(error)
-        if not responses:
-            raise
-    except KeyboardInterrupt:
-        ending = "interrupted"
-        if not responses:
-            raise
+    traced = frequency_response(problem, rest, options)
+    responses, ending = gathered(watch(traced))
     made = response_curve(problem, responses, ending)
     return Traced(made, tuple(responses), rest)
+
+
+def gathered(
+    responses: Iterable[PeriodicResponse],
+) -> tuple[list[PeriodicResponse], str]:
+    """Return the responses until their source ends, stops or is interrupted, and why.
+
+    Raises
+    ------
+    ContinuationError, KeyboardInterrupt
+        If there is no response yet.
+    """
+    found: list[PeriodicResponse] = []
+    try:
+        for response in responses:
+            found.append(response)  # noqa: PERF402  (what is there must be kept)
+    except (ContinuationError, KeyboardInterrupt) as cause:
+        if not found:
+            raise
+        return found, str(cause) or "interrupted"
+    return found, "complete"
 
 
 def shown_points(curve: ResponseCurve, largest: int, count: int = 11) -> list[int]:

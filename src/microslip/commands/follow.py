@@ -1,0 +1,91 @@
+"""microslip follow: the response at one frequency against a parameter."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+
+if TYPE_CHECKING:
+    from microslip_mechanics.response import ResponseCurve
+
+HEADER = """\
+     parameter  first harmonic [mm]             friction    largest
+          [SI]    excited   follower    element  [mJ/period]  multiplier"""
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "follow",
+        help="response at one frequency against a parameter, through folds",
+        description="Follow the periodic response at one excitation frequency while a "
+        "number of the scene changes - drive, friction coefficient, preload, contact "
+        "stiffness, threshold velocity - by arc length, through folds; locate folds "
+        "and changes of stability; write SCENE-follow.nc and SCENE-follow.png.",
+        epilog="example: microslip follow two-blades excitation.force 0.1 4 "
+        "--frequency 136.8 --set model=A --set friction.law=gkf",
+    )
+    arguments.add_scene(parser)
+    parser.add_argument("key", metavar="TABLE.KEY", help="such as excitation.force")
+    parser.add_argument("first", metavar="FROM", help="first value of that key")
+    parser.add_argument("last", metavar="TO", help="last value")
+    parser.add_argument(
+        "--frequency",
+        type=arguments.positive,
+        required=True,
+        metavar="HZ",
+        help="excitation frequency [Hz]",
+    )
+    arguments.add_output(parser, "follow")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.figures.curve import curve_figure
+    from microslip.progress import shown
+    from microslip.store import Stored, save, save_figure
+    from microslip.studies.follow import follow
+    from microslip.studies.parameter import parameter
+
+    data, picture = arguments.outputs(options, "follow")
+    followed = parameter(
+        options.scene, options.overrides, options.key, options.first, options.last
+    )
+    curve = follow(
+        followed,
+        math.tau * options.frequency,
+        lambda responses: shown(
+            responses,
+            total=abs(followed.last - followed.first),
+            done=lambda response: abs(response.parameter - followed.first),
+            unit="SI",
+            name=options.key,
+        ),
+    )
+    save(data, Stored(curve, followed.scene.text, options.command))
+    title = f"{arguments.title(options)}, {options.frequency:g} Hz"
+    save_figure(picture, curve_figure(curve, title))
+    print(HEADER)
+    print(_table(curve))
+    print(f"{curve.frequency.size} points in {data}, picture in {picture}")
+    return arguments.ended(curve.ending)
+
+
+def _table(curve: ResponseCurve) -> str:
+    """Return about a dozen points, and all events."""
+    evenly = range(0, curve.parameter.size, max(1, curve.parameter.size // 12))
+    places = {*evenly, curve.parameter.size - 1}
+    places |= {place for place, name in enumerate(curve.event) if name}
+    lines = []
+    for place in sorted(places):
+        values = (
+            f"{curve.parameter[place]:14.6g}",
+            *(f"{1e3 * amplitude:10.5f}" for amplitude in curve.amplitude[place, :3]),
+            f"{1e3 * curve.friction_energy[place]:12.6f}",
+            f"{curve.multiplier[place]:11.5f}",
+        )
+        lines.append(" ".join(values) + f"  {curve.event[place]}")
+    return "\n".join(lines)

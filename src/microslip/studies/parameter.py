@@ -1,0 +1,82 @@
+"""A number of a scene that may change continuously."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from microslip.quantity import SceneError
+from microslip.rigs import problem_of
+from microslip.scene_file import Scene, load_scene
+from microslip_mechanics.problem import Problem
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One key of a scene, with the values between which it changes."""
+
+    scene: Scene
+    """at the first value"""
+    table: str
+    key: str
+    first: float
+    """in SI units"""
+    last: float
+
+    @property
+    def name(self) -> str:
+        """Table and key."""
+        return f"{self.table}.{self.key}"
+
+    @property
+    def label(self) -> str:
+        """Name and unit."""
+        table = type(getattr(self.scene.rig, self.table))
+        fields = {field.name: field for field in dataclasses.fields(table)}
+        unit = fields[self.key].metadata["quantity"].unit
+        return f"{self.name} [{unit}]" if unit else self.name
+
+    def problem_at(self, value: float) -> Problem:
+        """Return the problem at a value [SI units]."""
+        rig = self.scene.rig
+        table = dataclasses.replace(getattr(rig, self.table), **{self.key: value})
+        changed = dataclasses.replace(rig, **{self.table: table})
+        return problem_of(dataclasses.replace(self.scene, rig=changed))
+
+
+def parameter(
+    scene: str, overrides: Sequence[str], name: str, first: str, last: str
+) -> Parameter:
+    """Return the parameter of a name such as ``excitation.force``.
+
+    Parameters
+    ----------
+    scene, overrides
+        As for :func:`~microslip.scene_file.load_scene`.
+    name
+        Table and key.
+    first, last
+        Its values, as a scene file has them.
+
+    Raises
+    ------
+    SceneError
+        If the scene does not take them, or if the key is no continuous number.
+    """
+    begun, ended = (
+        load_scene(scene, [*overrides, f"{name}={value}"]) for value in (first, last)
+    )
+    table, _, key = name.partition(".")
+    values = [
+        getattr(getattr(each.rig, table, None), key, None) for each in (begun, ended)
+    ]
+    numbers = [value for value in values if type(value) is float]
+    if len(numbers) < len(values):
+        raise SceneError(
+            f"{name} cannot be followed: give a number of the structure, its contacts "
+            "or its loads, such as excitation.force or friction.mu_dynamic"
+        )
+    if numbers[0] == numbers[1]:
+        raise SceneError(f"{name} from {first} to {last}: give two different values")
+    return Parameter(begun, table, key, *numbers)

@@ -23,6 +23,8 @@ from microslip_mechanics.response import PeriodicResponse
 
 OFFSETS = (0.01, 0.03, 0.1)
 """distances from a branch point that are tried, over the size of the motion"""
+NEAR = 0.05
+"""distance of a multiplier from +1 up to which a located branch point is believed"""
 FINEST = 63
 """harmonics with which a branch is sought, at the most"""
 
@@ -51,7 +53,7 @@ class Branching:
         """
         passed: list[float] = []
         for response in known:
-            if response.event != "branch point" or any(
+            if not _branches(response) or any(
                 _returns(response.frequency, each) for each in passed
             ):
                 continue
@@ -97,6 +99,12 @@ class Branching:
         places = np.flatnonzero(self.path.mask(fourier.harmonics))
         direction[places] = rows[-1]
         return direction
+
+
+def _branches(response: PeriodicResponse) -> bool:
+    """Return whether a multiplier is +1 there, as it must be to the error of both."""
+    nearest = np.abs(response.multipliers - 1.0).min(initial=np.inf)
+    return response.event == "branch point" and bool(nearest < NEAR)
 
 
 def _returns(frequency: float, passed: float) -> bool:

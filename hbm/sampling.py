@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hbm.refinement import Samples, Work, refine
 from hbm.symmetry import Symmetry, mirror
-from hbm.transitions import EVENTS, locate, passes
+from hbm.transitions import EVENTS, faded, locate, passes
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import FRICTIONLESS, ContactPoints, contact_force
 from microslip_mechanics.jit import kernel
@@ -85,10 +85,13 @@ def sample(
     events = np.zeros(EVENTS + 2)
     for point in range(points.load.size):
         row, threshold = 3 * point, points.threshold[point]
+        wide = faded(points, point)
         rubs = points.friction[point] != FRICTIONLESS
         for place in range(seen):
             after = place + 1 if place + 1 < displacement.shape[1] else 0
-            if not passes(displacement, velocity, row, place, after, rubs, threshold):
+            if not passes(
+                displacement, velocity, row, place, after, rubs, threshold, wide
+            ):
                 continue
             found = locate(points, point, displacement, velocity, place, after, events)
             if found > 0:

@@ -10,11 +10,26 @@ from __future__ import annotations
 import math
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import FRICTIONLESS, ContactPoints
+from microslip_mechanics.contact.law import (
+    FRICTIONLESS,
+    GENERAL_KINETIC,
+    ContactPoints,
+)
 from microslip_mechanics.jit import kernel
 
-EVENTS = 8
-"""most within a cell: two crossings of each of three speeds, one turn, one touch"""
+EVENTS = 10
+"""most within a cell: two crossings of each of four speeds, one turn, one touch"""
+FADING = 3.0
+"""Stribeck speeds past the threshold at which an event is placed as well"""
+
+
+@kernel
+def faded(points: ContactPoints, point: int) -> float:
+    """Return the speed at which friction has fallen, the threshold if it does not."""
+    speed: float = points.threshold[point]
+    if points.friction[point] == GENERAL_KINETIC:
+        speed += FADING * points.stribeck[point]
+    return speed
 
 
 @kernel
@@ -26,6 +41,7 @@ def passes(
     after: int,
     rubs: bool,
     threshold: float,
+    wide: float,
 ) -> bool:
     """Return whether contact, or slow sliding, begins, ends or is passed in a cell.
 
@@ -38,9 +54,12 @@ def passes(
     one, two = velocity[row + 1, place], velocity[row + 2, place]
     next_one, next_two = velocity[row + 1, after], velocity[row + 2, after]
     square, next_square = one * one + two * two, next_one**2 + next_two**2
-    slow, next_slow = square <= threshold**2, next_square <= threshold**2
     turns = one * next_one + two * next_two < 0.0
-    return slow != next_slow or (turns and not slow)
+    for speed in (threshold, wide):
+        slow, next_slow = square <= speed**2, next_square <= speed**2
+        if slow != next_slow or (turns and not slow):
+            return True
+    return False
 
 
 @kernel
@@ -74,8 +93,8 @@ def locate(
     if pressed and points.friction[point] != FRICTIONLESS:
         one, two = velocity[row + 1, place], velocity[row + 2, place]
         by_one, by_two = velocity[row + 1, after] - one, velocity[row + 2, after] - two
-        threshold = points.threshold[point]
-        found = _slow(one, two, by_one, by_two, threshold, events)
+        threshold, wide = points.threshold[point], faded(points, point)
+        found = _slow(one, two, by_one, by_two, threshold, wide, events)
     if (before > 0.0) != (behind > 0.0):
         found += 1
         events[found] = before / (before - behind)
@@ -92,6 +111,7 @@ def _slow(
     by_one: float,
     by_two: float,
     threshold: float,
+    wide: float,
     events: Array,
 ) -> int:
     """Write where sliding passes a threshold or turns; return the number of places.
@@ -100,6 +120,8 @@ def _slow(
     ``by_two`` what the second has more.
     """
     found = _crossings(one, two, by_one, by_two, threshold, events, 0)
+    if wide > threshold:
+        found = _crossings(one, two, by_one, by_two, wide, events, found)
     square = by_one * by_one + by_two * by_two
     if square == 0.0:
         return found

@@ -251,13 +251,24 @@ def test_a_body_on_a_rope_is_pulled_as_far_as_its_mean_friction_needs() -> None:
     assert abs(mean) > 0.1
 
 
-@pytest.mark.parametrize(("start", "end"), [(0.0, 3.0), (3.0, -1.0), (3.0, 3.0)])
-def test_frequencies_that_span_no_range_are_refused(start: float, end: float) -> None:
-    text = (
-        rf"^frequencies {start:g} and {end:g} rad/s: give two different positive ones$"
-    )
+@pytest.mark.parametrize("end", [3.0, np.inf, np.nan])
+def test_what_spans_no_range_is_refused(end: float) -> None:
+    text = rf"^from 3 to {end:g}: give two different finite values$"
     with pytest.raises(ValueError, match=text):
-        CurveOptions(start, end)
+        CurveOptions(3.0, end)
+
+
+@pytest.mark.parametrize(("start", "end"), [(0.0, 3.0), (3.0, -1.0)])
+def test_frequencies_that_are_not_positive_are_refused(
+    start: float, end: float
+) -> None:
+    problem = walker(20.0)
+    curve = frequency_response(
+        problem, static_equilibrium(problem), CurveOptions(start, end)
+    )
+    text = rf"^frequencies {start:g} and {end:g} rad/s: give positive ones$"
+    with pytest.raises(ValueError, match=text):
+        next(curve)
 
 
 def phases() -> Array:

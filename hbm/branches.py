@@ -7,13 +7,14 @@ point a little along it is corrected in the plane across it, and followed from t
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome, SingularError, correct
+from hbm.newton import Outcome, correct
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency
 from hbm.tracer import Tracer
@@ -25,8 +26,10 @@ OFFSETS = (0.01, 0.03, 0.1)
 """distances from a branch point that are tried, over the size of the motion"""
 NEAR = 0.05
 """distance of a multiplier from +1 up to which a located branch point is believed"""
-FINEST = 63
-"""harmonics with which a branch is sought, at the most"""
+FEWEST, FINEST = 15, 63
+"""harmonics with which a branch is sought"""
+CLOSE = 2e-3
+"""relative difference of frequencies at which a branch ends on a branch point"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,53 +54,48 @@ class Branching:
         ContinuationError
             If a branch cannot be followed.
         """
-        passed: list[float] = []
+        ended: list[float] = []
         for response in known:
-            if not _branches(response) or any(
-                _returns(response.frequency, each) for each in passed
+            if _branches(response) and not any(
+                abs(response.frequency - each) <= CLOSE * each for each in ended
             ):
-                continue
-            tracer = Tracer(self.problem, self.path, self.options)
-            begun = self._begun(tracer, response)
-            if begun is None:
-                continue
-            corrections = tracer.pieces.from_point(*begun)
-            metric = tracer.pieces.metric
-            for each in tracer.curve.followed(corrections, metric, "branch"):
-                yield each
-                if each.event == "branch point":
-                    passed.append(each.frequency)
+                last = response
+                for last in self._from(response):
+                    yield last
+                ended.append(last.frequency)
 
-    def _begun(
-        self, tracer: Tracer, response: PeriodicResponse
-    ) -> tuple[Array, Array] | None:
-        """Return a point on the branch, and the direction that leads there."""
-        tracer.system.restart(min(response.harmonics, FINEST))
+    def _from(self, response: PeriodicResponse) -> Iterator[PeriodicResponse]:
+        """Yield the responses on the branch at one point, until it comes back."""
+        tracer = Tracer(self.problem, self.path, self.options)
+        tracer.system.restart(min(max(response.harmonics, FEWEST), FINEST))
         point = tracer.guess(response, self.path.problem.selection)
         away = self._direction(point, tracer.system.fourier)
-        size = float(np.linalg.norm(point[self.path.rank : -1]))
-        for offset in OFFSETS:
-            try:
-                found = correct(
-                    tracer.system,
-                    point + offset * size * away,
-                    away,
-                    tolerance=tracer.control.tolerance,
-                )
-            except SingularError:
-                continue
-            if found.outcome is Outcome.CONVERGED:
-                return found.point, found.point - point
-        return None
+        begun = _beside(tracer, point, away)
+        if begun is None:
+            return
+        still = away != 0.0
+        least = 0.5 * float(np.linalg.norm((begun - point)[still]))
+        corrections = tracer.pieces.from_point(begun, begun - point)
+        parted = itertools.takewhile(
+            lambda each: float(np.linalg.norm((each.point - point)[still])) > least,
+            corrections,
+        )
+        yield from tracer.curve.followed(parted, tracer.pieces.metric, "branch")
 
     def _direction(self, point: Array, fourier: FourierBasis) -> Array:
-        """Return the unit direction that the Jacobian maps nearest to zero."""
-        balance = self.path.balance(fourier)
-        _, linearised = balance(point)
-        _, _, rows = np.linalg.svd(linearised.jacobian)
-        direction = np.zeros_like(point)
+        """Return the unit direction that the Jacobian maps nearest to zero.
+
+        Among what a symmetry keeps still on the curve, if there is a symmetry.
+        """
+        _, linearised = self.path.balance(fourier)(point)
         places = np.flatnonzero(self.path.mask(fourier.harmonics))
-        direction[places] = rows[-1]
+        moved = point[places]
+        moved[: self.path.rank] -= self.path.problem.rest
+        still = np.abs(moved) <= 1e-9 * np.abs(moved).max()
+        chosen = still if still.any() else ~still
+        _, _, rows = np.linalg.svd(linearised.jacobian[np.ix_(chosen, chosen)])
+        direction = np.zeros_like(point)
+        direction[places[chosen]] = rows[-1]
         return direction
 
 
@@ -107,6 +105,12 @@ def _branches(response: PeriodicResponse) -> bool:
     return response.event == "branch point" and bool(nearest < NEAR)
 
 
-def _returns(frequency: float, passed: float) -> bool:
-    """Return whether a followed branch ended at this branch point."""
-    return abs(frequency - passed) <= 1e-4 * passed
+def _beside(tracer: Tracer, point: Array, away: Array) -> Array | None:
+    """Return a point of the branch, corrected across its direction; None if lost."""
+    size = float(np.linalg.norm(point[tracer.path.rank : -1]))
+    for offset in OFFSETS:
+        guess = point + offset * size * away
+        found = correct(tracer.system, guess, away, tolerance=tracer.control.tolerance)
+        if found.outcome is Outcome.CONVERGED:
+            return found.point
+    return None

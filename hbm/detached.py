@@ -7,7 +7,7 @@ is a point of another one, which is followed to both sides until it closes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -43,8 +43,7 @@ class Search:
     def curves(
         self,
         known: Sequence[PeriodicResponse],
-        frequencies: Sequence[float],
-        progress: Callable[[int], object] = int,
+        frequencies: Iterable[float],
     ) -> Iterator[PeriodicResponse]:
         """Yield the responses on detached curves, the first of each side marked so.
 
@@ -54,8 +53,6 @@ class Search:
             Responses along the known curve, in order.
         frequencies
             At which the drive is varied [rad/s].
-        progress
-            Is told how many of them are done.
 
         Raises
         ------
@@ -63,8 +60,7 @@ class Search:
             If a detached curve cannot be followed.
         """
         found = list(known)
-        for done, frequency in enumerate(frequencies):
-            progress(done)
+        for frequency in frequencies:
             for candidate in self.at_frequency(frequency):
                 if self._lies_on(found, candidate):
                     continue

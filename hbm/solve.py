@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from hbm.along_parameter import AlongParameter
+from hbm.branches import Branching
 from hbm.continuation import correct_at
 from hbm.curve import response
+from hbm.detached import Search
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
@@ -44,6 +47,58 @@ def frequency_response(
     tracer = Tracer(problem, path, options)
     with threadpool_limits(1, "blas"):
         yield from tracer.responses()
+
+
+def branches(
+    problem: Problem,
+    rest: StaticState,
+    options: CurveOptions,
+    known: Sequence[PeriodicResponse],
+) -> Iterator[PeriodicResponse]:
+    """Yield the responses on the branches that begin at branch points of a curve.
+
+    The first of each branch has ``event = "branch"``.
+
+    Parameters
+    ----------
+    problem, rest, options
+        As for :func:`frequency_response`.
+    known
+        The responses on the curve.
+
+    Raises
+    ------
+    ContinuationError
+        If a branch cannot go on; what was yielded before stays valid.
+    """
+    path = along_frequency(problem, rest, options.start, options.end, symmetry=False)
+    with threadpool_limits(1, "blas"):
+        yield from Branching(problem, path, options).curves(known)
+
+
+def detached(
+    problem: Problem,
+    rest: StaticState,
+    options: CurveOptions,
+    known: Sequence[PeriodicResponse],
+    *,
+    frequencies: int = 15,
+) -> Iterator[PeriodicResponse]:
+    """Yield the responses on curves that do not hang together with known ones.
+
+    They are sought by homotopy in the drive at some frequencies, spread evenly. The
+    first response to each side has ``event = "detached"``.
+
+    Raises
+    ------
+    ContinuationError
+        If a detached curve cannot go on; what was yielded before stays valid.
+    """
+    path = along_frequency(problem, rest, options.start, options.end)
+    shares = (np.arange(frequencies) + 0.5) / frequencies
+    places = options.start + shares * (options.end - options.start)
+    with threadpool_limits(1, "blas"):
+        yield from Search(problem, path, options).curves(known, places.tolist())
 
 
 def parameter_response(

@@ -40,6 +40,7 @@ def symmetry(
     partners, signs = np.empty(len(basis), dtype=int), np.empty(len(basis))
     for point, wanted in enumerate(later):
         sign = np.where((wanted * faces).sum(axis=2) < 0.0, -1.0, 1.0)
+        sign[:, 0] = 1.0  # the normal law tells pressing from pulling
         away = np.abs(wanted - sign[..., None] * faces).max(axis=(1, 2), initial=0.0)
         if not (away <= close).any():
             return none

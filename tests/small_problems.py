@@ -119,6 +119,21 @@ def cantilever(
     )
 
 
+def cubic_oscillator(
+    *,
+    cubic: float = 1.0,
+    damping: float = 0.2,
+    stiffness: float = 1.0,
+    drive: float = 6.0,
+) -> Problem:
+    """Return Duffing's oscillator of mass one, its cubic force made by two contacts."""
+    facing = np.zeros((6, 1))
+    facing[0], facing[3] = 1.0, -1.0
+    points = contact_points(2, friction=0, stiffness=cubic, exponent=3.0, damping=0.0)
+    contact = Interface(points, facing, ("right", "left"))
+    return _problem(_structure(1.0, damping, stiffness), contact, 0.0, drive)
+
+
 def _structure(mass: float, damping: float, stiffness: float) -> Structure:
     one = np.eye(1)
     return Structure(mass * one, damping * one, stiffness * one, ("x",))

@@ -21,6 +21,7 @@ from sliding import (
     motion,
     sliding_point,
 )
+from small_problems import cubic_oscillator
 
 pytestmark = pytest.mark.kernels
 
@@ -85,3 +86,16 @@ def test_a_turn_in_the_last_cell_of_half_a_period_is_shared_with_its_first(
     np.testing.assert_allclose(force[0], force[1], rtol=0.0, atol=1e-14)
     unit = np.abs(tangents[1]).max()
     np.testing.assert_allclose(tangents[0], tangents[1], rtol=0.0, atol=1e-13 * unit)
+
+
+def test_a_normal_force_is_never_the_mirror_image_of_its_own() -> None:
+    problem = cubic_oscillator()
+    whole = relative_problem(problem, static_equilibrium(problem))
+    moved = np.array([[0.0], [0.8], [-0.3], [0.0], [0.0], [0.2], [0.1]])
+
+    forces = [
+        dataclasses.replace(whole, odd=odd).contact(FourierBasis(3, 64))(moved, 1.0)[0]
+        for odd in (np.array([True]), None)
+    ]
+
+    np.testing.assert_allclose(forces[0], forces[1], rtol=0.0, atol=1e-14)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,14 @@ from hbm.pieces import Pieces
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import HarmonicBalance
 from hbm.stability import small_motions
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.reduction import reduced
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
+
+RESOLVED = 16.0
+"""a sparse structure is resolved up to this multiple of the excitation frequency"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +48,9 @@ class CurveOptions:
     """relative change of the response, or share of a tenth of the range"""
     stability: bool = True
     """whether Floquet multipliers are computed"""
+    highest: float | None = None
+    """frequency up to which a sparse structure is resolved [rad/s], see
+    :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger end if left out"""
 
     def __post_init__(self) -> None:
         """Check the range."""
@@ -53,9 +61,9 @@ class CurveOptions:
                 f"frequencies {self.start:g} and {self.end:g} rad/s: "
                 "give two different positive ones"
             )
-        for name in ("error", "tolerance", "largest_step"):
+        for name in ("error", "tolerance", "largest_step", "highest"):
             value = getattr(self, name)
-            if not 0.0 < value < np.inf:
+            if value is not None and not 0.0 < value < np.inf:
                 raise ValueError(f"{name} {value:g}: give a positive number")
         if self.samples is not None and self.harmonics is None:
             raise ValueError("samples without harmonics: give both, or harmonics alone")
@@ -91,18 +99,35 @@ def frequency_response(
         initial=min(0.02, options.largest_step),
         largest=options.largest_step,
     )
-    reduced, active = _moving(problem, rest, options.start)
-    resolution = Resolution(reduced, active, problem.probes.rows)
+    ends = max(options.start, options.end)
+    small, still, shapes = _small(problem, rest, options.highest or RESOLVED * ends)
+    relative, active = _moving(small, still, options.start)
+    resolution = Resolution(relative, active, small.probes.rows)
     system = AdaptiveBalance(
         resolution,
         options.first,
         tolerance=None if options.harmonics else options.error,
     )
-    motions = small_motions(problem) if options.stability else None
+    motions = small_motions(small) if options.stability else None
     curve = Curve(problem, system, resolution, control, motions)
-    pieces = Pieces(reduced, active, system, options.start, options.end, control)
+    pieces = Pieces(relative, active, system, options.start, options.end, control)
     with threadpool_limits(1, "blas"):
-        yield from curve.followed(pieces, pieces.metric)
+        for made in curve.followed(pieces, pieces.metric):
+            yield replace(made, shapes=shapes)
+
+
+def _small(
+    problem: Problem, rest: StaticState, highest: float
+) -> tuple[Problem, StaticState, Array | None]:
+    """Return a problem with a dense structure, its rest, and what its columns move.
+
+    The last is None if the structure has been dense before.
+    """
+    if not problem.structure.sparse:
+        return problem, rest, None
+    reduction = reduced(problem, highest)
+    state = replace(rest, displacement=reduction.coordinates(rest.displacement))
+    return reduction.problem, state, reduction.shapes
 
 
 def _moving(
@@ -123,8 +148,11 @@ def periodic_response(
     harmonics: int,
     samples: int,
     tolerance: float = 1e-8,
+    highest: float | None = None,
 ) -> PeriodicResponse:
     """Return the response at the frequency of ``guess`` with another resolution.
+
+    A sparse structure is reduced anew, up to ``highest`` as in :class:`CurveOptions`.
 
     Raises
     ------
@@ -132,10 +160,13 @@ def periodic_response(
         If the point does not converge.
     """
     control = StepControl(tolerance=tolerance * problem.force_scale)
-    reduced, active = _moving(problem, rest, guess.frequency)
+    highest = highest or RESOLVED * guess.frequency
+    small, still, shapes = _small(problem, rest, highest)
+    relative, active = _moving(small, still, guess.frequency)
     fourier = FourierBasis(harmonics, samples)
-    balance = HarmonicBalance(reduced, fourier, extended(active, harmonics))
-    start = balance.point(guess.coefficients @ reduced.selection.T, guess.frequency)
+    balance = HarmonicBalance(relative, fourier, extended(active, harmonics))
+    rows = relative.basis.T @ problem.interface.displacement
+    start = balance.point(guess.seen(rows), guess.frequency)
     with threadpool_limits(1, "blas"):
         correction = correct_at(balance, start, control)
-    return response(problem, balance, correction)
+    return replace(response(problem, balance, correction), shapes=shapes)

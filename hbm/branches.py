@@ -28,7 +28,7 @@ NEAR = 0.05
 """distance of a multiplier from +1 up to which a located branch point is believed"""
 FEWEST, FINEST = 15, 63
 """harmonics with which a branch is sought"""
-CLOSE = 2e-3
+CLOSE = 1e-2
 """relative difference of frequencies at which a branch ends on a branch point"""
 
 
@@ -75,7 +75,7 @@ class Branching:
             return
         still = away != 0.0
         least = 0.5 * float(np.linalg.norm((begun - point)[still]))
-        corrections = tracer.pieces.from_point(begun, begun - point)
+        corrections = tracer.pieces.from_point(begun, away)
         parted = itertools.takewhile(
             lambda each: float(np.linalg.norm((each.point - point)[still])) > least,
             corrections,

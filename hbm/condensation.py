@@ -190,10 +190,10 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
     Raises
     ------
     ValueError
-        If the structure can move freely while all contacts stick, or if its damping
-        makes two of its poles coincide.
+        If the structure is sparse or can move freely while all contacts stick, or if
+        its damping makes two of its poles coincide.
     """
-    structure = problem.structure
+    structure = problem.structure.dense
     static, free = split(structure.stiffness, selection)
     poles, shapes, forcing = _poles(
         *(free.T @ matrix @ free

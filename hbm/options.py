@@ -30,6 +30,9 @@ class CurveOptions:
     """relative change of the response, or share of a tenth of the range"""
     stability: bool = True
     """whether Floquet multipliers are computed"""
+    highest: float | None = None
+    """frequency up to which a sparse structure is resolved [rad/s], see
+    :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger one if left out"""
 
     def __post_init__(self) -> None:
         """Check the range."""
@@ -37,9 +40,9 @@ class CurveOptions:
             raise ValueError(
                 f"from {self.start:g} to {self.end:g}: give two different finite values"
             )
-        for name in ("error", "tolerance", "largest_step"):
+        for name in ("error", "tolerance", "largest_step", "highest"):
             value = getattr(self, name)
-            if not 0.0 < value < np.inf:
+            if value is not None and not 0.0 < value < np.inf:
                 raise ValueError(f"{name} {value:g}: give a positive number")
         if self.samples is not None and self.harmonics is None:
             raise ValueError("samples without harmonics: give both, or harmonics alone")

@@ -79,11 +79,13 @@ class Pieces:
         """Return the change of each component that counts as one unit of arc.
 
         Relative changes of mean motion and vibration each, and a tenth of the range: a
-        preload makes mean values large, and must not hide the vibration.
+        preload makes mean values large, and must not hide the vibration. Means that
+        are smaller than it count like it.
         """
         means = self.path.rank
-        scale = np.full(point.size, float(np.linalg.norm(point[means:-1])) + 1e-15)
-        scale[:means] = float(np.linalg.norm(point[:means])) + 1e-15
+        vibration = float(np.linalg.norm(point[means:-1])) + 1e-15
+        scale = np.full(point.size, vibration)
+        scale[:means] = max(float(np.linalg.norm(point[:means])), vibration)
         scale[-1] = self.path.unit(float(point[-1]))
         return scale
 

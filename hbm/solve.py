@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -17,9 +18,14 @@ from hbm.options import CurveOptions
 from hbm.path import along_frequency
 from hbm.step_control import StepControl
 from hbm.tracer import Tracer
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.reduction import reduced
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
+
+RESOLVED = 16.0
+"""a sparse structure is resolved up to this multiple of the excitation frequency"""
 
 
 def frequency_response(
@@ -43,10 +49,12 @@ def frequency_response(
     ValueError
         If a frequency is not positive.
     """
-    path = along_frequency(problem, rest, options.start, options.end)
-    tracer = Tracer(problem, path, options)
+    small, still, shapes = _small(problem, rest, options.highest or _most(options))
+    path = along_frequency(small, still, options.start, options.end)
+    tracer = Tracer(small, path, options)
     with threadpool_limits(1, "blas"):
-        yield from tracer.responses()
+        for made in tracer.responses():
+            yield replace(made, shapes=shapes)
 
 
 def branches(
@@ -71,9 +79,11 @@ def branches(
     ContinuationError
         If a branch cannot go on; what was yielded before stays valid.
     """
-    path = along_frequency(problem, rest, options.start, options.end, symmetry=False)
+    small, still, shapes = _small(problem, rest, options.highest or _most(options))
+    path = along_frequency(small, still, options.start, options.end, symmetry=False)
     with threadpool_limits(1, "blas"):
-        yield from Branching(problem, path, options).curves(known)
+        for made in Branching(small, path, options).curves(known):
+            yield replace(made, shapes=shapes)
 
 
 def detached(
@@ -94,11 +104,13 @@ def detached(
     ContinuationError
         If a detached curve cannot go on; what was yielded before stays valid.
     """
-    path = along_frequency(problem, rest, options.start, options.end)
+    small, still, shapes = _small(problem, rest, options.highest or _most(options))
+    path = along_frequency(small, still, options.start, options.end)
     shares = (np.arange(frequencies) + 0.5) / frequencies
     places = options.start + shares * (options.end - options.start)
     with threadpool_limits(1, "blas"):
-        yield from Search(problem, path, options).curves(known, places.tolist())
+        for made in Search(small, path, options).curves(known, places.tolist()):
+            yield replace(made, shapes=shapes)
 
 
 def parameter_response(
@@ -136,8 +148,12 @@ def periodic_response(
     harmonics: int,
     samples: int,
     tolerance: float = 1e-8,
+    highest: float | None = None,
 ) -> PeriodicResponse:
     """Return the response at the frequency of ``guess`` with another resolution.
+
+    A sparse structure is reduced anew, up to ``highest`` as in
+    :class:`~hbm.options.CurveOptions`.
 
     Raises
     ------
@@ -145,10 +161,31 @@ def periodic_response(
         If the point does not converge.
     """
     control = StepControl(tolerance=tolerance * problem.force_scale)
-    path = along_frequency(problem, rest, guess.frequency, guess.frequency)
+    highest = highest or RESOLVED * guess.frequency
+    small, still, shapes = _small(problem, rest, highest)
+    path = along_frequency(small, still, guess.frequency, guess.frequency)
     balance = path.balance(FourierBasis(harmonics, samples))
-    relative = guess.coefficients @ path.problem.selection.T
-    start = balance.point(relative, guess.frequency)
+    rows = path.problem.basis.T @ problem.interface.displacement
+    start = balance.point(guess.seen(rows), guess.frequency)
     with threadpool_limits(1, "blas"):
         correction = correct_at(balance, start, control)
-    return response(problem, balance, correction)
+    return replace(response(small, balance, correction), shapes=shapes)
+
+
+def _most(options: CurveOptions) -> float:
+    """Return the frequency up to which a sparse structure is resolved [rad/s]."""
+    return RESOLVED * max(options.start, options.end)
+
+
+def _small(
+    problem: Problem, rest: StaticState, highest: float
+) -> tuple[Problem, StaticState, Array | None]:
+    """Return a problem with a dense structure, its rest, and what its columns move.
+
+    The last is None if the structure has been dense before.
+    """
+    if not problem.structure.sparse:
+        return problem, rest, None
+    reduction = reduced(problem, highest)
+    state = replace(rest, displacement=reduction.coordinates(rest.displacement))
+    return reduction.problem, state, reduction.shapes

@@ -89,7 +89,7 @@ class SmallMotions:
 def small_motions(problem: Problem) -> SmallMotions:
     """Return the structure of a problem for small motions about any orbit."""
     basis, selection = problem.interface.relative_motion()
-    structure = problem.structure
+    structure = problem.structure.dense
     static, free = split(structure.stiffness, selection)
     stuck = [free.T @ matrix @ free for matrix in (structure.stiffness, structure.mass)]
     squares, shapes = scipy.linalg.eigh(*stuck)

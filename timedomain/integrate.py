@@ -82,7 +82,7 @@ def integrate(
     Raises
     ------
     ValueError
-        If the block has no length.
+        If the block has no length or the structure is sparse.
     IntegrationError
         If a step does not converge even when it is divided; what was yielded stays.
     """
@@ -213,7 +213,7 @@ class _March:
 
 def _operators(problem: Problem, shapes: Array, step: float) -> Operators:
     """Return the matrices of average acceleration (theory, eqs. 22–23)."""
-    structure = problem.structure
+    structure = problem.structure.dense
     basis, selection = problem.interface.relative_motion()
     half = 0.5 * step
     effective = (

@@ -45,7 +45,7 @@ class ModalStructure:
     @classmethod
     def of(cls, problem: Problem, frequency: float) -> ModalStructure:
         """Return the modes; ``frequency`` [rad/s] is the least scale of velocities."""
-        structure = problem.structure
+        structure = problem.structure.dense
         _, selection = problem.interface.relative_motion()
         stiffness, shapes = scipy.linalg.eigh(structure.stiffness, structure.mass)
         return cls(

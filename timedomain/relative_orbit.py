@@ -32,8 +32,9 @@ class RelativeOrbit:
         """Return the relative motion of a response of the whole structure."""
         interface = problem.interface
         basis, _ = interface.relative_motion()
-        seen = response.coefficients @ interface.displacement.T
-        return cls(interface.points, basis, replace(response, coefficients=seen))
+        seen = response.seen(interface.displacement)
+        motion = replace(response, coefficients=seen, shapes=None)
+        return cls(interface.points, basis, motion)
 
     def tangents(self, phase: Array) -> tuple[Array, Array]:
         """Return contact stiffness K_c and damping C_c on the relative coordinates.

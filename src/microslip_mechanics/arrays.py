@@ -1,4 +1,4 @@
-"""The array type that every signature of the project speaks of."""
+"""The array types that every signature of the project speaks of."""
 
 from __future__ import annotations
 
@@ -11,3 +11,5 @@ Array: TypeAlias = NDArray[np.floating[Any]]
 """real, always float64 at run time"""
 ComplexArray: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 """always complex128 at run time"""
+Matrix: TypeAlias = Any
+"""an :data:`Array` of two axes, or the like of scipy.sparse"""

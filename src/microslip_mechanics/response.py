@@ -23,7 +23,10 @@ class PeriodicResponse:
     frequency: float
     """excitation frequency ω [rad/s]"""
     coefficients: Array
-    """a₀, a₁, b₁, … [m or rad], shape (2 harmonics + 1, dofs)"""
+    """a₀, a₁, b₁, … [m or rad], shape (2 harmonics + 1, dofs)
+
+    Where :attr:`shapes` are given: of its columns, in place of degrees of freedom.
+    """
     normal_smallest: Array
     """of each contact point over the period [N], shape (points,)"""
     normal_largest: Array
@@ -50,6 +53,18 @@ class PeriodicResponse:
     """what the point is located as: peak, fold, …; empty for a point of the trace"""
     parameter: float = np.nan
     """of the scene, along which the point was found; ω itself along frequency"""
+    shapes: Array | None = None
+    """motion of the coordinates of a reduced structure, shape (dofs, coordinates)"""
+
+    def seen(self, rows: Array) -> Array:
+        """Return the coefficients of linear forms of the motion, shape (2H + 1, forms).
+
+        ``rows`` has shape ``(forms, dofs)``.
+        """
+        if self.shapes is not None:
+            rows = rows @ self.shapes
+        found: Array = self.coefficients @ rows.T
+        return found
 
     @property
     def unstable(self) -> int:
@@ -66,7 +81,10 @@ class PeriodicResponse:
         even, odd = self.coefficients[1::2], self.coefficients[2::2]
         displacement = self.coefficients[0] + cosine @ even + sine @ odd
         rate = self.frequency * orders[:, None]
-        return displacement, cosine @ (rate * odd) - sine @ (rate * even)
+        velocity = cosine @ (rate * odd) - sine @ (rate * even)
+        if self.shapes is None:
+            return displacement, velocity
+        return displacement @ self.shapes.T, velocity @ self.shapes.T
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +182,7 @@ def response_curve(
 
 def _seen(point: PeriodicResponse, rows: Array) -> tuple[Array, Array, Array]:
     """Return amplitude, peak and largest velocity of each probe, (probes,) each."""
-    seen = point.coefficients @ rows.T
+    seen = point.seen(rows)
     orders = np.arange(seen.shape[0] // 2 + 1)[:, None]
     samples = max(PEAK_SAMPLES, 8 * len(seen))
     amplitudes = np.zeros((samples // 2 + 1, seen.shape[1]), complex)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from microslip_mechanics.contact.law import ContactPoints, contact_energy, norma
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.reduction import reduced
 
 
 class StaticError(MicroslipError):
@@ -40,11 +41,19 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
     contact alone holds, and even one which nothing holds along a load-free direction,
     makes no singular matrix.
 
+    A sparse structure deflects in the shapes that its contacts and the preload impose.
+
     Raises
     ------
     StaticError
         If the preload drives a body away: nothing balances it.
+    ValueError
+        If a sparse structure can move freely while all contacts stick.
     """
+    if problem.structure.sparse:
+        reduction = reduced(problem, 0.0)
+        small = static_equilibrium(reduction.problem, tolerance=tolerance)
+        return replace(small, displacement=reduction.shapes @ small.displacement)
     load = np.abs(problem.preload).max(initial=0.0)
     state = np.zeros(problem.structure.dofs)
     if load == 0.0:

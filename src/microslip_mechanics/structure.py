@@ -5,19 +5,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Matrix
+from microslip_mechanics.factors import factors
+
+MATRICES = ("mass", "damping", "stiffness")
 
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """Linear structure M ü + C u̇ + K u = p; the matrices have shape (dofs, dofs)."""
+    """Linear structure M ü + C u̇ + K u = p; the matrices have shape (dofs, dofs).
 
-    mass: Array
+    All three are arrays, or all three are sparse arrays or matrices of scipy.sparse.
+    """
+
+    mass: Matrix
     """M [kg], symmetric and positive definite"""
-    damping: Array
+    damping: Matrix
     """C [N s/m], symmetric"""
-    stiffness: Array
+    stiffness: Matrix
     """K [N/m], symmetric; may be singular where contact alone holds a body"""
     names: tuple[str, ...]
     """one name for each degree of freedom"""
@@ -25,20 +32,24 @@ class Structure:
     def __post_init__(self) -> None:
         """Check shapes, finiteness, symmetry and that no motion is massless."""
         shape = (len(self.names), len(self.names))
-        for name in ("mass", "damping", "stiffness"):
+        if len({scipy.sparse.issparse(getattr(self, name)) for name in MATRICES}) > 1:
+            raise ValueError("some matrices are sparse, others not: give three alike")
+        for name in MATRICES:
             matrix = getattr(self, name)
             if matrix.shape != shape:
                 raise ValueError(
                     f"{name} has shape {matrix.shape}, but there are "
                     f"{shape[0]} names of degrees of freedom: give {shape}"
                 )
-            if not np.all(np.isfinite(matrix)):
+            if self.sparse:
+                matrix = matrix.tocsc()
+            if not np.all(np.isfinite(matrix.data if self.sparse else matrix)):
                 raise ValueError(f"{name} holds a value that is not finite")
-            if np.abs(matrix - matrix.T).max() > 1e-9 * np.abs(matrix).max():
+            if abs(matrix - matrix.T).max() > 1e-9 * abs(matrix).max():
                 raise ValueError(
                     f"{name} is not symmetric: only symmetric is supported"
                 )
-        if np.linalg.eigvalsh(self.mass)[0] <= 0.0:
+        if not self._heavy():
             raise ValueError(
                 "mass is not positive definite: some motion has no mass; "
                 "lock it or give it mass"
@@ -48,3 +59,30 @@ class Structure:
     def dofs(self) -> int:
         """Number of degrees of freedom."""
         return len(self.names)
+
+    @property
+    def sparse(self) -> bool:
+        """Whether the matrices are sparse."""
+        return bool(scipy.sparse.issparse(self.mass))
+
+    @property
+    def dense(self) -> Structure:
+        """The structure itself.
+
+        Raises
+        ------
+        ValueError
+            If it is sparse.
+        """
+        if self.sparse:
+            raise ValueError(
+                "the structure is sparse: reduce the problem first "
+                "(microslip_mechanics.reduction.reduced)"
+            )
+        return self
+
+    def _heavy(self) -> bool:
+        """Return whether the mass is positive definite."""
+        if self.sparse:
+            return factors(self.mass) is not None
+        return bool(np.linalg.eigvalsh(self.mass)[0] > 0.0)

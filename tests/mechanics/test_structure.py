@@ -4,12 +4,12 @@ import re
 
 import numpy as np
 import pytest
+import scipy.sparse
 
-from microslip_mechanics.arrays import Array
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.arrays import Array, Matrix
+from microslip_mechanics.structure import MATRICES, Structure
 
 NAMES = ("a", "b")
-MATRICES = ("mass", "damping", "stiffness")
 
 
 def structure(**matrices: Array) -> Structure:
@@ -81,3 +81,62 @@ def test_massless_motion_is_refused(mass: Array) -> None:
 
     with pytest.raises(ValueError, match=f"^{message}$"):
         structure(mass=mass)
+
+
+def sparse_structure(**matrices: Matrix) -> Structure:
+    sound = {name: np.array([[2.0, -1.0], [-1.0, 3.0]]) for name in MATRICES}
+    made = {name: scipy.sparse.csr_array(each) for name, each in sound.items()}
+    return Structure(**(made | matrices), names=NAMES)
+
+
+def test_sparse_matrices_are_kept_as_they_are() -> None:
+    stiffness = scipy.sparse.coo_array((2, 2))
+
+    sound = sparse_structure(stiffness=stiffness)
+
+    assert sound.sparse
+    assert sound.stiffness is stiffness
+    assert not structure().sparse
+
+
+@pytest.mark.parametrize("name", MATRICES)
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        (np.zeros((3, 2)), "has shape (3, 2), but there are 2 names of degrees of"),
+        (np.array([[1.0, np.nan], [np.nan, 1.0]]), "holds a value that is not finite"),
+        (np.array([[1.0, 2e-9], [0.0, 1.0]]), "is not symmetric: only symmetric is"),
+    ],
+)
+def test_sparse_matrices_are_refused_for_the_same_reasons(
+    name: str, values: Array, message: str
+) -> None:
+    with pytest.raises(ValueError, match=f"^{name} {re.escape(message)}"):
+        sparse_structure(**{name: scipy.sparse.csc_array(values)})
+
+
+@pytest.mark.parametrize(
+    "mass", [np.diag([1.0, 0.0]), np.diag([1.0, -1.0]), np.ones((2, 2)) - np.eye(2)]
+)
+def test_massless_motion_of_a_sparse_structure_is_refused(mass: Array) -> None:
+    with pytest.raises(ValueError, match=r"^mass is not positive definite: "):
+        sparse_structure(mass=scipy.sparse.csc_array(mass))
+
+
+def test_sparse_and_dense_matrices_are_not_mixed() -> None:
+    text = "some matrices are sparse, others not: give three alike"
+
+    with pytest.raises(ValueError, match=f"^{text}$"):
+        sparse_structure(damping=np.eye(2))
+
+
+def test_only_a_dense_structure_passes_for_one() -> None:
+    text = (
+        "the structure is sparse: reduce the problem first "
+        "(microslip_mechanics.reduction.reduced)"
+    )
+    plain = structure()
+
+    assert plain.dense is plain
+    with pytest.raises(ValueError, match=f"^{re.escape(text)}$"):
+        _ = sparse_structure().dense

@@ -61,10 +61,11 @@ class Interface:
         rows = self.displacement
         if rows.shape[0] == 0:
             return np.zeros((0, 0)), rows
-        gram = np.abs(rows.T @ rows)
+        touched = rows[:, rows.any(axis=0)]
+        gram = np.abs(touched.T @ touched)
         _, family = connected_components(gram > 1e-10 * gram.max())
-        floor = 1e-9 * float(np.linalg.norm(rows, 2))
-        spans = [_span(rows[:, family == each], floor) for each in np.unique(family)]
+        floor = 1e-9 * float(np.linalg.norm(touched, 2))
+        spans = [_span(touched[:, family == each], floor) for each in np.unique(family)]
         basis = np.hstack(spans)
         if basis.shape[1] == rows.shape[0]:
             basis = np.eye(rows.shape[0])

@@ -1,0 +1,161 @@
+"""A large sparse problem in few coordinates, and how much that leaves out (theory §6).
+
+Fixed-interface modes after Craig and Bampton (1968) with residual vectors.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.structure import Structure
+from microslip_mechanics.stuck import StuckModes, StuckStructure, stuck_structure
+
+MARGIN = 2.0
+"""modes are kept up to this multiple of the highest frequency that is wanted"""
+NEGLIGIBLE = 1e-8
+"""share of a static response that counts as rounding"""
+
+
+class Truncation(NamedTuple):
+    """What the modes leave out of the static responses to the loads."""
+
+    limit: float
+    """no mode left out is slower [rad/s]; infinite if none is"""
+    damping: float
+    """largest ratio of damping to stiffness of what is left out [s]"""
+    energy: Array
+    """left out, twice, of responses to preload, drive, M T and C T; (loads, loads)"""
+
+
+@dataclass(frozen=True, slots=True)
+class Reduction:
+    """A problem with a dense structure in place of one with a sparse structure."""
+
+    whole: Problem
+    problem: Problem
+    """in coordinates: relative motion first, then modes of the stuck structure"""
+    shapes: Array
+    """motion of each coordinate, shape (dofs, coordinates)"""
+    truncation: Truncation
+
+    def coordinates(self, displacement: Array) -> Array:
+        """Return the coordinates of a displacement, (dofs,), that they can show."""
+        momenta = self.shapes.T @ (self.whole.structure.mass @ displacement)
+        found: Array = np.linalg.solve(self.problem.structure.mass, momenta)
+        return found
+
+    def error(self, frequency: float) -> tuple[float, float]:
+        """Return a bound of what truncation changes at a frequency [rad/s].
+
+        It is one where the damping does not couple the modes, an estimate otherwise;
+        infinite from the slowest mode left out on (theory §6).
+
+        Returns
+        -------
+        stiffness
+            Largest change of the dynamic stiffness of the relative motion [N/m].
+        load
+            Of the load on it by the drive [N].
+        """
+        kept, rank = self.truncation, len(self.truncation.energy) // 2 - 1
+        if not frequency < kept.limit:
+            return np.inf, np.inf
+        ratio = (frequency / kept.limit) ** 2
+        loss = frequency * kept.damping
+        share = (1.0 + loss / (1.0 - ratio)) ** 3 * (ratio + loss) ** 2 / (1.0 - ratio)
+        inertia = np.vstack([frequency**2 * np.eye(rank), frequency * np.eye(rank)])
+        moved = inertia.T @ np.abs(kept.energy[2:, 2:]) @ inertia
+        stiffness = share * float(np.linalg.norm(moved, 2)) if rank else 0.0
+        drive = share * float(kept.energy[1, 1])
+        return stiffness, float(np.sqrt(stiffness * drive))
+
+
+def reduced(problem: Problem, highest: float) -> Reduction:
+    """Return a problem with the modes that matter up to a frequency.
+
+    Static responses are exact, however few the modes.
+
+    Parameters
+    ----------
+    problem
+        Its structure is sparse.
+    highest
+        Frequency up to which the motion is wanted [rad/s]; zero for statics alone.
+
+    Raises
+    ------
+    ValueError
+        If the structure can move freely while all contacts stick, or has too many
+        modes.
+    """
+    basis, selection = problem.interface.relative_motion()
+    stuck = stuck_structure(problem.structure, selection)
+    modes = stuck.modes(MARGIN * highest)
+    inertia, friction = (
+        stuck.free.T @ (matrix @ stuck.static)
+        for matrix in (problem.structure.mass, problem.structure.damping)
+    )
+    loads = stuck.free.T @ np.stack([problem.preload, problem.drive], axis=1)
+    residual, energy = _residual(stuck, modes, np.hstack([loads, inertia, friction]))
+    shapes = np.hstack([stuck.static, stuck.free @ np.hstack([modes.shapes, residual])])
+    damping = stuck.loss(modes) if 0.0 < modes.next < np.inf else 0.0
+    return Reduction(
+        problem,
+        _projected(problem, basis, shapes),
+        shapes,
+        Truncation(modes.next, damping, energy),
+    )
+
+
+def _residual(
+    stuck: StuckStructure, modes: StuckModes, loads: Array
+) -> tuple[Array, Array]:
+    """Return what modes miss of the static response to loads, and its energy."""
+    left = stuck.factors.solve(loads)
+    sizes = np.linalg.norm(stuck.factors.root(left), axis=0)
+    sizes[sizes == 0.0] = 1.0
+    for _ in range(2):  # once more, for what rounding leaves
+        left = left - modes.shapes @ (modes.shapes.T @ (stuck.mass @ left))
+    strain = stuck.factors.root(left)
+    _, shares, mixing = np.linalg.svd(strain / sizes, full_matrices=False)
+    kept = shares > NEGLIGIBLE
+    vectors = left @ (mixing[kept].T / (sizes[:, None] * shares[kept]))
+    squares, turned = np.linalg.eigh(_symmetric(vectors.T @ (stuck.mass @ vectors)))
+    return vectors @ (turned / np.sqrt(squares)), strain.T @ strain
+
+
+def _projected(problem: Problem, basis: Array, shapes: Array) -> Problem:
+    """Return the problem in the coordinates of shapes, (dofs, coordinates)."""
+    rank, count = basis.shape[1], shapes.shape[1]
+    mass, damping, stiffness = (
+        _symmetric(shapes.T @ (matrix @ shapes))
+        for matrix in (
+            problem.structure.mass,
+            problem.structure.damping,
+            problem.structure.stiffness,
+        )
+    )
+    # by construction the relative motion does no work on the modes
+    stiffness[rank:, :rank] = stiffness[:rank, rank:] = 0.0
+    names = tuple(f"relative {place + 1}" for place in range(rank))
+    names += tuple(f"stuck {place + 1}" for place in range(count - rank))
+    seen = np.hstack([basis, np.zeros((len(basis), count - rank))])
+    return replace(
+        problem,
+        structure=Structure(mass, damping, stiffness, names),
+        interface=Interface(problem.interface.points, seen, problem.interface.names),
+        preload=shapes.T @ problem.preload,
+        drive=shapes.T @ problem.drive,
+        probes=Probes(problem.probes.names, problem.probes.rows @ shapes),
+    )
+
+
+def _symmetric(matrix: Array) -> Array:
+    """Return a matrix without the asymmetry of rounding."""
+    return (matrix + matrix.T) / 2.0

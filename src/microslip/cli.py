@@ -12,6 +12,7 @@ from microslip.commands import (
     explain,
     frc,
     grid,
+    modes,
     plot,
     scenes,
     sweep,
@@ -74,7 +75,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="show the version")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (frc, sweep, verify, track, grid, tables, scenes, explain, plot):
+    for command in (
+        frc,
+        sweep,
+        verify,
+        track,
+        modes,
+        grid,
+        tables,
+        scenes,
+        explain,
+        plot,
+    ):
         command.add(commands)
     return parser
 

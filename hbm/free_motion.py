@@ -65,7 +65,7 @@ class FreeMotion:
         Returns
         -------
         Forces on y and imbalance of η, shape ``(rank + count,)``; derivatives by y, η
-        and s, shape ``(rank + count, rank + count + 1)`` (theory, eq. 30).
+        and s, shape ``(rank + count, rank + count + 1)`` (theory, eq. 29).
         """
         near, rank, size = self.near, relative.size, relative.size + self.count
         stiffness, change = (

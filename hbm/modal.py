@@ -120,7 +120,7 @@ class ModalBalance:
         parts, condensed = self.parts(point), self.problem.condensed
         amplitudes = to_complex(parts.shape)
         none = np.zeros((len(amplitudes), len(condensed.static)), complex)
-        moved = condensed.motion(self._variable(parts.pole), amplitudes, none)
+        moved = condensed.motion(self._others(parts.pole), amplitudes, none)
         moved[1] = self.free.motion(parts.pole, amplitudes[1], parts.modal)
         return parts.amplitude * to_real(moved)
 
@@ -130,7 +130,7 @@ class ModalBalance:
         amplitudes = to_complex(parts.shape)
         first = self._first(parts.pole, amplitudes[1], parts.modal)
         stiffness, change = self.problem.condensed.dynamic_stiffness(
-            self._variable(parts.pole), self._wanted
+            self._others(parts.pole), self._wanted
         )
         stiffness[0] += self.problem.gauge
         stiffness[1] = first.stiffness
@@ -249,10 +249,13 @@ class ModalBalance:
         result[:, sine] = pole.real * damped[:, sine] + speed * damped[:, cosine]
         return result
 
-    def _variable(self, pole: complex) -> ComplexArray:
-        """Return s of each order: the mean is at rest, all others decay alike."""
+    def _others(self, pole: complex) -> ComplexArray:
+        """Return s of each order: the mean is at rest, all others decay alike.
+
+        Order 1, which may lie on a pole of the stuck structure, is treated apart.
+        """
         variable = pole.real + 1j * pole.imag * self._orders
-        variable[0] = 0.0
+        variable[:2] = 0.0
         return variable
 
 

@@ -21,7 +21,7 @@ HEADER = (
 )
 AMPLITUDES = (1e-2, 10.0)
 """smallest and largest [mm]"""
-HARMONICS = 15
+HARMONICS = 31
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

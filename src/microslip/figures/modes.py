@@ -41,7 +41,7 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
     framed(right, x=below, y="damping ratio [%]", title="Damping")
     for axes in (left, right):
         axes.set_xscale("log")
-    left.yaxis.get_major_formatter().set_useoffset(False)
+    left.ticklabel_format(axis="y", useOffset=False)
     if all(ratio > 0.0 for line in lines for ratio in line.damping):
         right.set_ylim(bottom=0.0)
     if len(lines) > 1:

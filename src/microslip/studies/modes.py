@@ -83,7 +83,7 @@ def _followed(
     return FollowedMode(linear, tuple(points), ending)
 
 
-def shown_points(mode: FollowedMode, count: int = 14) -> list[NonlinearMode]:
+def shown_points(mode: FollowedMode, count: int = 20) -> list[NonlinearMode]:
     """Return points evenly spread along a mode, the most damped one among them."""
     last = len(mode.points) - 1
     places = {round(last * share / (count - 1)) for share in range(count)}

@@ -67,6 +67,11 @@ def test_a_linear_structure_has_its_eigenvalues_at_every_amplitude() -> None:
 
     for mode in grown(beam, 1e-6, 1.0, harmonics=3):
         assert np.abs(exact - mode.pole).min() < 1e-8 * mode.frequency
+        first = mode.coefficients[1] - 1j * mode.coefficients[2]
+        displacement, velocity = mode.state(0.7)
+        turned = first * np.exp(0.7j)
+        assert displacement == pytest.approx(turned.real, rel=1e-9, abs=1e-15)
+        assert velocity == pytest.approx((mode.pole * turned).real, rel=1e-9, abs=1e-12)
 
 
 def test_friction_below_its_threshold_velocity_is_an_exact_dashpot() -> None:
@@ -115,6 +120,7 @@ def orbit_period(
     found = scipy.integrate.solve_ivp(
         motion, (0.0, 1.0), [place, speed], events=passes, rtol=1e-11, atol=1e-14
     )
+    assert found.t_events is not None
     return float(found.t_events[0][1] - found.t_events[0][0])
 
 

@@ -19,8 +19,8 @@ STRIDE = 0.01
 """change of the pole, over that of the linear mode, that counts as one unit of arc"""
 FARTHEST = 60.0
 """of log a, either way, that a trial may go"""
-FAINT = 1e-9
-"""relative motion over the amplitude, below which its changes do not count"""
+FAINT = 1e-2
+"""relative motion over the amplitude, below which its changes count less"""
 
 
 @dataclass(frozen=True, slots=True)

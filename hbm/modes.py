@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from hbm.active import moving, symmetric
 from hbm.adaptive import AdaptiveBalance
-from hbm.continuation import StepControl
+from hbm.continuation import ContinuationError, StepControl
 from hbm.fourier import FourierBasis, derivative
 from hbm.free_motion import free_motion
 from hbm.leaps import Leaping
@@ -161,6 +161,11 @@ def nonlinear_mode(
             system,
         ):
             yield _mode(problem, rest, resolution, system, correction)
+    if correction.point[-1] < math.log(options.largest):
+        raise ContinuationError(
+            f"the mode turns back to {options.smallest:g} m before it reaches "
+            f"{options.largest:g} m: more harmonics help, or a smaller range"
+        )
 
 
 def _resolution(

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Linearised, Outcome, SingularError, correct
-from hbm.path import Path
-from hbm.residual import Balance
+from hbm.resolution import Estimate, Resolution
 from microslip_mechanics.arrays import Array
 
 HARMONICS = 255
@@ -26,90 +25,6 @@ WAIT = 10
 """points before less is tried again, where more was needed"""
 PATIENCE = 3
 """failures in a row before the resolution is raised"""
-
-
-@dataclass(frozen=True, slots=True)
-class Estimate:
-    """What two Newton steps at twice the resolution say of a point.
-
-    They leave an error no larger than themselves where the series converges like 1/H,
-    as dry friction does, and a much smaller one where it converges faster.
-    """
-
-    truncation: float
-    """relative change of the amplitude by the harmonics that were left out"""
-    sampling: float
-    """and by the distance of the samples"""
-    corrected: Array
-    """the point after the steps"""
-    fourier: FourierBasis
-    """its resolution"""
-
-    @property
-    def error(self) -> float:
-        """Sum of both."""
-        return self.truncation + self.sampling
-
-
-class Resolution:
-    """A path at any number of harmonics and samples, made when first asked for."""
-
-    def __init__(self, path: Path, probes: Array) -> None:
-        """Resolve ``path``; its points are judged by the amplitude of the probes.
-
-        ``probes`` has shape ``(probes, dofs)``.
-        """
-        self._path, self._probes = path, probes
-        self.rank = path.rank
-        self._made: dict[FourierBasis, Balance] = {}
-
-    def at(self, fourier: FourierBasis) -> Balance:
-        """Return the system at one resolution."""
-        if fourier not in self._made:
-            self._made[fourier] = self._path.balance(fourier)
-        return self._made[fourier]
-
-    def estimate(
-        self, correction: Correction, fourier: FourierBasis, normal: Array
-    ) -> Estimate:
-        """Return the error of a converged point, by two steps at twice the order.
-
-        Both have the same factors. The corrected point lies in the plane through the
-        point that is normal to ``normal``.
-
-        Raises
-        ------
-        SingularError
-            If the point lies on a fold.
-        """
-        point = correction.point
-        finer = FourierBasis(2 * fourier.harmonics + 1, 2 * fourier.samples)
-        residual, refined = self.at(finer)(point)
-        step = refined.solve(normal, np.append(-residual, 0.0))
-        again, _ = self.at(finer).residual(point + step)
-        second = refined.solve(normal, np.append(-again, 0.0))
-        low = residual.copy()
-        low[fourier.coefficients * self.rank :] = 0.0
-        rights = np.zeros((point.size, 2))
-        rights[:-1, 0] = -correction.residual
-        rights[:-1, 1] = correction.residual - low
-        newton, sampled = correction.linearised.solve(normal, rights).T
-        before, at_newton, at_sampled, after, last = (
-            self.amplitudes(point + each)
-            for each in (0.0 * point, newton, newton + sampled, step, step + second)
-        )
-        size = float(before.max(initial=0.0)) or 1.0
-        sampling = float(np.abs(at_sampled - at_newton).max(initial=0.0)) / size
-        truncation = float(np.abs(last - at_sampled).max(initial=0.0)) / size
-        truncation += float(np.abs(last - after).max(initial=0.0)) / size
-        return Estimate(truncation, sampling, point + step + second, finer)
-
-    def amplitudes(self, point: Array) -> Array:
-        """Return the first-harmonic amplitude of each probe [m]."""
-        rank = self.rank
-        first = point[rank : 2 * rank] - 1j * point[2 * rank : 3 * rank]
-        problem, frequency = self._path.at(float(point[-1]))
-        return np.abs(problem.first_harmonic(first, frequency, self._probes))
 
 
 class AdaptiveBalance:

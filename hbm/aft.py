@@ -85,15 +85,21 @@ class AlternatingFrequencyTime:
         self._hat = hat(fourier.harmonics, samples)[:, None]
         self._mixing = _mixing(basis, self._entries)
 
-    def moved(self, points: ContactPoints, offset: Array) -> AlternatingFrequencyTime:
+    def with_points(
+        self, points: ContactPoints, offset: Array
+    ) -> AlternatingFrequencyTime:
         """Return the same for other values of the contacts; both share buffers."""
+        kinds = (points.friction, points.constant_load)
+        known = (self._points.friction, self._points.constant_load)
+        if not all(map(np.array_equal, kinds, known)):
+            raise ValueError("the contacts are of another kind: plan for them anew")
         other = copy.copy(self)
         other._points, other._offset = points, offset
-        if not np.array_equal(other._entries, _entries(points)):
-            raise ValueError("the contacts have other tangents: plan for them anew")
         return other
 
-    def __call__(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
+    def __call__(
+        self, coefficients: Array, frequency: float, decay: float = 0.0
+    ) -> tuple[Array, Array]:
         """Return force and its derivative by ω for y, each shape (2H + 1, rank).
 
         Parameters
@@ -102,12 +108,16 @@ class AlternatingFrequencyTime:
             Of y [m], shape ``(2H + 1, rank)``.
         frequency
             Excitation frequency ω [rad/s]; turns the derivative by phase into velocity.
+        decay
+            Rate β [1/s] at which the motion about its mean dies away: it slows the
+            velocity by β times that motion (theory, eq. 27). The derivative by ω is
+            that of a steady motion.
 
         Returns
         -------
         Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
         """
-        displacement, velocity = self._motion(coefficients, frequency)
+        displacement, velocity = self._motion(coefficients, frequency, decay)
         eventful = sample(
             self._points,
             displacement,
@@ -175,14 +185,18 @@ class AlternatingFrequencyTime:
         period = 2.0 * np.pi / frequency
         return ContactCycle(smallest, largest, *(float(p) * period for p in powers))
 
-    def _motion(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
-        displacement, velocity = self._synthesis(coefficients, frequency)
+    def _motion(
+        self, coefficients: Array, frequency: float, decay: float = 0.0
+    ) -> tuple[Array, Array]:
+        rates = frequency * derivative(coefficients)
+        rates[1:] -= decay * coefficients[1:]
+        displacement, velocity = self._synthesis(coefficients, rates)
         return displacement + self._offset[:, None], velocity
 
-    def _synthesis(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
+    def _synthesis(self, coefficients: Array, rates: Array) -> tuple[Array, Array]:
         """Return displacement and velocity of the points at the samples needed."""
         displacement = self._displacement.synthesis(coefficients)
-        velocity = self._velocity.synthesis(frequency * derivative(coefficients))
+        velocity = self._velocity.synthesis(rates)
         if self._direct:
             return displacement, velocity
         seen = self._seen

@@ -9,11 +9,12 @@ from operator import itemgetter
 
 import numpy as np
 
-from hbm.adaptive import AdaptiveBalance, Resolution
+from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import ContinuationError, Metric
 from hbm.events import Segment, crossings, excess, folds
 from hbm.newton import Correction, Outcome
 from hbm.residual import HarmonicBalance
+from hbm.resolution import PathResolution
 from hbm.stability import SmallMotions
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -32,7 +33,7 @@ class Curve:
 
     problem: Problem
     system: AdaptiveBalance
-    resolution: Resolution
+    resolution: PathResolution
     control: StepControl
     motions: Callable[[float], SmallMotions] | None
     """parameter ↦ the structure for small motions, if stability is wanted"""

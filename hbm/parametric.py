@@ -62,7 +62,7 @@ class ParametricBalance:
                 self._balance = HarmonicBalance(problem, self.fourier, self._active)
             while len(self._past) >= PAST:
                 self._past.pop(next(iter(self._past)))
-            self._past[parameter] = self._balance.moved(problem)
+            self._past[parameter] = self._balance.with_problem(problem)
         inner = point.copy()
         inner[-1] = frequency
         return self._past[parameter], inner

@@ -58,13 +58,13 @@ class HarmonicBalance:
         self._terms = terms(self._active)
         self._wanted = np.vstack([self._active[:1], self._active[1::2]])
 
-    def moved(self, problem: RelativeProblem) -> HarmonicBalance:
+    def with_problem(self, problem: RelativeProblem) -> HarmonicBalance:
         """Return the same for other contacts and loads in the same coordinates.
 
         Both share the buffers of the contacts.
         """
         other = copy.copy(self)
-        other.contact = self.contact.moved(problem.points, problem.offset)
+        other.contact = self.contact.with_points(problem.points, problem.offset)
         other._take(problem)
         return other
 

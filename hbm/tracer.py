@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hbm.adaptive import AdaptiveBalance, Resolution
+from hbm.adaptive import AdaptiveBalance
 from hbm.curve import Curve
 from hbm.options import CurveOptions
 from hbm.path import Path
 from hbm.pieces import Pieces
+from hbm.resolution import PathResolution
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -22,7 +23,7 @@ class Tracer:
     def __init__(self, problem: Problem, path: Path, options: CurveOptions) -> None:
         """Plan for ``path``; ``problem``, one on it, says what is large."""
         self.path = path
-        resolution = Resolution(path, problem.probes.rows)
+        resolution = PathResolution(path, problem.probes.rows)
         self.system = AdaptiveBalance(
             resolution,
             options.first,

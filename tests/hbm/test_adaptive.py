@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from hbm.adaptive import PATIENCE, WAIT, AdaptiveBalance, Resolution
+from hbm.adaptive import PATIENCE, WAIT, AdaptiveBalance
 from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
+from hbm.resolution import PathResolution
 from hbm.solve import frequency_response
 from hbm.step_control import StepControl
 from honesty import VARIANTS, block, errors
@@ -22,10 +23,10 @@ CONTROL = StepControl(tolerance=1e-8)
 FREQUENCY = 11.0
 
 
-def resolution_of(problem: Problem) -> Resolution:
+def resolution_of(problem: Problem) -> PathResolution:
     rest = static_equilibrium(problem)
     path = along_frequency(problem, rest, FREQUENCY, 2.0 * FREQUENCY)
-    return Resolution(path, problem.probes.rows)
+    return PathResolution(path, problem.probes.rows)
 
 
 def adaptive(

@@ -1,0 +1,89 @@
+"""Linear modes: free decaying motions about rest, contacts sticking (theory §6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from hbm.fourier import FourierBasis
+from hbm.relative import RelativeProblem
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.problem import Problem
+
+
+@dataclass(frozen=True, slots=True)
+class LinearMode:
+    """Re φ exp(st): a motion so small that the contacts are springs and dashpots."""
+
+    pole: complex
+    """s [rad/s]"""
+    shape: ComplexArray
+    """φ, whose largest probe is one, shape (dofs,)"""
+
+    @property
+    def frequency(self) -> float:
+        """Natural frequency |s| [rad/s]."""
+        return abs(self.pole)
+
+    @property
+    def damping(self) -> float:
+        """Damping ratio."""
+        return -self.pole.real / abs(self.pole)
+
+
+def linear_modes(
+    problem: Problem, relative: RelativeProblem, lowest: float, highest: float
+) -> list[LinearMode]:
+    """Return the modes with a natural frequency within a range, the lowest first.
+
+    Parameters
+    ----------
+    problem
+        The structure; its drive is not used.
+    relative
+        The same problem in relative coordinates, about its rest.
+    lowest, highest
+        Of the natural frequencies [rad/s].
+
+    Notes
+    -----
+    Overdamped motions have no frequency and are left out, and so is what no probe sees.
+    """
+    stiffness, damping = _about_rest(problem, relative)
+    poles, shapes = _eigenpairs(problem.structure.mass, damping, stiffness)
+    inside = (poles.imag > 0.0) & (np.abs(poles) >= lowest) & (np.abs(poles) <= highest)
+    found = []
+    for place in np.flatnonzero(inside):
+        shape = shapes[:, place] / np.linalg.norm(shapes[:, place])
+        seen = problem.probes.rows @ shape
+        largest = seen[np.abs(seen).argmax()]
+        if abs(largest) > 1e-6:
+            found.append(LinearMode(complex(poles[place]), shape / largest))
+    return sorted(found, key=lambda mode: mode.frequency)
+
+
+def _about_rest(problem: Problem, relative: RelativeProblem) -> tuple[Array, Array]:
+    """Return stiffness and damping of the structure with its contacts at rest."""
+    contact = relative.contact(FourierBasis(1, 8))
+    contact(np.vstack([relative.rest, np.zeros((2, relative.rank))]), 1.0)
+    elastic, viscous = (part[:, :, 0] for part in contact.spectra(0))
+    select, structure = relative.selection, problem.structure
+    return (
+        structure.stiffness + select.T @ elastic @ select,
+        structure.damping + select.T @ viscous @ select,
+    )
+
+
+def _eigenpairs(
+    mass: Array, damping: Array, stiffness: Array
+) -> tuple[ComplexArray, ComplexArray]:
+    """Return s and φ of (s² M + s C + K) φ = 0, shapes (2 dofs,) and (dofs, 2 dofs)."""
+    squares, modes = scipy.linalg.eigh((stiffness + stiffness.T) / 2.0, mass)
+    frequencies = np.diag(np.sqrt(np.maximum(squares, 0.0)))
+    none = np.zeros_like(frequencies)
+    # The state (Ω q, q̇) keeps large and small frequencies on one scale.
+    system = np.block([[none, frequencies], [-frequencies, -modes.T @ damping @ modes]])
+    poles, vectors = np.linalg.eig(system)
+    return poles.astype(complex), (modes @ vectors[len(mass) :]).astype(complex)

@@ -1,0 +1,73 @@
+"""One nonlinear mode at any number of harmonics and samples (theory §6)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.active import extended
+from hbm.fourier import FourierBasis
+from hbm.free_motion import FreeMotion
+from hbm.linear_modes import LinearMode
+from hbm.modal import ModalBalance, ModalParts, Reference
+from hbm.relative import RelativeProblem
+from hbm.resolution import Resolution
+from microslip_mechanics.arrays import Array
+
+FAINTEST = 1e-4
+"""damping ratio below which errors of damping are relative to this one"""
+
+
+class ModalResolution(Resolution):
+    """Balances of a mode; what is estimated is the error of its damping."""
+
+    def __init__(
+        self,
+        problem: RelativeProblem,
+        active: NDArray[np.bool_],
+        free: FreeMotion,
+        reference: Reference,
+        linear: LinearMode,
+    ) -> None:
+        """Resolve ``problem`` in ``active`` coefficients of the probing orders."""
+        self._problem, self._active = problem, active
+        self._free, self._reference, self._linear = free, reference, linear
+        self._balances: dict[FourierBasis, ModalBalance] = {}
+        self.rank = problem.rank + free.count + 1
+
+    def at(self, fourier: FourierBasis) -> ModalBalance:
+        """Return the balance at one resolution."""
+        if fourier not in self._balances:
+            self._balances[fourier] = ModalBalance(
+                self._problem,
+                self._free,
+                self._reference,
+                fourier,
+                extended(self._active, fourier.harmonics),
+            )
+        return self._balances[fourier]
+
+    def amplitudes(self, point: Array) -> Array:
+        """Return the decay rate [1/s], and the least by which its error is measured."""
+        pole = self._coarsest.parts(point).pole
+        return np.array([-pole.real, FAINTEST * self._linear.frequency])
+
+    def metric(self, point: Array) -> Array:
+        """Return the change of each component that counts as one unit of arc."""
+        return self._coarsest.metric(point)
+
+    def start(self, logarithm: float, size: int) -> Array:
+        """Return the point of the linear mode at log a, with ``size`` components."""
+        pole, motion = self._linear.pole, self._linear.shape
+        relative = self._problem.selection @ motion
+        shape = np.zeros((3, relative.size))
+        shape[1], shape[2] = relative.real, -relative.imag
+        modal = self._free.modal(pole, relative, motion)
+        parts = ModalParts(shape, modal, pole, math.exp(logarithm))
+        return self._coarsest.point(parts, size)
+
+    @property
+    def _coarsest(self) -> ModalBalance:
+        return self.at(FourierBasis(1, 8))

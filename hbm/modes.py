@@ -1,0 +1,215 @@
+"""The public functions: from a problem to its nonlinear modes (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from hbm.active import moving, symmetric
+from hbm.adaptive import AdaptiveBalance
+from hbm.continuation import ContinuationError
+from hbm.fourier import FourierBasis, derivative
+from hbm.free_motion import free_motion
+from hbm.leaps import Leaping
+from hbm.linear_modes import LinearMode, linear_modes
+from hbm.modal import Reference
+from hbm.modal_resolution import ModalResolution
+from hbm.newton import Correction
+from hbm.relative import relative_problem
+from hbm.step_control import StepControl
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import StaticState
+
+MOST = 63
+"""harmonics that are not exceeded"""
+SHORTEST = 1e-5
+"""arc length below which a gap is passed"""
+SHARPEST = 0.9
+"""cosine of the sharpest turn in a step: strands of a narrow fold are told apart"""
+
+
+@dataclass(frozen=True, slots=True)
+class ModeOptions:
+    """Amplitudes, resolution and accuracy of a nonlinear mode."""
+
+    smallest: float
+    """first amplitude [m]"""
+    largest: float
+    """last amplitude [m]"""
+    error: float = 1e-2
+    """of the damping ratio at each point, relative: harmonics follow from it"""
+    harmonics: int | None = None
+    """fixed number instead"""
+    tolerance: float = 1e-7
+    """largest unbalanced force over modal stiffness times amplitude"""
+
+    def __post_init__(self) -> None:
+        """Check the range."""
+        if not 0.0 < self.smallest < self.largest < math.inf:
+            raise ValueError(
+                f"amplitudes from {self.smallest:g} to {self.largest:g} m: "
+                "give two positive ones, the smaller first"
+            )
+        for name in ("error", "tolerance"):
+            value = getattr(self, name)
+            if not 0.0 < value < math.inf:
+                raise ValueError(f"{name} {value:g}: give a positive number")
+
+    @property
+    def first(self) -> FourierBasis:
+        """Resolution of the first point."""
+        harmonics = self.harmonics or 3
+        return FourierBasis(harmonics, 64 * (harmonics + 1))
+
+
+@dataclass(frozen=True, slots=True)
+class NonlinearMode:
+    """A free decaying motion of one amplitude."""
+
+    pole: complex
+    """s [rad/s]: −decay rate + i frequency of the damped motion"""
+    probes: ComplexArray
+    """first harmonic of each probe [m], shape (probes,)"""
+    coefficients: Array
+    """of the motion u [m], shape (2H + 1, dofs)"""
+    frequency_error: float
+    """estimated, relative"""
+    damping_error: float
+    """estimated, of the damping ratio, relative"""
+    harmonics: int
+    samples: int
+
+    @property
+    def frequency(self) -> float:
+        """Natural frequency |s| [rad/s]."""
+        return abs(self.pole)
+
+    @property
+    def damping(self) -> float:
+        """Damping ratio."""
+        return -self.pole.real / abs(self.pole)
+
+    @property
+    def amplitude(self) -> float:
+        """Largest of the probes [m]."""
+        return float(np.abs(self.probes).max(initial=0.0))
+
+    def state(self, phase: float) -> tuple[Array, Array]:
+        """Return displacement [m] and velocity [m/s] at a phase, shape (dofs,) each."""
+        orders = np.arange(1, len(self.coefficients) // 2 + 1) * phase
+        waves = np.ones(len(self.coefficients))
+        waves[1::2], waves[2::2] = np.cos(orders), np.sin(orders)
+        rates = self.pole.imag * derivative(self.coefficients)
+        rates[1:] += self.pole.real * self.coefficients[1:]
+        return waves @ self.coefficients, waves @ rates
+
+
+def modes_in_range(
+    problem: Problem, rest: StaticState, lowest: float, highest: float
+) -> list[LinearMode]:
+    """Return the modes of very small motions with natural frequencies in a range.
+
+    ``rest`` is the static equilibrium; the frequencies are in rad/s.
+    """
+    relative = relative_problem(problem, rest)
+    return linear_modes(problem, relative, lowest, highest)
+
+
+def nonlinear_mode(
+    problem: Problem, rest: StaticState, linear: LinearMode, options: ModeOptions
+) -> Iterator[NonlinearMode]:
+    """Yield a mode along its amplitude, one per continuation step.
+
+    Parameters
+    ----------
+    problem
+        What moves; its drive is not used.
+    rest
+        Its static equilibrium.
+    linear
+        The mode of small motions, from which this one grows.
+    options
+        Amplitudes and resolution.
+
+    Raises
+    ------
+    ContinuationError
+        If the mode cannot be followed; what was yielded before stays valid.
+    """
+    resolution = _resolution(problem, rest, linear)
+    system = AdaptiveBalance(
+        resolution,
+        options.first,
+        tolerance=None if options.harmonics else options.error,
+        most=MOST,
+    )
+    with threadpool_limits(1, "blas"):
+        for correction in Leaping(
+            system,
+            resolution.start(math.log(options.smallest), system.size),
+            math.log(options.largest),
+            resolution.metric,
+            StepControl(
+                tolerance=options.tolerance,
+                smallest=SHORTEST,
+                sharpest_turn=SHARPEST,
+            ),
+            system,
+        ):
+            yield _mode(problem, rest, resolution, system, correction)
+    if correction.point[-1] < math.log(options.largest):
+        raise ContinuationError(
+            f"the mode turns back to {options.smallest:g} m before it reaches "
+            f"{options.largest:g} m: more harmonics help, or a smaller range"
+        )
+
+
+def _resolution(
+    problem: Problem, rest: StaticState, linear: LinearMode
+) -> ModalResolution:
+    """Return the mode that grows from a linear one, at any resolution."""
+    whole = relative_problem(problem, rest)
+    mass = problem.structure.mass
+    row = linear.shape.conj() @ mass
+    size = float((row @ linear.shape).real)
+    # The mode answers to a load like its own inertia, and moves what that reaches.
+    load = np.stack([whole.force[0], (mass @ linear.shape).astype(complex)])
+    loaded = replace(whole, force=load)
+    active = moving(loaded, linear.frequency)
+    kept, odd = symmetric(active)
+    return ModalResolution(
+        loaded.restricted(kept, odd),
+        active[:, kept],
+        free_motion(whole.condensed, kept, mass, linear.pole, size),
+        Reference(linear.pole, row / size, linear.frequency**2 * size),
+        linear,
+    )
+
+
+def _mode(
+    problem: Problem,
+    rest: StaticState,
+    resolution: ModalResolution,
+    system: AdaptiveBalance,
+    correction: Correction,
+) -> NonlinearMode:
+    """Return the mode at a settled point."""
+    point, fourier, error = system.kept(correction.point)
+    balance = resolution.at(fourier)
+    motion, pole = balance.motion(point), balance.parts(point).pole
+    first = problem.probes.rows @ (motion[1] - 1j * motion[2])
+    motion[0] += rest.displacement
+    change = math.inf
+    if system.estimate is not None:
+        finer = resolution.at(system.estimate.fourier)
+        better = finer.parts(system.estimate.corrected).pole
+        rough = resolution.at(system.settled).parts(correction.point).pole
+        change = abs(abs(better) / abs(rough) - 1.0)
+    return NonlinearMode(
+        pole, first, motion, change, error, fourier.harmonics, fourier.samples
+    )

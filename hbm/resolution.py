@@ -1,0 +1,124 @@
+"""A system at any number of harmonics and samples, and the error of its points (§6)."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from hbm.fourier import FourierBasis
+from hbm.newton import Correction, Linearised
+from hbm.path import Path
+from hbm.residual import Balance
+from microslip_mechanics.arrays import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What two Newton steps at twice the resolution say of a point.
+
+    They leave an error no larger than themselves where the series converges like 1/H,
+    as dry friction does, and a much smaller one where it converges faster.
+    """
+
+    truncation: float
+    """relative change of the amplitude by the harmonics that were left out"""
+    sampling: float
+    """and by the distance of the samples"""
+    corrected: Array
+    """the point after the steps"""
+    fourier: FourierBasis
+    """its resolution"""
+
+    @property
+    def error(self) -> float:
+        """Sum of both."""
+        return self.truncation + self.sampling
+
+
+class Resolved(Protocol):
+    """A system at one resolution."""
+
+    def __call__(self, point: Array) -> tuple[Array, Linearised]:
+        """Return the residual, and what solves with its Jacobian."""
+
+    def residual(self, point: Array) -> tuple[Array, Array]:
+        """Return the residual, and what belongs to it."""
+
+
+class Resolution(ABC):
+    """A system at any number of harmonics and samples."""
+
+    rank: int
+    """number of components of a point for each Fourier coefficient"""
+
+    @abstractmethod
+    def at(self, fourier: FourierBasis) -> Resolved:
+        """Return the system at one resolution."""
+
+    @abstractmethod
+    def amplitudes(self, point: Array) -> Array:
+        """Return the values by whose change an error is measured."""
+
+    def estimate(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> Estimate:
+        """Return the error of a converged point, by two steps at twice the order.
+
+        Both have the same factors. The corrected point lies in the plane through the
+        point that is normal to ``normal``.
+
+        Raises
+        ------
+        SingularError
+            If the point lies on a fold.
+        """
+        point = correction.point
+        finer = FourierBasis(2 * fourier.harmonics + 1, 2 * fourier.samples)
+        residual, refined = self.at(finer)(point)
+        step = refined.solve(normal, np.append(-residual, 0.0))
+        again, _ = self.at(finer).residual(point + step)
+        second = refined.solve(normal, np.append(-again, 0.0))
+        low = residual.copy()
+        low[fourier.coefficients * self.rank :] = 0.0
+        rights = np.zeros((point.size, 2))
+        rights[:-1, 0] = -correction.residual
+        rights[:-1, 1] = correction.residual - low
+        newton, sampled = correction.linearised.solve(normal, rights).T
+        before, at_newton, at_sampled, after, last = (
+            self.amplitudes(point + each)
+            for each in (0.0 * point, newton, newton + sampled, step, step + second)
+        )
+        size = float(before.max(initial=0.0)) or 1.0
+        sampling = float(np.abs(at_sampled - at_newton).max(initial=0.0)) / size
+        truncation = float(np.abs(last - at_sampled).max(initial=0.0)) / size
+        truncation += float(np.abs(last - after).max(initial=0.0)) / size
+        return Estimate(truncation, sampling, point + step + second, finer)
+
+
+class PathResolution(Resolution):
+    """A path at any number of harmonics and samples, made when first asked for."""
+
+    def __init__(self, path: Path, probes: Array) -> None:
+        """Resolve ``path``; its points are judged by the amplitude of the probes.
+
+        ``probes`` has shape ``(probes, dofs)``.
+        """
+        self._path, self._probes = path, probes
+        self.rank = path.rank
+        self._made: dict[FourierBasis, Balance] = {}
+
+    def at(self, fourier: FourierBasis) -> Balance:
+        """Return the system at one resolution."""
+        if fourier not in self._made:
+            self._made[fourier] = self._path.balance(fourier)
+        return self._made[fourier]
+
+    def amplitudes(self, point: Array) -> Array:
+        """Return the first-harmonic amplitude of each probe [m]."""
+        rank = self.rank
+        first = point[rank : 2 * rank] - 1j * point[2 * rank : 3 * rank]
+        problem, frequency = self._path.at(float(point[-1]))
+        return np.abs(problem.first_harmonic(first, frequency, self._probes))

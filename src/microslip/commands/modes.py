@@ -1,0 +1,195 @@
+"""microslip modes: natural frequency and damping against amplitude."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
+
+    from hbm.modes import ModeOptions, NonlinearMode
+    from microslip.studies.modes import FollowedMode
+
+HEADER = (
+    "amplitude  frequency  damping   estimated error of\n"
+    "     [mm]       [Hz]      [%]  frequency    damping"
+)
+AMPLITUDES = (1e-2, 10.0)
+"""smallest and largest [mm]"""
+HARMONICS = 31
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "modes",
+        help="natural frequency and damping against amplitude",
+        description="Follow the modes of free decaying motion of a scene from sticking "
+        "to sliding contacts; print natural frequency and damping ratio against the "
+        "amplitude of the highest probe, write SCENE-modes.csv and SCENE-modes.png.",
+        epilog="example: microslip modes two-blades --set model=A",
+    )
+    arguments.add_scene(parser)
+    parser.add_argument(
+        "--amplitudes",
+        type=arguments.positive,
+        nargs=2,
+        metavar=("SMALLEST", "LARGEST"),
+        default=AMPLITUDES,
+        help="of the probe that moves most, in mm (default: 0.01 10)",
+    )
+    parser.add_argument(
+        "--range",
+        type=arguments.positive,
+        nargs=2,
+        metavar=("LOWEST", "HIGHEST"),
+        help="natural frequencies, in Hz, of the modes that are followed, while their "
+        "contacts stick (default: the range of the scene's curve)",
+    )
+    parser.add_argument(
+        "--harmonics",
+        type=int,
+        default=HARMONICS,
+        metavar="N",
+        help=f"number of harmonics, 1 to 127 (default: {HARMONICS})",
+    )
+    arguments.add_output(parser, "modes")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.progress import shown
+    from microslip.rigs import problem_of
+    from microslip.scene_file import load_scene
+    from microslip.studies.modes import followed
+
+    data, picture = arguments.outputs(options, "modes")
+    scene = load_scene(options.scene, options.overrides)
+    lowest, highest = options.range or (scene.curve.lowest, scene.curve.highest)
+    chosen = _chosen(options)
+    decades = math.log10(chosen.largest / chosen.smallest)
+
+    def done(point: NonlinearMode) -> float:
+        return math.log10(point.amplitude / chosen.smallest)
+
+    def watch(points: Iterable[NonlinearMode]) -> Iterator[NonlinearMode]:
+        return shown(points, total=decades, done=done, unit="decades", name="mode")
+
+    frequencies = math.tau * lowest, math.tau * highest
+    modes: list[FollowedMode] = []
+    ending = "complete"
+    try:
+        for mode in followed(problem_of(scene), frequencies, chosen, watch):
+            modes.append(mode)
+            ending = mode.ending if ending == "complete" else ending
+            print("\n".join(_lines(mode)), flush=True)
+    except KeyboardInterrupt:
+        ending = "interrupted"
+        if not modes:
+            raise
+    _keep(options, modes, data.with_suffix(".csv"), picture)
+    return arguments.ended(ending)
+
+
+def _chosen(options: argparse.Namespace) -> ModeOptions:
+    """Return amplitudes and resolution.
+
+    Raises
+    ------
+    SceneError
+        If they make no sense.
+    """
+    from hbm.modes import ModeOptions
+    from microslip.quantity import SceneError
+
+    if not 1 <= options.harmonics <= 127:
+        raise SceneError(f"--harmonics {options.harmonics}: give 1 to 127")
+    if options.range and not options.range[0] < options.range[1]:
+        low, high = options.range
+        raise SceneError(f"--range {low:g} {high:g}: give the lower frequency first")
+    smallest, largest = options.amplitudes
+    if not smallest < largest:
+        raise SceneError(
+            f"--amplitudes {smallest:g} {largest:g}: give the smaller one first"
+        )
+    return ModeOptions(1e-3 * smallest, 1e-3 * largest, harmonics=options.harmonics)
+
+
+def _lines(mode: FollowedMode) -> list[str]:
+    """Return the table of one mode."""
+    from statistics import median
+
+    from microslip.studies.modes import shown_points
+
+    hertz = mode.linear.frequency / math.tau
+    rows = [
+        f"mode at {hertz:.4f} Hz, damping ratio {100.0 * mode.linear.damping:.4f} %, "
+        "while its contacts stick",
+        HEADER,
+    ]
+    for point in shown_points(mode):
+        note = "  most damped" if point is mode.most_damped else ""
+        rows.append(
+            f"{1e3 * point.amplitude:9.5f} {point.frequency / math.tau:10.4f} "
+            f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
+            f"{point.damping_error:10.1e}{note}"
+        )
+    errors = [point.damping_error for point in mode.points]
+    rows.append(
+        f"{len(mode.points)} points with {mode.points[-1].harmonics} harmonics and "
+        f"{mode.points[-1].samples} samples; estimated error of the damping ratio: "
+        f"{100.0 * median(errors):.2g} % in the median, above 5 % at "
+        f"{sum(error > 0.05 for error in errors)} points"
+    )
+    return rows
+
+
+def _keep(
+    options: argparse.Namespace, modes: list[FollowedMode], table: Path, picture: Path
+) -> None:
+    """Write table and picture."""
+    import csv
+
+    from microslip.figures.modes import ModeLine, modes_figure
+    from microslip.store import save_figure
+
+    with table.open("w", encoding="utf-8", newline="") as file:
+        rows = csv.writer(file)
+        rows.writerow(
+            [
+                "mode_hz",
+                "amplitude_m",
+                "frequency_hz",
+                "damping_ratio",
+                "frequency_error",
+                "damping_error",
+            ]
+        )
+        for mode in modes:
+            for point in mode.points:
+                rows.writerow(
+                    [
+                        mode.linear.frequency / math.tau,
+                        point.amplitude,
+                        point.frequency / math.tau,
+                        point.damping,
+                        point.frequency_error,
+                        point.damping_error,
+                    ]
+                )
+    lines = [
+        ModeLine(
+            f"mode at {mode.linear.frequency / math.tau:.2f} Hz",
+            [point.amplitude for point in mode.points],
+            [point.frequency / math.tau for point in mode.points],
+            [point.damping for point in mode.points],
+        )
+        for mode in modes
+    ]
+    save_figure(picture, modes_figure(lines, arguments.title(options)))
+    print(f"table in {table}, picture in {picture}")

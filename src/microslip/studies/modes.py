@@ -1,0 +1,95 @@
+"""Natural frequency and damping of a scene's modes against amplitude."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from hbm.continuation import ContinuationError
+from hbm.linear_modes import LinearMode
+from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
+from microslip.progress import Watch
+from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import static_equilibrium
+
+
+class ModeError(MicroslipError):
+    """A scene without a mode to follow; the text says where it was sought."""
+
+
+@dataclass(frozen=True, slots=True)
+class FollowedMode:
+    """A mode, as far as it was followed."""
+
+    linear: LinearMode
+    """of very small motions"""
+    points: tuple[NonlinearMode, ...]
+    ending: str
+    """"complete", "interrupted", or the cause"""
+
+    @property
+    def most_damped(self) -> NonlinearMode:
+        """The point of the largest damping ratio."""
+        return max(self.points, key=lambda point: point.damping)
+
+
+def followed(
+    problem: Problem,
+    frequencies: tuple[float, float],
+    options: ModeOptions,
+    watch: Watch = iter,
+) -> Iterator[FollowedMode]:
+    """Yield the modes with natural frequencies in a range [rad/s], the lowest first.
+
+    What cannot go on, or is interrupted, keeps what it has.
+
+    Raises
+    ------
+    ModeError
+        If there is no mode in the range.
+    """
+    rest = static_equilibrium(problem)
+    found = modes_in_range(problem, rest, *frequencies)
+    if not found:
+        raise ModeError(
+            "no mode has a natural frequency in this range while its contacts stick: "
+            "give another --range"
+        )
+    for linear in found:
+        mode = _followed(linear, nonlinear_mode(problem, rest, linear, options), watch)
+        yield mode
+        if mode.ending == "interrupted":
+            return
+
+
+def _followed(
+    linear: LinearMode, growth: Iterator[NonlinearMode], watch: Watch
+) -> FollowedMode:
+    """Return a mode as far as it grows; without a first point there is none."""
+    points: list[NonlinearMode] = []
+    ending = "complete"
+    try:
+        for point in watch(growth):
+            points.append(point)  # noqa: PERF402  (what is there must be kept)
+    except ContinuationError as error:
+        ending = str(error)
+        if not points:
+            raise
+    except KeyboardInterrupt:
+        ending = "interrupted"
+        if not points:
+            raise
+    return FollowedMode(linear, tuple(points), ending)
+
+
+def shown_points(mode: FollowedMode, count: int = 20) -> list[NonlinearMode]:
+    """Return points evenly spread along a mode, the most damped one among them."""
+    last = len(mode.points) - 1
+    places = {round(last * share / (count - 1)) for share in range(count)}
+    places.add(_place(mode.points, mode.most_damped))
+    return [mode.points[place] for place in sorted(places)]
+
+
+def _place(points: Sequence[NonlinearMode], wanted: NonlinearMode) -> int:
+    return next(place for place, each in enumerate(points) if each is wanted)

@@ -82,7 +82,10 @@ class AlternatingFrequencyTime:
         )
         self._hat = hat(fourier.harmonics, samples)[:, None]
         self._mixing = _mixing(basis, self._entries)
-        self._moved = np.zeros((rows, samples)), np.zeros((rows, samples))
+        self._moved: tuple[Array, Array] = (
+            np.zeros((rows, samples)),
+            np.zeros((rows, samples)),
+        )
 
     def __call__(self, coefficients: Array, frequency: float) -> tuple[Array, Array]:
         """Return force and its derivative by ω for y, each shape (2H + 1, rank).

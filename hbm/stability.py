@@ -16,9 +16,9 @@ from scipy.sparse.csgraph import connected_components
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.condensation import split
+from hbm.tangents import StepTangents, step_tangents
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.jit import kernel
-from hbm.tangents import StepTangents, step_tangents
 from microslip_mechanics.problem import Problem
 
 SMALLEST = 0.004
@@ -50,20 +50,18 @@ class SmallMotions:
             Of the orbit [rad/s].
         """
         signs = self._signs(contact)
-        steps = step_tangents(
-            contact, self.basis, frequency, half=signs is not None
-        )
+        steps = step_tangents(contact, self.basis, frequency, half=signs is not None)
         found = []
         for family in self._families(steps.elastic, steps.viscous):
             carried = self._map(family, steps)
             if signs is None:
-                values = np.linalg.eigvals(carried)
+                values = np.linalg.eigvals(carried).astype(complex)
             else:
                 mirrored = np.tile(signs[family], 2)[:, None] * carried
                 values = np.linalg.eigvals(mirrored).astype(complex) ** 2
-            found.append(values.astype(complex))
-        values = np.concatenate(found)
-        ordered: ComplexArray = values[np.argsort(-np.abs(values))]
+            found.append(values)
+        together = np.concatenate(found)
+        ordered: ComplexArray = together[np.argsort(-np.abs(together))]
         return ordered
 
     def _map(self, family: NDArray[np.int64], steps: StepTangents) -> Array:

@@ -11,6 +11,7 @@ a commutator-free Magnus method of fourth order (Blanes and Moan, 2006).
 
 from __future__ import annotations
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -112,14 +113,13 @@ def _path(contact: AlternatingFrequencyTime, frequency: float, *, half: bool) ->
 
 def _edges(cuts: Array, longest: float) -> Array:
     """Return the edges of the intervals: the cuts, and equal parts between them."""
-    close = 1e-9 * cuts[-1]
-    kept = cuts[np.append(np.diff(cuts) > close, True)]
+    kept = cuts[np.append(np.diff(cuts) > 1e-9 * cuts[-1], True)]
     kept[0] = 0.0
+    counts = np.maximum(1, np.ceil(np.diff(kept) / longest - 0.25)).astype(int)
     parts = [
-        np.linspace(left, right, max(1, int(np.ceil((right - left) / longest - 0.25))),
-                    endpoint=False)
-        for left, right in zip(kept[:-1], kept[1:], strict=True)
-    ]  # fmt: skip
+        np.linspace(left, right, count, endpoint=False)
+        for (left, right), count in zip(itertools.pairwise(kept), counts, strict=True)
+    ]
     return np.concatenate([*parts, kept[-1:]])
 
 
@@ -198,34 +198,46 @@ def _events(points: ContactPoints, path: Path) -> Array:
     """Return where a point changes its regime or turns, in samples."""
     cells = path.displacement.shape[1] - 1
     found, count = np.zeros(8 * cells * points.load.size + 1), 0
-    moved, moving = np.zeros(3), np.zeros(3)
     for point in range(points.load.size):
-        before = _regime(points, point, path, 0.0, moved, moving)
+        rubs = points.friction[point] != FRICTIONLESS
         for cell in range(cells):
-            turn = 0.0
-            if points.friction[point] != FRICTIONLESS:
-                turn = _slowest(path, point, cell)
-            left = float(cell)
-            for right in (cell + turn, cell + 1.0):
-                if right <= left:
-                    continue
-                after = _regime(points, point, path, right, moved, moving)
-                if right < cell + 1.0 and after & PUSHES + SLIDES:
-                    found[count], count = right, count + 1
-                for bit in (TOUCHES, PUSHES, SLIDES):
-                    if (before & bit) == (after & bit):
-                        continue
-                    low, high = left, right
-                    for _ in range(HALVINGS):
-                        middle = 0.5 * (low + high)
-                        same = _regime(points, point, path, middle, moved, moving)
-                        if (same & bit) == (before & bit):
-                            low = middle
-                        else:
-                            high = middle
-                    found[count], count = high, count + 1
-                before, left = after, right
+            turn = _slowest(path, point, cell) if rubs else 0.0
+            if turn > 0.0:
+                count = _changes(points, point, path, cell, cell + turn, found, count)
+                found[count] = cell + turn
+                count += 1
+            count = _changes(points, point, path, cell + turn, cell + 1.0, found, count)
     return found[:count]
+
+
+@kernel
+def _changes(
+    points: ContactPoints,
+    point: int,
+    path: Path,
+    left: float,
+    right: float,
+    found: Array,
+    count: int,
+) -> int:
+    """Add the changes of regime between two places; return the number found so far."""
+    moved, moving = np.zeros(3), np.zeros(3)
+    before = _regime(points, point, path, left, moved, moving)
+    after = _regime(points, point, path, right, moved, moving)
+    for bit in (TOUCHES, PUSHES, SLIDES):
+        if (before & bit) == (after & bit):
+            continue
+        low, high = left, right
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            regime = _regime(points, point, path, middle, moved, moving)
+            if (regime & bit) == (before & bit):
+                low = middle
+            else:
+                high = middle
+        found[count] = high
+        count += 1
+    return count
 
 
 @kernel

@@ -28,7 +28,7 @@ from microslip_mechanics.contact.law import (
 )
 from microslip_mechanics.jit import kernel
 
-COARSE, FINE = 32, 96
+COARSE, FINE = 32, 128
 """intervals of equal length in a period without events: coarse where …"""
 FEW = 64
 """… so many samples and less resolve the contacts"""

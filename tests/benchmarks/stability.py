@@ -82,9 +82,9 @@ class Comparison:
     def kept(self) -> bool:
         """Whether the march leaves what is unstable, and nothing else."""
         predicted, seen = self.balance.max(), self.march.max()
-        if abs(predicted - 1.0) <= MARCHED:
-            return bool(abs(seen - predicted) <= MARCHED)
-        return bool((predicted > 1.0) == (seen > 1.0))
+        if (predicted > 1.0) == (seen > 1.0):
+            return True
+        return bool(max(abs(predicted - 1.0), abs(seen - predicted)) <= MARCHED)
 
 
 def compared(problem: Problem, point: PeriodicResponse) -> Comparison:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis, Transform, derivative
 from hbm.sampling import Forces, hat, sample
-from hbm.symmetry import symmetry
+from hbm.symmetry import Symmetry, symmetry
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
     ContactPoints,
@@ -84,6 +84,10 @@ class AlternatingFrequencyTime:
         )
         self._hat = hat(fourier.harmonics, samples)[:, None]
         self._mixing = _mixing(basis, self._entries)
+        self._moved: tuple[Array, Array] = (
+            np.zeros((rows, samples)),
+            np.zeros((rows, samples)),
+        )
 
     def with_points(
         self, points: ContactPoints, offset: Array
@@ -118,6 +122,7 @@ class AlternatingFrequencyTime:
         Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
         """
         displacement, velocity = self._motion(coefficients, frequency, decay)
+        self._moved = displacement, velocity
         eventful = sample(
             self._points,
             displacement,
@@ -155,22 +160,24 @@ class AlternatingFrequencyTime:
         """Number of samples per period."""
         return self._fourier.samples
 
-    def relative_tangents(self, basis: Array) -> tuple[Array, Array]:
-        """Return the tangents of the last call in time, for other coordinates.
+    @property
+    def points(self) -> ContactPoints:
+        """Contact table."""
+        return self._points
 
-        Parameters
-        ----------
-        basis
-            Map from the coordinates to the points, shape ``(3 points, coordinates)``.
+    @property
+    def symmetry(self) -> Symmetry:
+        """What half a period later looks like."""
+        return self._symmetry
 
-        Returns
-        -------
-        By displacement and by velocity, each ``(samples, coordinates, coordinates)``.
+    @property
+    def moved(self) -> tuple[Array, Array]:
+        """Displacement [m] and velocity [m/s] of the points in the last call.
+
+        Each has shape ``(3 points, samples)``; with a symmetry samples of the second
+        half of the period may be left out.
         """
-        count = basis.shape[1]
-        mixed = np.dot(_mixing(basis, self._entries), self.tangents)
-        turned = np.ascontiguousarray(mixed.T).reshape(mixed.shape[1], 2, count, count)
-        return turned[:, 0].copy(), turned[:, 1].copy()
+        return self._moved
 
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
         """Return normal forces and energies over one period."""

@@ -44,7 +44,7 @@ class Resolved(Protocol):
     def __call__(self, point: Array) -> tuple[Array, Linearised]:
         """Return the residual, and what solves with its Jacobian."""
 
-    def residual(self, point: Array) -> tuple[Array, Array]:
+    def residual(self, point: Array) -> tuple[Array, object]:
         """Return the residual, and what belongs to it."""
 
 

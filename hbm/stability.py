@@ -1,9 +1,8 @@
 """Floquet multipliers of a periodic response (theory §6).
 
 A small motion about the orbit is carried through a period in the coordinates of the
-relative motion and the lowest modes of the structure with stuck contacts (Craig and
-Bampton, 1968). The contact tangents are those that harmonic balance has at its samples.
-A step is of fourth order and keeps what is damped damped.
+relative motion and modes of the structure with stuck contacts (Craig and Bampton,
+1968). Where half a period later is a mirror image, half a period is enough.
 """
 
 from __future__ import annotations
@@ -17,16 +16,14 @@ from scipy.sparse.csgraph import connected_components
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.condensation import split
+from hbm.tangents import StepTangents, step_tangents
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 
-STEPS = 128
-"""per period, about"""
-HIGHEST = 12.0
-"""modes are kept up to this multiple of the lowest one of the stuck structure …"""
-FEWEST = 6
-"""… and at least so many"""
+SMALLEST = 0.004
+"""part of a stuck mode in the inertia of y, over its frequency, relative to the largest
+of all modes; what has less is left out"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,25 +49,54 @@ class SmallMotions:
         frequency
             Of the orbit [rad/s].
         """
-        elastic, viscous = contact.relative_tangents(self.basis)
-        elastic, viscous = (_regular(each) for each in (elastic, viscous))
-        step = 2.0 * np.pi / frequency / len(elastic)
+        signs = self._signs(contact)
+        steps = step_tangents(contact, self.basis, frequency, half=signs is not None)
         found = []
-        for family in self._families(elastic, viscous):
-            square = np.ix_(family, family)
-            inner = family[family < self.basis.shape[1]]
-            carried = _carried(
-                self.mass[square],
-                self.damping[square],
-                self.stiffness[square],
-                np.ascontiguousarray(elastic[:, inner[:, None], inner]),
-                np.ascontiguousarray(viscous[:, inner[:, None], inner]),
-                step,
-            )
-            found.append(np.linalg.eigvals(carried).astype(complex))
-        values = np.concatenate(found)
-        ordered: ComplexArray = values[np.argsort(-np.abs(values))]
+        for family in self._families(steps.elastic, steps.viscous):
+            carried = self._map(family, steps)
+            if signs is None:
+                values = np.linalg.eigvals(carried).astype(complex)
+            else:
+                mirrored = np.tile(signs[family], 2)[:, None] * carried
+                values = np.linalg.eigvals(mirrored).astype(complex) ** 2
+            found.append(values)
+        together = np.concatenate(found)
+        ordered: ComplexArray = together[np.argsort(-np.abs(together))]
         return ordered
+
+    def _map(self, family: NDArray[np.int64], steps: StepTangents) -> Array:
+        """Return the map of the coupled coordinates of a family over all steps."""
+        square = np.ix_(family, family)
+        inner = family[family < self.basis.shape[1]]
+        elastic, viscous = (
+            np.ascontiguousarray(each[:, inner[:, None], inner])
+            for each in (steps.elastic, steps.viscous)
+        )
+        structure = (self.mass[square], self.damping[square], self.stiffness[square])
+        return _carried(*structure, elastic, viscous, steps.lengths)
+
+    def _signs(self, contact: AlternatingFrequencyTime) -> Array | None:
+        """Return by which signs the coordinates differ after half a period.
+
+        None if there is no such symmetry of the contacts, or the structure has none.
+        """
+        partners, signs, _, _ = contact.symmetry
+        if signs.size == 0:
+            return None
+        later = signs[:, None] * self.basis[partners]
+        inner = np.where((later * self.basis).sum(axis=0) < 0.0, -1.0, 1.0)
+        if not np.allclose(later, self.basis * inner, rtol=0.0, atol=1e-9):
+            return None
+        rank = inner.size
+        coupling = self.mass[rank:, :rank]
+        outer = np.where((coupling**2 * inner).sum(axis=1) < 0.0, -1.0, 1.0)
+        both = np.append(inner, outer)
+        for matrix in (self.mass, self.damping, self.stiffness):
+            size = np.sqrt(np.abs(np.outer(matrix.diagonal(), matrix.diagonal())))
+            odd = np.abs(matrix) * (np.outer(both, both) < 0.0)
+            if np.any(odd > 1e-8 * size + 1e-300):
+                return None
+        return both
 
     def _families(self, elastic: Array, viscous: Array) -> list[NDArray[np.int64]]:
         """Return the coordinates that are coupled with each other."""
@@ -93,26 +119,17 @@ def small_motions(problem: Problem) -> SmallMotions:
     static, free = split(structure.stiffness, selection)
     stuck = [free.T @ matrix @ free for matrix in (structure.stiffness, structure.mass)]
     squares, shapes = scipy.linalg.eigh(*stuck)
-    kept = np.sqrt(squares) <= HIGHEST * np.sqrt(squares[:1])
-    kept[:FEWEST] = True
+    inertia = static.T @ structure.mass @ static
+    coupling = shapes.T @ free.T @ structure.mass @ static
+    part = (coupling.T * scipy.linalg.solve(inertia, coupling.T)).sum(axis=0)
+    weight = np.sqrt(np.maximum(part, 0.0) / squares)
+    kept = weight >= SMALLEST * weight.max(initial=0.0)
     motion = np.hstack([static, free @ shapes[:, kept]])
     mass, damping, stiffness = (
         motion.T @ matrix @ motion
         for matrix in (structure.mass, structure.damping, structure.stiffness)
     )
     return SmallMotions(mass, damping, stiffness, basis)
-
-
-def _regular(tangents: Array) -> Array:
-    """Return tangents, (samples, rank, rank), at about :data:`STEPS` samples."""
-    samples = len(tangents)
-    if samples < STEPS:
-        return tangents.repeat(-(-STEPS // samples), axis=0)
-    size = samples // STEPS
-    while samples % size:
-        size -= 1
-    mean: Array = tangents.reshape(-1, size, *tangents.shape[1:]).mean(axis=1)
-    return mean
 
 
 @kernel
@@ -122,9 +139,9 @@ def _carried(
     stiffness: Array,
     elastic: Array,
     viscous: Array,
-    step: float,
+    lengths: Array,
 ) -> Array:
-    """Return the map of (displacement, velocity) over all samples.
+    """Return the map of (displacement, velocity) over all steps.
 
     ``elastic`` and ``viscous`` are the tangents during each step, shape
     ``(steps, rank, rank)``; they act on the first coordinates. The exponential of a
@@ -136,19 +153,14 @@ def _carried(
     moved, moving = np.eye(count, 2 * count), np.zeros((count, 2 * count))
     for i in range(count):
         moving[i, count + i] = 1.0
-    heavy = mass.astype(np.complex128)
-    rate = damping + root / step * mass
-    constant = step * stiffness + root * rate
-    for place in range(elastic.shape[0]):
-        matrix, slow = constant.copy(), rate.copy()
-        for i in range(rank):
-            for j in range(rank):
-                slow[i, j] += viscous[place, i, j]
-                matrix[i, j] += (
-                    step * elastic[place, i, j] + root * viscous[place, i, j]
-                )
-        right = -np.dot(heavy, moving.astype(np.complex128))
-        right -= np.dot(slow, moved.astype(np.complex128))
+    for place in range(lengths.size):
+        step = lengths[place]
+        rubbing, holding = damping.copy(), stiffness.copy()
+        rubbing[:rank, :rank] += viscous[place]
+        holding[:rank, :rank] += elastic[place]
+        matrix = step * holding + root * rubbing + (root * root / step) * mass
+        right = (-root / step) * np.dot(mass, moved)
+        right -= np.dot(mass, moving) + np.dot(rubbing, moved)
         shift = np.linalg.solve(matrix, right)
         speed = (moved + root * shift) / step
         moved = moved + 2.0 * (factor * shift).real

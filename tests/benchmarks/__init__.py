@@ -1,0 +1,1 @@
+"""Scripts that measure; their parts are imported by tests as well."""

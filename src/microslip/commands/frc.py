@@ -38,6 +38,17 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="relative error of amplitude at each point, instead of the scene's "
         "curve.tolerance: harmonics and samples follow from it",
     )
+    parser.add_argument(
+        "--branches",
+        action="store_true",
+        help="also follow the branches that begin at branch points",
+    )
+    parser.add_argument(
+        "--detached",
+        action="store_true",
+        help="also seek curves that do not hang together with the first one, by "
+        "varying the drive at 15 frequencies",
+    )
     arguments.add_output(parser, "frc")
     parser.set_defaults(run=_run)
 
@@ -47,14 +58,15 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.store import Stored, save, save_figure
-    from microslip.studies.curve import trace_curve
+    from microslip.studies.curve import Wanted, trace_curve
 
     data, picture = arguments.outputs(options, "frc")
     if options.tolerance is not None:
         options.overrides.append(f"curve.tolerance={options.tolerance}")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
-    traced = trace_curve(problem, scene.curve, watched(scene.curve))
+    wanted = Wanted(options.branches, options.detached)
+    traced = trace_curve(problem, scene.curve, watched(scene.curve), wanted)
     save(data, Stored(traced.curve, scene.text, options.command))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     print(_table(traced))
@@ -62,6 +74,8 @@ def _run(options: argparse.Namespace) -> int:
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
     print(_resolution(traced.curve))
+    if options.detached and "detached" not in traced.curve.event:
+        print("no detached curve was found")
     return arguments.ended(traced.curve.ending)
 
 

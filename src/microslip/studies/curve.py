@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from hbm.continuation import ContinuationError
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response
+from hbm.solve import branches, detached, frequency_response
 from microslip.progress import Watch
 from microslip.scene_file import Curve
 from microslip_mechanics.problem import Problem
@@ -26,8 +26,26 @@ class Traced:
     rest: StaticState
 
 
-def trace_curve(problem: Problem, curve: Curve, watch: Watch = iter) -> Traced:
-    """Trace a scene's curve; keep what there is when it cannot go on or is stopped."""
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What is sought beside the curve that begins at its first frequency."""
+
+    branches: bool = False
+    """that begin at branch points"""
+    detached: bool = False
+    """curves that do not hang together with it"""
+
+
+ALONE = Wanted()
+
+
+def trace_curve(
+    problem: Problem, curve: Curve, watch: Watch = iter, wanted: Wanted = ALONE
+) -> Traced:
+    """Trace a scene's curve; keep what there is when it cannot go on or is stopped.
+
+    ``wanted`` says what is sought beside it.
+    """
     rest = static_equilibrium(problem)
     options = CurveOptions(
         2.0 * np.pi * curve.lowest,
@@ -36,10 +54,26 @@ def trace_curve(problem: Problem, curve: Curve, watch: Watch = iter) -> Traced:
         harmonics=curve.harmonics,
         samples=curve.samples,
     )
-    traced = frequency_response(problem, rest, options)
+    traced = _all(problem, rest, options, wanted)
     responses, ending = gathered(watch(traced))
     made = response_curve(problem, responses, ending)
     return Traced(made, tuple(responses), rest)
+
+
+def _all(
+    problem: Problem, rest: StaticState, options: CurveOptions, wanted: Wanted
+) -> Iterator[PeriodicResponse]:
+    """Yield the responses on the curve, then on what does not hang together with it."""
+    known: list[PeriodicResponse] = []
+    for response in frequency_response(problem, rest, options):
+        known.append(response)
+        yield response
+    if wanted.branches:
+        for response in branches(problem, rest, options, tuple(known)):
+            known.append(response)
+            yield response
+    if wanted.detached:
+        yield from detached(problem, rest, options, known)
 
 
 def gathered(

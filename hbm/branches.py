@@ -7,14 +7,13 @@ point a little along it is corrected in the plane across it, and followed from t
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome, correct
+from hbm.newton import Correction, Outcome, correct
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency
 from hbm.tracer import Tracer
@@ -28,8 +27,10 @@ NEAR = 0.05
 """distance of a multiplier from +1 up to which a located branch point is believed"""
 FEWEST, FINEST = 15, 63
 """harmonics with which a branch is sought"""
-CLOSE = 1e-2
+CLOSE = 2e-3
 """relative difference of frequencies at which a branch ends on a branch point"""
+NOWHERE = (np.inf, -np.inf)
+"""an interval of frequencies in which there is nothing"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +45,9 @@ class Branching:
     def curves(self, known: Sequence[PeriodicResponse]) -> Iterator[PeriodicResponse]:
         """Yield the responses on branches, the first of each marked so.
 
+        A branch begins with its branch point, and ends with the one to which it
+        returns.
+
         Parameters
         ----------
         known
@@ -54,33 +58,44 @@ class Branching:
         ContinuationError
             If a branch cannot be followed.
         """
-        ended: list[float] = []
-        for response in known:
-            if _branches(response) and not any(
-                abs(response.frequency - each) <= CLOSE * each for each in ended
-            ):
-                last = response
-                for last in self._from(response):
-                    yield last
-                ended.append(last.frequency)
+        places = [each for each in known if _branches(each)]
+        while places:
+            low, high = yield from self._from(places.pop(0))
+            for place in tuple(places):
+                if (1.0 - CLOSE) * low <= place.frequency <= (1.0 + CLOSE) * high:
+                    places.remove(place)
+                    yield replace(place, event="")
 
-    def _from(self, response: PeriodicResponse) -> Iterator[PeriodicResponse]:
-        """Yield the responses on the branch at one point, until it comes back."""
+    def _from(
+        self, response: PeriodicResponse
+    ) -> Generator[PeriodicResponse, None, tuple[float, float]]:
+        """Yield the responses on the branch at one point, until it comes back.
+
+        Returns the frequencies between which it does; none if it does not.
+        """
         tracer = Tracer(self.problem, self.path, self.options)
         tracer.system.restart(min(max(response.harmonics, FEWEST), FINEST))
         point = tracer.guess(response, self.path.problem.selection)
         away = self._direction(point, tracer.system.fourier)
         begun = _beside(tracer, point, away)
         if begun is None:
-            return
-        still = away != 0.0
-        least = 0.5 * float(np.linalg.norm((begun - point)[still]))
-        corrections = tracer.pieces.from_point(begun, away)
-        parted = itertools.takewhile(
-            lambda each: float(np.linalg.norm((each.point - point)[still])) > least,
-            corrections,
-        )
-        yield from tracer.curve.followed(parted, tracer.pieces.metric, "branch")
+            return NOWHERE
+        back: list[float] = []
+        least = 0.5 * float(np.linalg.norm((begun - point)[away != 0.0]))
+
+        def parted() -> Iterator[Correction]:
+            for each in tracer.pieces.from_point(begun, away):
+                if np.linalg.norm((each.point - point)[away != 0.0]) <= least:
+                    back.append(float(each.point[-1]))
+                    return
+                yield each
+
+        last = replace(response, event="branch")
+        yield last
+        for last in tracer.curve.followed(parted(), tracer.pieces.metric):
+            yield last
+        both = sorted((last.frequency, *back))
+        return (both[0], both[1]) if back else NOWHERE
 
     def _direction(self, point: Array, fourier: FourierBasis) -> Array:
         """Return the unit direction that the Jacobian maps nearest to zero.

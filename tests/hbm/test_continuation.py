@@ -97,6 +97,23 @@ def test_a_curve_that_folds_back_ends_exactly_where_it_began() -> None:
     assert curve[:, -1].max() == pytest.approx(1.0, abs=CONTROL.largest**2)
 
 
+def test_a_closed_curve_ends_where_it_began() -> None:
+    start = np.array([0.8, -0.6])
+    points = [
+        each.point
+        for each in trace(circle, start, 2.0, metric=even, control=CONTROL, begin=-2.0)
+    ]
+
+    np.testing.assert_allclose(points[-1], points[0], rtol=0.0, atol=1e-9)
+    angles = np.unwrap(np.arctan2(*np.array(points).T))
+    assert abs(angles[-1] - angles[0]) == pytest.approx(2.0 * math.pi, abs=1e-8)
+
+
+def test_a_curve_that_cannot_begin_on_a_fold_says_so() -> None:
+    with pytest.raises(ContinuationError, match="begin a little beside it$"):
+        next(trace(circle, np.array([0.0, 1.0]), 2.0, metric=even, control=CONTROL))
+
+
 def test_a_curve_goes_on_from_the_middle_of_its_range() -> None:
     begun = trace(
         cubic,

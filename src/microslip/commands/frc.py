@@ -74,7 +74,8 @@ def _run(options: argparse.Namespace) -> int:
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
     print(_resolution(traced.curve))
-    if options.detached and "detached" not in traced.curve.event:
+    sought = options.detached and traced.curve.ending != "interrupted"
+    if sought and "detached" not in traced.curve.event:
         print("no detached curve was found")
     return arguments.ended(traced.curve.ending)
 

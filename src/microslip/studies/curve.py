@@ -65,15 +65,21 @@ def _all(
 ) -> Iterator[PeriodicResponse]:
     """Yield the responses on the curve, then on what does not hang together with it."""
     known: list[PeriodicResponse] = []
+    lost: ContinuationError | None = None
     for response in frequency_response(problem, rest, options):
         known.append(response)
         yield response
     if wanted.branches:
-        for response in branches(problem, rest, options, tuple(known)):
-            known.append(response)
-            yield response
+        try:
+            for response in branches(problem, rest, options, tuple(known)):
+                known.append(response)
+                yield response
+        except ContinuationError as error:
+            lost = error
     if wanted.detached:
         yield from detached(problem, rest, options, known)
+    if lost is not None:
+        raise ContinuationError(f"a branch was lost: {lost}")
 
 
 def gathered(

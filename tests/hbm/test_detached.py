@@ -1,0 +1,103 @@
+"""Detached curves of a block that sticks unless it already slides fast."""
+
+import functools
+
+import numpy as np
+import pytest
+
+from hbm.options import CurveOptions
+from hbm.solve import detached, frequency_response
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+from small_problems import dwelled, last_harmonic, oscillator, sliding_block
+from timedomain.start import Start
+
+MASS, STIFFNESS, DAMPING, DRIVE, DYNAMIC = 2.0, 300.0, 2.0, 1.5, 0.3
+BLOCK = sliding_block(
+    mass=MASS,
+    stiffness=STIFFNESS,
+    damping=DAMPING,
+    drive=DRIVE,
+    load=1.0,
+    dynamic=DYNAMIC,
+    static=2.0,
+    stribeck=0.05,
+    threshold=1e-3,
+    friction=2,
+)
+"""friction at rest holds against the drive, friction at speed does not"""
+OPTIONS = CurveOptions(8.0, 18.0)
+PERIODS, STEPS = 60, 2000
+ASIDE = 1.02
+"""times the motion with which a march begins"""
+
+
+@functools.cache
+def curves() -> tuple[list[PeriodicResponse], list[PeriodicResponse]]:
+    """Return the curve of the sticking block, and what is detached from it."""
+    rest = static_equilibrium(BLOCK)
+    curve = list(frequency_response(BLOCK, rest, OPTIONS))
+    return curve, list(detached(BLOCK, rest, OPTIONS, curve, frequencies=3))
+
+
+def amplitude(response: PeriodicResponse) -> float:
+    return float(np.hypot(*response.coefficients[1:3, 0]))
+
+
+def kept(response: PeriodicResponse) -> float:
+    """Return the amplitude after many periods from beside a response, over its own."""
+    displacement, velocity = (ASIDE * part[0] for part in response.at(np.zeros(1)))
+    history = dwelled(
+        BLOCK,
+        response.frequency,
+        periods=PERIODS,
+        steps=STEPS,
+        start=Start(displacement, velocity),
+    )
+    return float(np.abs(last_harmonic(history)[0])) / amplitude(response)
+
+
+def test_the_sticking_block_has_one_detached_curve() -> None:
+    curve, other = curves()
+
+    assert max(map(amplitude, curve)) < 1e-3
+    # It leaves the range at its lowest frequency, to both sides.
+    events = [each.event for each in other]
+    assert events.count("detached") == 2
+    assert events.count("fold") == events.count("peak") == 1
+    assert [each.frequency for each in other].count(OPTIONS.start) == 2
+
+
+def test_its_peak_balances_drive_against_friction_and_damping() -> None:
+    _, other = curves()
+    peak = max((each for each in other if each.event == "peak"), key=amplitude)
+
+    # One harmonic at the frequency of the free block: F = c ω a + 4 µd N / π, friction
+    # being a little more than µd N on the way through rest.
+    natural = np.sqrt(STIFFNESS / MASS)
+    highest = (DRIVE - 4.0 * DYNAMIC / np.pi) / (DAMPING * natural)
+    assert 0.93 * highest < amplitude(peak) < highest
+    assert peak.frequency == pytest.approx(natural, rel=5e-3)
+
+
+def test_stable_points_of_it_are_kept_by_a_march_and_unstable_ones_left() -> None:
+    _, other = curves()
+    plain = [each for each in other if not each.event]
+    # Close to the fold a motion leaves and comes back slowly.
+    stable = [each for each in plain if abs(each.multipliers[0]) < 0.9][::6]
+    growing = [each for each in plain if abs(each.multipliers[0]) > 1.1][::6]
+
+    assert len(stable) >= 3
+    assert len(growing) >= 2
+    for response in stable:
+        assert kept(response) == pytest.approx(1.0, abs=5e-3)
+    for response in growing:
+        assert abs(kept(response) - 1.0) > 0.2
+
+
+def test_a_linear_block_has_no_detached_curve() -> None:
+    problem = oscillator()
+    rest = static_equilibrium(problem)
+    curve = list(frequency_response(problem, rest, OPTIONS))
+
+    assert list(detached(problem, rest, OPTIONS, curve, frequencies=3)) == []

@@ -84,6 +84,7 @@ class AlternatingFrequencyTime:
         )
         self._hat = hat(fourier.harmonics, samples)[:, None]
         self._mixing = _mixing(basis, self._entries)
+        self._calls = [0]
         self._moved: tuple[Array, Array] = (
             np.zeros((rows, samples)),
             np.zeros((rows, samples)),
@@ -121,6 +122,7 @@ class AlternatingFrequencyTime:
         -------
         Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
         """
+        self._calls[0] += 1
         displacement, velocity = self._motion(coefficients, frequency, decay)
         self._moved = displacement, velocity
         eventful = sample(
@@ -139,6 +141,11 @@ class AlternatingFrequencyTime:
             force += self._analysed(self._extra.force) / self._hat
             change += self._analysed(self._extra.change) / self._hat
         return force, change / frequency
+
+    @property
+    def calls(self) -> int:
+        """Number of calls so far: of this one and of what shares its buffers."""
+        return self._calls[0]
 
     @property
     def tangents(self) -> Array:

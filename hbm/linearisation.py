@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
@@ -9,35 +11,57 @@ from scipy.linalg import lapack
 from hbm.newton import SingularError
 from microslip_mechanics.arrays import Array
 
+EPSILON = 1e-14
+"""relative size below which a border does not cross the curve"""
+
 
 class Linearisation:
     """The residual's derivative at a point, bordered by one more row when it solves."""
 
     def __init__(
-        self, jacobian: Array, slope: Array, places: NDArray[np.int64], size: int
+        self,
+        make: Callable[[], tuple[Array, Array]],
+        places: NDArray[np.int64],
+        size: int,
     ) -> None:
-        """Take the derivatives by the unknowns and by the last component of a point.
+        """Take what makes the derivatives, when they are first asked for.
 
         Parameters
         ----------
-        jacobian
-            ∂R/∂y of the unknowns, shape ``(unknowns, unknowns)``.
-        slope
-            Derivative by the last component, shape ``(unknowns,)``.
+        make
+            Returns ∂R/∂y of the unknowns, shape ``(unknowns, unknowns)``, and the
+            derivative by the last component, shape ``(unknowns,)``.
         places
             Where the unknowns are in a point, shape ``(unknowns,)``.
         size
             Number of components of a point.
         """
-        self.jacobian, self.slope = jacobian, slope
+        self._make = make
+        self._made: tuple[Array, Array] | None = None
         self._places = np.append(places, size - 1)
-        self._normal: Array = np.empty(0)
+        self._border: Array | None = None
         self._factors: tuple[Array, Array] = (np.empty(0), np.empty(0))
+
+    @property
+    def jacobian(self) -> Array:
+        """∂R/∂y of the unknowns, shape (unknowns, unknowns)."""
+        return self._derivatives[0]
+
+    @property
+    def slope(self) -> Array:
+        """Derivative by the last component, shape (unknowns,)."""
+        return self._derivatives[1]
+
+    @property
+    def _derivatives(self) -> tuple[Array, Array]:
+        if self._made is None:
+            self._made = self._make()
+        return self._made
 
     def along(self, slope: Array) -> Linearisation:
         """Return the same, ``slope`` being the derivative by the last component."""
         places, last = self._places[:-1], int(self._places[-1])
-        return Linearisation(self.jacobian, slope[places], places, last + 1)
+        return Linearisation(lambda: (self.jacobian, slope[places]), places, last + 1)
 
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian slope; normal] d = right.
@@ -50,22 +74,48 @@ class Linearisation:
         SingularError
             If there is no solution.
         """
-        if not np.array_equal(normal, self._normal):
-            self._factors, self._normal = self._factored(normal), normal
-        found, failed = lapack.dgetrs(*self._factors, right[self._places])
-        if failed != 0 or not np.all(np.isfinite(found)):
+        border = normal[self._places]
+        if self._border is None:
+            self._factors, self._border = self._factored(border), border
+        found = self._solved(right[self._places])
+        if not np.array_equal(border, self._border):
+            found = self._turned(border, found, right[-1])
+        if not np.all(np.isfinite(found)):
             raise SingularError
         solution = np.zeros_like(right)
         solution[self._places] = found
         return solution
 
-    def _factored(self, normal: Array) -> tuple[Array, Array]:
+    def _turned(self, border: Array, found: Array, last: Array) -> Array:
+        """Return the solution with another border, by a step along the tangent.
+
+        ``last`` is what the border is to make of it.
+        """
+        unit = np.zeros(border.size)
+        unit[-1] = 1.0
+        along = self._solved(unit)
+        across = float(border @ along)
+        if abs(across) <= EPSILON * float(np.abs(border) @ np.abs(along)):
+            raise SingularError
+        shares = (last - border @ found) / across
+        turned: Array = found + np.multiply.outer(along, shares)
+        return turned
+
+    def _solved(self, right: Array) -> Array:
+        """Return the solution with the factors that there are."""
+        found, failed = lapack.dgetrs(*self._factors, right)
+        if failed != 0:
+            raise SingularError
+        solution: Array = found
+        return solution
+
+    def _factored(self, border: Array) -> tuple[Array, Array]:
         """Return the factors of the bordered matrix."""
         count = self.slope.size
         matrix = np.empty((count + 1, count + 1), order="F")
         matrix[:count, :count] = self.jacobian
         matrix[:count, count] = self.slope
-        matrix[count] = normal[self._places]
+        matrix[count] = border
         factors, pivots, failed = lapack.dgetrf(matrix, overwrite_a=True)
         if failed != 0:
             raise SingularError

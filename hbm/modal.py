@@ -181,7 +181,7 @@ class ModalBalance:
         )
         slope = np.append(by_logarithm / scale, np.zeros(len(bottom)))
         places = np.concatenate([self._inner, self._outer])
-        return whole, Linearisation(jacobian, slope, places, point.size)
+        return whole, Linearisation(lambda: (jacobian, slope), places, point.size)
 
     def _first(
         self, pole: complex, relative: ComplexArray, modal: ComplexArray

@@ -15,6 +15,8 @@ ROUNDING = 1e-8
 """relative size of a step that cannot lower the residual because of rounding"""
 HALVINGS = 12
 """of a step, at the most"""
+CHORD = 0.1
+"""contraction that shows that the Jacobian has hardly changed"""
 
 
 class Linearised(Protocol):
@@ -84,6 +86,7 @@ def correct(
     *,
     tolerance: float,
     max_iterations: int = 25,
+    chord: float = CHORD,
 ) -> Correction:
     """Bring a predicted point to the curve, within the plane normal to ``normal``.
 
@@ -99,6 +102,8 @@ def correct(
         Of the largest residual.
     max_iterations
         Newton steps before the correction gives up.
+    chord
+        Share of the residual that a step leaves, below which its factors serve again.
 
     Notes
     -----
@@ -106,40 +111,46 @@ def correct(
     """
     point = predicted
     residual, linearised = system(point)
+    slope = linearised
     sizes = [_size(residual)]
     while True:
-        if not np.isfinite(sizes[-1]):
-            return Correction(
-                point, residual, linearised, Outcome.OVERFLOW, tuple(sizes)
-            )
-        if sizes[-1] <= tolerance:
-            return Correction(
-                point, residual, linearised, Outcome.CONVERGED, tuple(sizes)
-            )
-        if len(sizes) > max_iterations:
-            return Correction(
-                point, residual, linearised, Outcome.EXHAUSTED, tuple(sizes)
-            )
+        ended = _ended(sizes, tolerance, max_iterations)
+        if ended is not None:
+            return Correction(point, residual, linearised, ended, tuple(sizes))
         try:
-            step = linearised.solve(normal, np.append(residual, 0.0))
+            step = slope.solve(normal, np.append(residual, 0.0))
         except SingularError:
             return Correction(
                 point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
             )
         merit = _merit(residual)
-        for halving in range(HALVINGS):
+        for halving in range(HALVINGS if slope is linearised else 1):
             trial = point - step / 2**halving
             tried, derivative = system(trial)
-            if _merit(tried) < (1.0 - 1e-4 / 2**halving) * merit:
+            share = _merit(tried) / merit
+            if share < 1.0 - 1e-4 / 2**halving:
                 break
         else:
+            if slope is not linearised:
+                slope = linearised
+                continue
             small = float(np.linalg.norm(step)) <= ROUNDING * float(
                 np.linalg.norm(point[:-1])
             )
             outcome = Outcome.CONVERGED if small else Outcome.STALLED
             return Correction(point, residual, linearised, outcome, tuple(sizes))
         point, residual, linearised = trial, tried, derivative
+        slope = slope if share < chord else linearised
         sizes.append(_size(residual))
+
+
+def _ended(sizes: list[float], tolerance: float, max_iterations: int) -> Outcome | None:
+    """Return how a correction has ended; None if it has not."""
+    if not np.isfinite(sizes[-1]):
+        return Outcome.OVERFLOW
+    if sizes[-1] <= tolerance:
+        return Outcome.CONVERGED
+    return Outcome.EXHAUSTED if len(sizes) > max_iterations else None
 
 
 def _merit(residual: Array) -> float:

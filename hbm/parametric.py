@@ -40,12 +40,12 @@ class ParametricBalance:
 
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
         """Return the residual [N], (size − 1,), and what solves with its Jacobian."""
-        balance, inner = self.at_frequency(point)
-        residual, linearised = balance(inner)
         difference = DIFFERENCE * self._unit(float(point[-1]))
         ahead = point.copy()
         ahead[-1] += difference
         later, _ = self.residual(ahead)
+        balance, inner = self.at_frequency(point)
+        residual, linearised = balance(inner)
         return residual, linearised.along((later - residual) / difference)
 
     def residual(self, point: Array) -> tuple[Array, Array]:

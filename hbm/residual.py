@@ -86,6 +86,17 @@ class HarmonicBalance:
         Derivatives are taken by the active coefficients and by the frequency.
         """
         residual, by_frequency = self.residual(point)
+        calls = self.contact.calls
+
+        def made() -> tuple[Array, Array]:
+            if self.contact.calls != calls:
+                self.residual(point)  # other tangents lie in the buffers
+            return self._derivatives(point, by_frequency)
+
+        return residual, Linearisation(made, self._terms.unknowns, point.size)
+
+    def _derivatives(self, point: Array, by_frequency: Array) -> tuple[Array, Array]:
+        """Return ∂R/∂y and ∂R/∂ω of the unknowns where the contacts were called."""
         coefficients, frequency = self.split(point)
         stiffness, stiffness_change, _, load_change = self._linear(frequency)
         amplitudes = to_complex(coefficients)[..., None]
@@ -101,9 +112,8 @@ class HarmonicBalance:
             frequency,
             self._terms,
         )
-        places = self._terms.unknowns
-        slope = (to_real(change) + by_frequency).ravel()[places]
-        return residual, Linearisation(jacobian, slope, places, point.size)
+        slope = (to_real(change) + by_frequency).ravel()[self._terms.unknowns]
+        return jacobian, slope
 
     def residual(self, point: Array) -> tuple[Array, Array]:
         """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
@@ -160,10 +170,11 @@ class HarmonicBalance:
         """Return dynamic stiffness and load with their derivatives by s, cached."""
         if frequency != self._at:
             variable = self._orders * frequency
-            condensed = self.problem.condensed
-            self._structure = (
-                *condensed.dynamic_stiffness(variable, self._wanted),
-                *condensed.load(variable, self._force),
-            )
+            condensed, shape = self.problem.condensed, (variable.size, self.rank)
+            # only the orders 0 and 1 are loaded
+            loads = np.zeros((2, *shape), complex)
+            loads[:, :2] = condensed.load(variable[:2], self._force[:2])
+            stiffness = condensed.dynamic_stiffness(variable, self._wanted)
+            self._structure = (*stiffness, *loads)
             self._at = frequency
         return self._structure

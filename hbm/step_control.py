@@ -13,9 +13,9 @@ class StepControl:
     initial: float = 0.02
     smallest: float = 1e-7
     largest: float = 0.25
-    miss: float = 0.005
+    miss: float = 0.02
     """by which a predicted point may be wrong"""
-    many_iterations: int = 6
+    many_iterations: int = 12
     slack: float = 0.01
     """distance by which a correction may leave the prediction in any case"""
     tolerance: float = 1e-9

@@ -110,7 +110,7 @@ def test_a_closed_curve_ends_where_it_began() -> None:
 
 
 def test_a_curve_that_cannot_begin_on_a_fold_says_so() -> None:
-    with pytest.raises(ContinuationError, match="begin a little beside it$"):
+    with pytest.raises(ContinuationError, match=r"begin a little beside it$"):
         next(trace(circle, np.array([0.0, 1.0]), 2.0, metric=even, control=CONTROL))
 
 

@@ -23,7 +23,7 @@ def test_solutions_are_those_of_the_bordered_matrix(several: tuple[int, ...]) ->
     right = np.random.default_rng(2).normal(size=(SIZE, *several))
     kept, before = right.copy(), jacobian.copy()
 
-    found = Linearisation(jacobian, slope, PLACES, SIZE).solve(normal, right)
+    found = Linearisation(lambda: (jacobian, slope), PLACES, SIZE).solve(normal, right)
 
     places = np.append(PLACES, SIZE - 1)
     bordered = np.vstack([np.column_stack([jacobian, slope]), normal[places]])
@@ -42,7 +42,7 @@ def test_a_border_across_a_fold_has_a_solution() -> None:
     right = np.zeros(SIZE)
     right[-1] = 1.0
 
-    along = Linearisation(jacobian, slope, PLACES, SIZE).solve(normal, right)
+    along = Linearisation(lambda: (jacobian, slope), PLACES, SIZE).solve(normal, right)
 
     assert along @ normal == pytest.approx(1.0)
     assert along[-1] == pytest.approx(0.0, abs=1e-12)
@@ -51,14 +51,14 @@ def test_a_border_across_a_fold_has_a_solution() -> None:
 @pytest.mark.parametrize("value", [0.0, np.nan, np.inf])
 def test_what_has_no_solution_is_singular(value: float) -> None:
     _, slope, normal = drawn()
-    linearised = Linearisation(np.full((4, 4), value), slope, PLACES, SIZE)
+    linearised = Linearisation(lambda: (np.full((4, 4), value), slope), PLACES, SIZE)
 
     with pytest.raises(SingularError):
         linearised.solve(normal, np.ones(SIZE))
 
 
 def test_without_unknowns_the_parameter_alone_is_solved_for() -> None:
-    linearised = Linearisation(np.zeros((0, 0)), np.zeros(0), PLACES[:0], 3)
+    linearised = Linearisation(lambda: (np.zeros((0, 0)), np.zeros(0)), PLACES[:0], 3)
 
     found = linearised.solve(np.array([0.0, 0.0, 2.0]), np.array([5.0, 5.0, 3.0]))
 

@@ -56,6 +56,7 @@ def test_the_residual_falls_quadratically() -> None:
         np.array([1.4, 1.3, 2.0]),
         np.array([0.3, -0.2, 1.0]),
         tolerance=1e-14,
+        chord=0.0,
     )
 
     sizes = np.log(correction.residuals)
@@ -63,6 +64,35 @@ def test_the_residual_falls_quadratically() -> None:
     falling = sizes[np.array(correction.residuals) > 1e-14]
     rates = np.diff(falling)[1:] / np.diff(falling)[:-1]
     assert rates[-1] == pytest.approx(2.0, abs=0.2)
+
+
+def test_factors_serve_again_where_the_residual_falls_fast() -> None:
+    asked = []
+
+    def counted(point: Array) -> tuple[Array, Dense]:
+        residual, linearised = circle_and_cubic(point)
+        asked.append(linearised)
+        return residual, linearised
+
+    solved = []
+    original = Dense.solve
+
+    def solve(self: Dense, normal: Array, right: Array) -> Array:
+        solved.append(self)
+        return original(self, normal, right)
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(Dense, "solve", solve)
+        correction = correct(
+            counted,
+            np.array([1.4, 1.3, 2.0]),
+            np.array([0.3, -0.2, 1.0]),
+            tolerance=1e-12,
+        )
+
+    assert correction.outcome is Outcome.CONVERGED
+    assert len({id(each) for each in solved}) < len(solved)
+    assert correction.linearised is asked[-1]
 
 
 def test_the_point_stays_in_the_plane_through_the_prediction() -> None:

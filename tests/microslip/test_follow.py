@@ -1,0 +1,89 @@
+"""The response against a parameter of the scene, and the command that draws it."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from microslip.cli import main
+from microslip.quantity import SceneError
+from microslip.store import load
+from microslip.studies.curve import trace_curve
+from microslip.studies.follow import follow
+from microslip.studies.parameter import parameter
+from microslip_mechanics.response import ResponseCurve
+
+STICKY = ("model=A", "friction.mu_dynamic=50", "friction.mu_static=50")
+
+
+def test_a_sticking_rig_answers_in_proportion_to_the_drive() -> None:
+    drive = parameter("two-blades", STICKY, "excitation.force", "500 mN", "2")
+
+    curve = follow(drive, math.tau * 134.5)
+
+    assert curve.ending == "complete"
+    assert curve.along == "excitation.force [N]"
+    assert curve.parameter[0] == 0.5
+    assert curve.parameter[-1] == 2.0
+    compliance = curve.amplitude / curve.parameter[:, None]
+    np.testing.assert_allclose(
+        compliance, np.broadcast_to(compliance[0], compliance.shape), rtol=1e-5
+    )
+
+
+def test_it_meets_the_frequency_response_at_the_scene_s_value() -> None:
+    overrides = ("model=A", "curve.lowest=135 Hz", "curve.highest=135.5 Hz")
+    preload = parameter("two-blades", overrides, "preload.force", "2", "1")
+
+    followed = follow(preload, math.tau * 135.0)
+    last = parameter("two-blades", overrides, "preload.force", "1", "2")
+    curve = trace_curve(last.problem_at(1.0), last.scene.curve).curve
+
+    np.testing.assert_allclose(followed.amplitude[-1], curve.amplitude[0], rtol=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "last", "text"),
+    [
+        ("blade.elements", "3", "4", "blade.elements cannot be followed"),
+        ("model", "A", "B", "model cannot be followed"),
+        ("excitation.force", "1", "1 N", "give two different values"),
+        ("excitation.farce", "1", "2", "do you mean force"),
+        ("curve.lowest", "120", "125", "curve.lowest cannot be followed"),
+    ],
+)
+def test_what_cannot_be_followed_is_refused(
+    name: str, first: str, last: str, text: str
+) -> None:
+    with pytest.raises(SceneError, match=text):
+        parameter("two-blades", (), name, first, last)
+
+
+def test_the_command_keeps_a_curve_that_can_be_drawn_again(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["follow", "two-blades", "excitation.force", "0.5", "1"]
+    words += ["--frequency", "134.5", "-o", str(tmp_path / "drive")]
+    words += [word for each in STICKY for word in ("--set", each)]
+
+    assert main(words) == 0
+    assert "excitation.force" not in capsys.readouterr().err
+    stored = load(tmp_path / "drive.nc").result
+    assert isinstance(stored, ResponseCurve)
+    assert stored.along == "excitation.force [N]"
+    assert (tmp_path / "drive.png").stat().st_size > 10_000
+    again = tmp_path / "again.png"
+    assert main(["plot", str(tmp_path / "drive.nc"), "-o", str(again)]) == 0
+    assert again.stat().st_size > 10_000
+
+
+def test_frc_says_that_nothing_is_detached(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    short = (*STICKY, "curve.lowest=134 Hz", "curve.highest=134.5 Hz")
+    words = ["frc", "two-blades", "--detached", "--branches"]
+    words += [word for each in short for word in ("--set", each)]
+
+    assert main([*words, "-o", str(tmp_path / "curve")]) == 0
+    assert "no detached curve was found" in capsys.readouterr().out

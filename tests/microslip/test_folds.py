@@ -37,15 +37,20 @@ def cut(points: int, end: BaseException) -> Callable[..., Iterator[FoldPoint]]:
 
 @pytest.mark.slow
 def test_two_folds_that_meet_are_followed_once() -> None:
-    changed = parameter("two-blades", SHORT, "excitation.force", "1.8", "1.0")
+    fine = (*SHORT[:-2], "curve.harmonics=31", "curve.samples=1024")
+    changed = parameter("two-blades", fine, "excitation.force", "1.35", "1")
 
     (fold,) = followed_folds(changed)
 
-    assert fold.curve.ending == "complete"
-    assert fold.curve.parameter[0] == fold.curve.parameter[-1] == 1.8
-    assert "cusp" in fold.curve.event
-    smallest = fold.curve.parameter.argmin()
-    assert fold.curve.event[smallest] == "cusp"
+    curve = fold.curve
+    assert curve.ending == "complete"
+    assert curve.parameter[0] == curve.parameter[-1] == 1.35
+    assert [event for event in curve.event if event] == ["cusp"]
+    smallest = int(curve.parameter.argmin())
+    assert curve.event[smallest] == "cusp"
+    # `track` finds folds at 1.33 N and none at 1.25 N, with harmonics by tolerance
+    assert 1.25 < curve.parameter[smallest] < 1.33
+    assert fold.points[smallest].parameter_error < 0.02
 
 
 @pytest.mark.slow

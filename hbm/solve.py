@@ -13,6 +13,7 @@ from hbm.branches import Branching
 from hbm.continuation import correct_at
 from hbm.curve import response
 from hbm.detached import Search
+from hbm.fold_curve import FoldCurve, FoldPoint
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
@@ -138,6 +139,33 @@ def parameter_response(
     tracer = Tracer(problem_at(options.end), path, options)
     with threadpool_limits(1, "blas"):
         yield from tracer.responses()
+
+
+def fold_curve(
+    problem_at: Callable[[float], Problem],
+    fold: PeriodicResponse,
+    options: CurveOptions,
+) -> Iterator[FoldPoint]:
+    """Yield the folds into which a fold of a frequency response curve moves.
+
+    Parameters
+    ----------
+    problem_at
+        Value of the parameter ↦ what is solved.
+    fold
+        Of the curve at ``options.start``, as it was located.
+    options
+        Range of the parameter, harmonics; left open, those of the fold, at most
+        :data:`~hbm.fold_curve.HARMONICS`.
+
+    Raises
+    ------
+    ContinuationError
+        If the fold is lost; what was yielded before stays valid.
+    """
+    path = AlongParameter(problem_at, fold.frequency, options.start, options.end)
+    with threadpool_limits(1, "blas"):
+        yield from FoldCurve(problem_at(options.end), path, options, fold).points()
 
 
 def periodic_response(

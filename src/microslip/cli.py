@@ -10,6 +10,7 @@ import warnings
 
 from microslip.commands import (
     explain,
+    folds,
     follow,
     frc,
     grid,
@@ -83,6 +84,7 @@ def _parser() -> argparse.ArgumentParser:
         verify,
         track,
         follow,
+        folds,
         poles,
         modes,
         grid,

@@ -1,0 +1,155 @@
+"""microslip folds: how the folds of the curve move with a parameter."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
+
+    from hbm.fold_curve import FoldPoint
+    from microslip.studies.folds import FollowedFold
+    from microslip.studies.parameter import Parameter
+
+HEADER = """\
+     parameter       fold  amplitude    other unstable    estimated error of
+          [SI]       [Hz]       [mm]       multipliers  frequency  parameter"""
+MEETINGS = {"cusp": "two folds meet", "isola": "two curves meet"}
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "folds",
+        help="folds of the curve against a parameter, and where they meet",
+        description="Trace the curve of a scene at the first value of one of its "
+        "numbers, such as drive, preload or friction coefficient; follow each of its "
+        "folds, between which the response jumps, while that number changes, through "
+        "the cusps at which two folds meet; write SCENE-folds.csv and SCENE-folds.png.",
+        epilog="example: microslip folds two-blades excitation.force 1.8 1 "
+        "--set model=A --set friction.law=gkf",
+    )
+    arguments.add_scene(parser)
+    parser.add_argument("key", metavar="TABLE.KEY", help="such as excitation.force")
+    parser.add_argument("first", metavar="FROM", help="first value of that key")
+    parser.add_argument("last", metavar="TO", help="last value")
+    arguments.add_output(parser, "folds")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.progress import shown
+    from microslip.studies.folds import FoldError, followed_folds
+    from microslip.studies.parameter import parameter
+
+    data, picture = arguments.outputs(options, "folds")
+    along = parameter(
+        options.scene, options.overrides, options.key, options.first, options.last
+    )
+
+    def watch(points: Iterable[FoldPoint]) -> Iterator[FoldPoint]:
+        return shown(
+            points,
+            total=abs(along.last - along.first),
+            done=lambda point: abs(point.response.parameter - along.first),
+            unit="SI",
+            name=options.key,
+        )
+
+    folds: list[FollowedFold] = []
+    ending = "complete"
+    try:
+        for fold in followed_folds(along, watch):
+            folds.append(fold)
+            ending = fold.curve.ending if ending == "complete" else ending
+            print("\n".join(_lines(fold, len(folds))), flush=True)
+    except KeyboardInterrupt:
+        ending = "interrupted"
+        if not folds:
+            raise
+    if not any(fold.points for fold in folds):
+        raise FoldError(ending)
+    _keep(options, along, folds, (data.with_suffix(".csv"), picture))
+    return arguments.ended(ending)
+
+
+def _lines(fold: FollowedFold, number: int) -> list[str]:
+    """Return about a dozen points of a fold, and all at which folds or curves meet."""
+    if not fold.points:
+        return [f"fold {number}: {fold.curve.ending}"]
+    count = len(fold.points)
+    places = {*range(0, count, max(1, count // 12)), count - 1}
+    places |= {place for place, name in enumerate(fold.curve.event) if name}
+    return [
+        f"fold {number}, {fold.points[0].response.harmonics} harmonics",
+        HEADER,
+        *(_line(fold, place) for place in sorted(places)),
+    ]
+
+
+def _line(fold: FollowedFold, place: int) -> str:
+    point, curve = fold.points[place], fold.curve
+    event, known = curve.event[place], math.isfinite(point.parameter_error)
+    meeting = MEETINGS.get(event, "") if known else "not with twice the harmonics"
+    note = f"  {event}: {meeting}" if event else ""
+    return (
+        f"{curve.parameter[place]:14.6g} {curve.frequency[place] / math.tau:10.4f} "
+        f"{1e3 * curve.amplitude[place].max():10.5f} {point.unstable:17d} "
+        f"{point.frequency_error:10.1e} {point.parameter_error:10.1e}{note}"
+    )
+
+
+def _keep(
+    options: argparse.Namespace,
+    along: Parameter,
+    folds: list[FollowedFold],
+    paths: tuple[Path, Path],
+) -> None:
+    """Write table and picture."""
+    from microslip.figures.folds import FoldLine, folds_figure
+    from microslip.store import save_figure, save_table
+
+    names = (
+        "fold",
+        options.key,
+        "event",
+        "frequency_hz",
+        "amplitude_m",
+        "other_unstable",
+        "frequency_error",
+        "parameter_error",
+    )
+    rows, lines = [], []
+    for number, fold in enumerate(folds, start=1):
+        values = fold.curve.parameter.tolist()
+        hertz = (fold.curve.frequency / math.tau).tolist()
+        amplitudes = fold.curve.amplitude.max(axis=1, initial=0.0).tolist()
+        unstable = [point.unstable > 0 for point in fold.points]
+        events = fold.curve.event
+        sure = [
+            event if math.isfinite(point.parameter_error) else ""
+            for event, point in zip(events, fold.points, strict=True)
+        ]
+        lines.append(FoldLine(values, hertz, amplitudes, unstable, sure))
+        rows += [
+            (
+                number,
+                values[place],
+                events[place],
+                hertz[place],
+                amplitudes[place],
+                point.unstable,
+                point.frequency_error,
+                point.parameter_error,
+            )
+            for place, point in enumerate(fold.points)
+        ]
+    table, picture = paths
+    save_table(table, names, rows)
+    save_figure(picture, folds_figure(lines, along.label, arguments.title(options)))
+    print(f"table in {table}, picture in {picture}")

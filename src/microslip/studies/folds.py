@@ -1,0 +1,122 @@
+"""How the folds of a scene's curve move with a parameter, and where they meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hbm.continuation import ContinuationError
+from hbm.fold_curve import FoldPoint
+from hbm.options import CurveOptions
+from hbm.solve import fold_curve
+from microslip.progress import Watch
+from microslip.studies.curve import trace_curve
+from microslip.studies.parameter import Parameter
+from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
+
+SAME = 1e-2
+"""difference of two motions, relative, up to which they are one at two resolutions"""
+
+
+class FoldError(MicroslipError):
+    """A curve without folds; the text says where they were sought."""
+
+
+@dataclass(frozen=True, slots=True)
+class FollowedFold:
+    """A fold, as far as it was followed."""
+
+    curve: ResponseCurve
+    """the motions at the fold; events are where folds or curves meet"""
+    points: tuple[FoldPoint, ...]
+    """in the same order"""
+
+
+def followed_folds(parameter: Parameter, watch: Watch = iter) -> Iterator[FollowedFold]:
+    """Yield the folds of the curve at the first value, followed along a parameter.
+
+    A fold that comes back to the first value as another one is followed once. What
+    cannot go on, or is interrupted, keeps what it has.
+
+    Parameters
+    ----------
+    parameter
+        What changes.
+    watch
+        Shows the progress along each fold.
+
+    Raises
+    ------
+    FoldError
+        If the curve has no folds.
+    ContinuationError
+        If the curve has no first point.
+    """
+    starts = _located(parameter)
+    while starts:
+        fold = _followed(parameter, starts.pop(0), watch)
+        yield fold
+        if fold.curve.ending == "interrupted":
+            return
+        if fold.points and fold.curve.parameter[-1] == parameter.first:
+            last = fold.points[-1].response
+            starts = [each for each in starts if _distance(each, last) > SAME]
+
+
+def _located(parameter: Parameter) -> list[PeriodicResponse]:
+    """Return the folds of the curve at the first value of a parameter."""
+    wanted = parameter.scene.curve
+    traced = trace_curve(parameter.problem_at(parameter.first), wanted)
+    ending = traced.curve.ending
+    if ending == "interrupted":
+        raise KeyboardInterrupt
+    found = [response for response in traced.responses if response.event == "fold"]
+    if not found:
+        reached = "" if ending == "complete" else f" up to where it ends ({ending})"
+        raise FoldError(
+            f"the curve at {parameter.name} = {parameter.first:g} has no folds between "
+            f"{wanted.lowest:g} and {wanted.highest:g} Hz{reached}: begin at a value "
+            "where it has, which microslip track finds"
+        )
+    return found
+
+
+def _followed(
+    parameter: Parameter, start: PeriodicResponse, watch: Watch
+) -> FollowedFold:
+    """Return a fold as far as it goes."""
+    curve = parameter.scene.curve
+    options = CurveOptions(
+        parameter.first,
+        parameter.last,
+        harmonics=curve.harmonics,
+        samples=curve.samples,
+    )
+    points: list[FoldPoint] = []
+    ending = "complete"
+    try:
+        for point in watch(fold_curve(parameter.problem_at, start, options)):
+            points.append(point)  # noqa: PERF402  (what is there must be kept)
+    except ContinuationError as cause:
+        ending = str(cause)
+    except KeyboardInterrupt:
+        ending = "interrupted"
+        if not points:
+            raise
+    made = response_curve(
+        parameter.problem_at(parameter.last),
+        [point.response for point in points],
+        ending,
+        parameter.label,
+    )
+    return FollowedFold(made, tuple(points))
+
+
+def _distance(one: PeriodicResponse, other: PeriodicResponse) -> float:
+    """Return by how much means and first harmonics of two motions differ, relative."""
+    parts = [each.coefficients[:3] for each in (one, other)]
+    distance = np.linalg.norm(parts[0] - parts[1])
+    return float(distance / np.linalg.norm(parts[1]))

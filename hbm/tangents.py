@@ -23,8 +23,10 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints, contact_force
 from microslip_mechanics.jit import kernel
 
-FEWEST = 48
-"""intervals of a period"""
+COARSE, FINE = 48, 96
+"""intervals of a period at least: coarse where …"""
+FEW = 64
+"""… so many samples and less resolve the contacts"""
 CHANGE = 0.1
 """of the tangents in an interval, from which it is halved"""
 BRIEF = 1.0 / 256.0
@@ -85,7 +87,8 @@ def step_tangents(
     # half a period has the steps that it has in a whole one
     ends = [0.0, contact.samples // 2, cells]
     cuts = np.concatenate([ends, events(contact.points, path)])
-    edges = _edges(np.unique(cuts), contact.samples / FEWEST)
+    fewest = COARSE if contact.samples <= FEW else FINE
+    edges = _edges(np.unique(cuts), contact.samples / fewest)
     shortest = contact.samples * SHORTEST
     return StepTangents(
         *_integrated(contact.points, path, basis, inertia, edges, shortest, CHANGE)
@@ -115,53 +118,71 @@ def _integrated(
     allowed: float,
 ) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
     """Return what :class:`StepTangents` has."""
-    rank, intervals = basis.shape[1], edges.size - 1
-    most = 2 * (intervals + int((edges[-1] - edges[0]) / shortest) + 1)
-    lengths, sticks = np.empty(most), np.zeros(most, dtype=np.bool_)
-    held, caught = np.zeros((2, inertia.size), dtype=np.bool_)
-    brief = BRIEF / SHORTEST * shortest
-    ends = np.empty(64)
+    rank, count = basis.shape[1], 0
+    room = 8 * edges.size + 64
+    lengths, sticks = np.empty(room), np.zeros(room, dtype=np.bool_)
+    elastic: Array = np.zeros((room, rank, rank))
+    viscous: Array = np.zeros((room, rank, rank))
     moments = np.zeros((points.load.size, 3, 2, 3, 3))
-    room = min(most, 4 * intervals + 64)
-    elastic, viscous = np.zeros((room, rank, rank)), np.zeros((room, rank, rank))
+    ends, held = np.empty(64), np.zeros(inertia.size, dtype=np.bool_)
     # what is held at the beginning has been caught before
     _moments(points, path, edges[0], edges[1] - edges[0], moments)
-    _catches(moments, inertia, brief * path.length, held, caught)
-    held[:] = caught
-    count = 0
-    for interval in range(intervals):
+    _catches(moments, inertia, BRIEF / SHORTEST * shortest * path.length, held)
+    for interval in range(edges.size - 1):
         begin, waiting = edges[interval], 1
         ends[0] = edges[interval + 1]
         while waiting > 0:
             length = ends[waiting - 1] - begin
             _moments(points, path, begin, length, moments)
-            if length > 2.0 * shortest and allowed < _change(
-                moments, inertia, length * path.length
-            ):
-                ends[waiting] = begin + 0.5 * length
+            taken, begins = _taken(
+                moments, inertia, length, shortest, path.length, allowed, held
+            )
+            if taken < length:
+                ends[waiting] = begin + taken
                 waiting += 1
                 continue
-            begins = _catches(moments, inertia, brief * path.length, held, caught)
-            if begins and length > 1.5 * brief:
-                ends[waiting] = begin + brief
-                waiting += 1
-                continue
-            held[:] = caught
-            if count + 2 > elastic.shape[0]:
+            if count + 2 > lengths.size:
                 elastic, viscous = _longer(elastic), _longer(viscous)
+                lengths = np.append(lengths, lengths)
+                sticks = np.append(sticks, sticks)
             _add_steps(moments, basis, elastic, viscous, count)
-            step = 0.5 * length * path.length
-            lengths[count : count + 2] = step
+            lengths[count : count + 2] = 0.5 * length * path.length
             sticks[count : count + 2] = begins
-            count += 2
-            begin, waiting = ends[waiting - 1], waiting - 1
+            begin, waiting, count = ends[waiting - 1], waiting - 1, count + 2
     return lengths[:count], elastic[:count], viscous[:count], sticks[:count]
+
+
+@kernel
+def _taken(
+    moments: Array,
+    inertia: Array,
+    length: float,
+    shortest: float,
+    sample: float,
+    allowed: float,
+    held: NDArray[np.bool_],
+) -> tuple[float, bool]:
+    """Return how much of an interval is taken, and whether a point sticks in it.
+
+    ``sample`` is the time between two samples; ``held`` is brought up to date if all is
+    taken.
+    """
+    changes = _change(moments, inertia, length * sample) > allowed
+    if changes and length > 2.0 * shortest:
+        return 0.5 * length, False
+    brief = BRIEF / SHORTEST * shortest
+    before = held.copy()
+    begins = _catches(moments, inertia, brief * sample, held)
+    if begins and length > 1.5 * brief:
+        held[:] = before
+        return brief, False
+    return length, begins
 
 
 @kernel
 def _longer(steps: Array) -> Array:
     """Return the same with as much room again."""
-    result = np.zeros((2 * steps.shape[0], steps.shape[1], steps.shape[2]))
+    result: Array = np.zeros((2 * steps.shape[0], steps.shape[1], steps.shape[2]))
     result[: steps.shape[0]] = steps
     return result
 
@@ -216,15 +237,17 @@ def _catches(
     inertia: Array,
     brief: float,
     held: NDArray[np.bool_],
-    caught: NDArray[np.bool_],
 ) -> bool:
     """Write which points damping holds; return whether one was not held before."""
+    begins = False
     for point in range(moments.shape[0]):
         for axis in range(3):
             row = 3 * point + axis
             damping = brief * moments[point, 0, 1, axis, axis]
-            caught[row] = damping > STIFF * inertia[row]
-    return bool(np.any(caught & ~held))
+            catches = damping > STIFF * inertia[row]
+            begins = begins or (catches and not held[row])
+            held[row] = catches
+    return begins
 
 
 @kernel

@@ -1,12 +1,12 @@
 """Contact tangents over the steps of a period, cut where contacts change (theory §6).
 
-Between two samples the motion is interpolated by cubic polynomials with the velocities
-at both ends. Steps begin and end where a point touches, lifts off, begins to slide,
-sticks or turns. Each interval is carried in two steps with the tangents
+Steps begin and end where a point touches, lifts off, begins to slide, sticks or turns.
+Each interval is carried in two steps with the tangents
 
     A₁,₂ = A₀ ∓ 4 A₁ ,    A₀ = ∫ A ds ,    A₁ = ∫ (s − ½) A ds ,    0 ≤ s ≤ 1 ,
 
-a commutator-free Magnus method of fourth order (Blanes and Moan, 2006).
+a commutator-free Magnus method of fourth order (Blanes and Moan, 2006). An interval is
+halved until A changes in it by little beside the inertia of its points.
 """
 
 from __future__ import annotations
@@ -15,27 +15,26 @@ import itertools
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.symmetry import mirror
+from hbm.contact_path import Path, events, last_path, place
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.hunt_crossley import normal_force
-from microslip_mechanics.contact.law import (
-    FRICTIONLESS,
-    ContactPoints,
-    contact_force,
-    normal_law,
-)
+from microslip_mechanics.contact.law import ContactPoints, contact_force
 from microslip_mechanics.jit import kernel
 
-COARSE, FINE = 32, 128
-"""intervals of equal length in a period without events: coarse where …"""
+COARSE, FINE = 48, 96
+"""intervals of a period at least: coarse where …"""
 FEW = 64
 """… so many samples and less resolve the contacts"""
-HALVINGS = 40
-"""of a cell between two samples in which an event lies"""
-TOUCHES, PUSHES, SLIDES = 1, 2, 4
-"""bits of a point's regime"""
+CHANGE = 0.1
+"""of the tangents in an interval, from which it is halved"""
+BRIEF = 1.0 / 256.0
+"""of a period: first interval of a point that sticks"""
+STIFF = 1.0
+"""damping of a point that sticks, times :data:`BRIEF`, over its inertia"""
+SHORTEST = 1.0 / 2048.0
+"""of a period: what is shorter is not halved"""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 _INSIDE = 0.5 * (1.0 + _NODES)
@@ -43,17 +42,8 @@ _INSIDE = 0.5 * (1.0 + _NODES)
 PLACES = _INSIDE**2 * (3.0 - 2.0 * _INSIDE)
 MEAN = 3.0 * _WEIGHTS * _INSIDE * (1.0 - _INSIDE)
 TILT = MEAN * (PLACES - 0.5)
-
-
-class Path(NamedTuple):
-    """The motion of the contact points at samples, for interpolation."""
-
-    displacement: Array
-    """[m], shape (3 points, samples); the last sample is where the path ends"""
-    velocity: Array
-    """[m/s]"""
-    length: float
-    """between two samples [s]"""
+BEND = MEAN * (6.0 * (PLACES - 0.5) ** 2 - 0.5)
+"""weights of A₀, of A₁, and of what a straight line leaves of A"""
 
 
 class StepTangents(NamedTuple):
@@ -65,10 +55,17 @@ class StepTangents(NamedTuple):
     """∂force/∂y [N/m], shape (steps, rank, rank)"""
     viscous: Array
     """∂force/∂ẏ [N s/m]"""
+    sticks: NDArray[np.bool_]
+    """whether a point was set free of damping before, and is held by it now"""
 
 
 def step_tangents(
-    contact: AlternatingFrequencyTime, basis: Array, frequency: float, *, half: bool
+    contact: AlternatingFrequencyTime,
+    basis: Array,
+    inertia: Array,
+    frequency: float,
+    *,
+    half: bool,
 ) -> StepTangents:
     """Return the tangents along the orbit at which ``contact`` was just called.
 
@@ -78,37 +75,24 @@ def step_tangents(
         The contact points.
     basis
         Map from the coordinates y to the points, shape ``(3 points, rank)``.
+    inertia
+        What a sudden force on a point moves [kg], shape ``(3 points,)``.
     frequency
         Of the orbit [rad/s].
     half
         Whether only the first half of the period is wanted.
     """
-    path = _path(contact, frequency, half=half)
+    path = last_path(contact, frequency, half=half)
     cells = path.displacement.shape[1] - 1
-    cuts = np.concatenate([[0.0, cells], _events(contact.points, path)])
-    count = COARSE if contact.samples <= FEW else FINE
-    edges = _edges(np.unique(cuts), contact.samples / count)
-    shape = (2 * (edges.size - 1), basis.shape[1], basis.shape[1])
-    elastic, viscous = np.zeros(shape), np.zeros(shape)
-    _integrate(contact.points, path, basis, edges, elastic, viscous)
-    lengths = np.repeat(np.diff(edges) * path.length / 2.0, 2)
-    return StepTangents(lengths, elastic, viscous)
-
-
-def _path(contact: AlternatingFrequencyTime, frequency: float, *, half: bool) -> Path:
-    """Return the last motion of the contact points, over a period or half of it."""
-    samples, middle = contact.samples, contact.samples // 2
-    rows = []
-    for motion in contact.moved:
-        whole, seen = np.empty((motion.shape[0], samples + 1)), motion.shape[1]
-        whole[:, :seen] = motion
-        if seen < samples:
-            mirror(whole[:, :samples], *contact.symmetry[:2])
-            # friction does not see where its tangents' mean is, and no sign fits it
-            whole[:, middle:] += (motion[:, middle] - whole[:, middle])[:, None]
-        whole[:, samples] = whole[:, 0]
-        rows.append(np.ascontiguousarray(whole[:, : (middle if half else samples) + 1]))
-    return Path(rows[0], rows[1], 2.0 * np.pi / frequency / samples)
+    # half a period has the steps that it has in a whole one
+    ends = [0.0, contact.samples // 2, cells]
+    cuts = np.concatenate([ends, events(contact.points, path)])
+    fewest = COARSE if contact.samples <= FEW else FINE
+    edges = _edges(np.unique(cuts), contact.samples / fewest)
+    shortest = contact.samples * SHORTEST
+    return StepTangents(
+        *_integrated(contact.points, path, basis, inertia, edges, shortest, CHANGE)
+    )
 
 
 def _edges(cuts: Array, longest: float) -> Array:
@@ -124,154 +108,161 @@ def _edges(cuts: Array, longest: float) -> Array:
 
 
 @kernel
-def _place(path: Path, point: int, at: float, moved: Array, moving: Array) -> None:
-    """Write displacement and velocity of a point ``at`` samples after the first."""
-    cell = min(int(at), path.displacement.shape[1] - 2)
-    share, length = at - cell, path.length
-    rest = 1.0 - share
-    for axis in range(3):
-        row = 3 * point + axis
-        first, last = path.displacement[row, cell], path.displacement[row, cell + 1]
-        left, right = path.velocity[row, cell], path.velocity[row, cell + 1]
-        bump = share * rest
-        moved[axis] = (
-            first * rest * rest * (1.0 + 2.0 * share)
-            + last * share * share * (1.0 + 2.0 * rest)
-            + length * bump * (left * rest - right * share)
-        )
-        mean = (last - first) / length
-        moving[axis] = (
-            left * rest + right * share + 3.0 * bump * (2.0 * mean - left - right)
-        )
-
-
-@kernel
-def _regime(
-    points: ContactPoints,
-    point: int,
-    path: Path,
-    at: float,
-    moved: Array,
-    moving: Array,
-) -> int:
-    """Return which branch of its law a point is on."""
-    _place(path, point, at, moved, moving)
-    regime = 0
-    if moved[0] > 0.0:
-        force, _, _ = normal_force(normal_law(points, point), moved[0], moving[0])
-        regime = TOUCHES + (PUSHES if force > 0.0 else 0)
-    rubs = regime >= PUSHES or points.constant_load[point]
-    if points.friction[point] != FRICTIONLESS and rubs:
-        square = moving[1] * moving[1] + moving[2] * moving[2]
-        if square > points.threshold[point] * points.threshold[point]:
-            regime += SLIDES
-    return regime
-
-
-@kernel
-def _slowest(path: Path, point: int, cell: int) -> float:
-    """Return the share of a cell at which sliding turns, 0 if it does not."""
-    row = 3 * point
-    one, two = path.velocity[row + 1, cell], path.velocity[row + 2, cell]
-    next_one, next_two = (
-        path.velocity[row + 1, cell + 1],
-        path.velocity[row + 2, cell + 1],
-    )
-    if one * next_one + two * next_two >= 0.0:
-        return 0.0
-    # where the velocity has no part along its change
-    along, across = next_one - one, next_two - two
-    low, high = 0.0, 1.0
-    moved, moving = np.zeros(3), np.zeros(3)
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        _place(path, point, cell + middle, moved, moving)
-        if moving[1] * along + moving[2] * across < 0.0:
-            low = middle
-        else:
-            high = middle
-    return high
-
-
-@kernel
-def _events(points: ContactPoints, path: Path) -> Array:
-    """Return where a point changes its regime or turns, in samples."""
-    cells = path.displacement.shape[1] - 1
-    found, count = np.zeros(8 * cells * points.load.size + 1), 0
-    for point in range(points.load.size):
-        rubs = points.friction[point] != FRICTIONLESS
-        for cell in range(cells):
-            turn = _slowest(path, point, cell) if rubs else 0.0
-            if turn > 0.0:
-                count = _changes(points, point, path, cell, cell + turn, found, count)
-                found[count] = cell + turn
-                count += 1
-            count = _changes(points, point, path, cell + turn, cell + 1.0, found, count)
-    return found[:count]
-
-
-@kernel
-def _changes(
-    points: ContactPoints,
-    point: int,
-    path: Path,
-    left: float,
-    right: float,
-    found: Array,
-    count: int,
-) -> int:
-    """Add the changes of regime between two places; return the number found so far."""
-    moved, moving = np.zeros(3), np.zeros(3)
-    before = _regime(points, point, path, left, moved, moving)
-    after = _regime(points, point, path, right, moved, moving)
-    for bit in (TOUCHES, PUSHES, SLIDES):
-        if (before & bit) == (after & bit):
-            continue
-        low, high = left, right
-        for _ in range(HALVINGS):
-            middle = 0.5 * (low + high)
-            regime = _regime(points, point, path, middle, moved, moving)
-            if (regime & bit) == (before & bit):
-                low = middle
-            else:
-                high = middle
-        found[count] = high
-        count += 1
-    return count
-
-
-@kernel
-def _integrate(
+def _integrated(
     points: ContactPoints,
     path: Path,
     basis: Array,
+    inertia: Array,
     edges: Array,
-    elastic: Array,
-    viscous: Array,
-) -> None:
-    """Add up the tangents of both steps of each interval."""
-    moved, moving, force = np.zeros(3), np.zeros(3), np.zeros(3)
-    stiff, slope = np.zeros((3, 3)), np.zeros((3, 3))
-    mean, tilt = np.zeros((2, 3, 3)), np.zeros((2, 3, 3))
+    shortest: float,
+    allowed: float,
+) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+    """Return what :class:`StepTangents` has."""
+    rank, count = basis.shape[1], 0
+    room = 8 * edges.size + 64
+    lengths, sticks = np.empty(room), np.zeros(room, dtype=np.bool_)
+    elastic: Array = np.zeros((room, rank, rank))
+    viscous: Array = np.zeros((room, rank, rank))
+    moments = np.zeros((points.load.size, 3, 2, 3, 3))
+    ends, held = np.empty(64), np.zeros(inertia.size, dtype=np.bool_)
+    # what is held at the beginning has been caught before
+    _moments(points, path, edges[0], edges[1] - edges[0], moments)
+    _catches(moments, inertia, BRIEF / SHORTEST * shortest * path.length, held)
     for interval in range(edges.size - 1):
-        begin, length = edges[interval], edges[interval + 1] - edges[interval]
-        for point in range(points.load.size):
-            mean[:], tilt[:] = 0.0, 0.0
-            for node in range(PLACES.size):
-                at = begin + length * PLACES[node]
-                _place(path, point, at, moved, moving)
-                contact_force(points, point, moved, moving, force, stiff, slope)
-                mean[0] += MEAN[node] * stiff
-                mean[1] += MEAN[node] * slope
-                tilt[0] += TILT[node] * stiff
-                tilt[1] += TILT[node] * slope
-            rows = basis[3 * point : 3 * point + 3]
-            factor = _factor(mean[1], tilt[1])
-            for part in range(2):
-                sign = 2.0 * part - 1.0
-                step = 2 * interval + part
-                _add(elastic[step], rows, mean[0] + 4.0 * sign * tilt[0])
-                _add(viscous[step], rows, mean[1] + factor * sign * tilt[1])
+        begin, waiting = edges[interval], 1
+        ends[0] = edges[interval + 1]
+        while waiting > 0:
+            length = ends[waiting - 1] - begin
+            _moments(points, path, begin, length, moments)
+            taken, begins = _taken(
+                moments, inertia, length, shortest, path.length, allowed, held
+            )
+            if taken < length:
+                ends[waiting] = begin + taken
+                waiting += 1
+                continue
+            if count + 2 > lengths.size:
+                elastic, viscous = _longer(elastic), _longer(viscous)
+                lengths = np.append(lengths, lengths)
+                sticks = np.append(sticks, sticks)
+            _add_steps(moments, basis, elastic, viscous, count)
+            lengths[count : count + 2] = 0.5 * length * path.length
+            sticks[count : count + 2] = begins
+            begin, waiting, count = ends[waiting - 1], waiting - 1, count + 2
+    return lengths[:count], elastic[:count], viscous[:count], sticks[:count]
+
+
+@kernel
+def _taken(
+    moments: Array,
+    inertia: Array,
+    length: float,
+    shortest: float,
+    sample: float,
+    allowed: float,
+    held: NDArray[np.bool_],
+) -> tuple[float, bool]:
+    """Return how much of an interval is taken, and whether a point sticks in it.
+
+    ``sample`` is the time between two samples; ``held`` is brought up to date if all is
+    taken.
+    """
+    changes = _change(moments, inertia, length * sample) > allowed
+    if changes and length > 2.0 * shortest:
+        return 0.5 * length, False
+    brief = BRIEF / SHORTEST * shortest
+    before = held.copy()
+    begins = _catches(moments, inertia, brief * sample, held)
+    if begins and length > 1.5 * brief:
+        held[:] = before
+        return brief, False
+    return length, begins
+
+
+@kernel
+def _longer(steps: Array) -> Array:
+    """Return the same with as much room again."""
+    result: Array = np.zeros((2 * steps.shape[0], steps.shape[1], steps.shape[2]))
+    result[: steps.shape[0]] = steps
+    return result
+
+
+@kernel
+def _moments(
+    points: ContactPoints, path: Path, begin: float, length: float, moments: Array
+) -> None:
+    """Write mean, tilt and bend of the tangents of each point in an interval.
+
+    ``moments`` has shape ``(points, 3, 2, 3, 3)``: the last are those by displacement
+    and those by velocity.
+    """
+    moved, moving, force = np.zeros(3), np.zeros(3), np.zeros(3)
+    tangents = np.zeros((2, 3, 3))
+    moments[:] = 0.0
+    for point in range(points.load.size):
+        for node in range(PLACES.size):
+            at = begin + length * PLACES[node]
+            place(path, point, at, moved, moving)
+            contact_force(points, point, moved, moving, force, tangents[0], tangents[1])
+            for kind in range(2):
+                for row in range(3):
+                    for column in range(3):
+                        size = tangents[kind, row, column]
+                        moments[point, 0, kind, row, column] += MEAN[node] * size
+                        moments[point, 1, kind, row, column] += TILT[node] * size
+                        moments[point, 2, kind, row, column] += BEND[node] * size
+
+
+@kernel
+def _change(moments: Array, inertia: Array, length: float) -> float:
+    """Return by how much the tangents of a point change, beside what holds it."""
+    largest = 0.0
+    for point in range(moments.shape[0]):
+        for row in range(3):
+            held, change = inertia[3 * point + row], 0.0
+            for kind, scale in ((0, length * length), (1, length)):
+                held += scale * abs(moments[point, 0, kind, row, row])
+                for column in range(3):
+                    change += scale * (
+                        abs(moments[point, 1, kind, row, column])
+                        + abs(moments[point, 2, kind, row, column])
+                    )
+            largest = max(largest, change / held)
+    return largest
+
+
+@kernel
+def _catches(
+    moments: Array,
+    inertia: Array,
+    brief: float,
+    held: NDArray[np.bool_],
+) -> bool:
+    """Write which points damping holds; return whether one was not held before."""
+    begins = False
+    for point in range(moments.shape[0]):
+        for axis in range(3):
+            row = 3 * point + axis
+            damping = brief * moments[point, 0, 1, axis, axis]
+            catches = damping > STIFF * inertia[row]
+            begins = begins or (catches and not held[row])
+            held[row] = catches
+    return begins
+
+
+@kernel
+def _add_steps(
+    moments: Array, basis: Array, elastic: Array, viscous: Array, step: int
+) -> None:
+    """Add up the tangents of all points in both steps of an interval."""
+    for point in range(moments.shape[0]):
+        rows = basis[3 * point : 3 * point + 3]
+        mean, tilt = moments[point, 0], moments[point, 1]
+        factor = _factor(mean[1], tilt[1])
+        for part in range(2):
+            sign = 2.0 * part - 1.0
+            _add(elastic[step + part], rows, mean[0], tilt[0], 4.0 * sign)
+            _add(viscous[step + part], rows, mean[1], tilt[1], factor * sign)
 
 
 @kernel
@@ -286,11 +277,11 @@ def _factor(mean: Array, tilt: Array) -> float:
 
 
 @kernel
-def _add(result: Array, rows: Array, tangent: Array) -> None:
-    """Add rowsᵀ tangent rows."""
+def _add(result: Array, rows: Array, mean: Array, tilt: Array, factor: float) -> None:
+    """Add rowsᵀ (mean + factor tilt) rows."""
     for row in range(3):
         for column in range(3):
-            size = tangent[row, column]
+            size = mean[row, column] + factor * tilt[row, column]
             if size == 0.0:
                 continue
             for i in range(rows.shape[1]):

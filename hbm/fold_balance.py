@@ -80,9 +80,10 @@ class FoldBalance:
             self._size = self.vibration(point)
         right, left, value = _bordered(here.jacobian, self._borders)
         by_unknowns, slopes = self._derivatives(point, residual, here, right, left)
+        inner = np.column_stack([here.jacobian, here.slope])
+        jacobian = np.vstack([inner, by_unknowns])
         linearised = FoldLinearisation(
-            np.vstack([np.column_stack([here.jacobian, here.slope]), by_unknowns]),
-            slopes,
+            lambda: (jacobian, slopes),
             np.append(self._places, point.size - 2),
             point.size,
         )

@@ -151,7 +151,7 @@ def ring(parameter: float) -> Callable[[Array], tuple[Array, Linearisation]]:
     def balance(point: Array) -> tuple[Array, Linearisation]:
         slopes = 2.0 * point
         made = Linearisation(
-            slopes[:1, None], slopes[1:], np.zeros(1, dtype=np.int64), 2
+            lambda: (slopes[:1, None], slopes[1:]), np.zeros(1, dtype=np.int64), 2
         )
         return np.array([point @ point - parameter]), made
 

@@ -164,7 +164,8 @@ def small_motions(problem: Problem) -> SmallMotions:
     )
     rank = basis.shape[1]
     mobility = np.linalg.inv(mass)[:rank, :rank]
-    inertia = 1.0 / ((basis @ mobility) * basis).sum(axis=1)
+    moves = ((basis @ mobility) * basis).sum(axis=1)
+    inertia = np.divide(1.0, moves, out=np.full(moves.size, np.inf), where=moves > 0.0)
     return SmallMotions(mass, damping, stiffness, basis, inertia)
 
 

@@ -28,9 +28,9 @@ def test_a_march_leaves_what_is_unstable_and_keeps_the_rest() -> None:
     largest = np.array([row.balance[0] for row in rows])
 
     assert all(row.kept for row in rows)
-    # both kinds are among the points, clearly
+    # Both kinds are among the points; creep of sticking contacts is close to 1.
     assert largest.max() > 1.01
-    assert largest.min() < 0.9999
+    assert (largest < 1.0).sum() >= 2
     # measured up to 8e-3
     for row in rows:
         assert row.march[0] == pytest.approx(row.balance[0], abs=0.01)

@@ -48,17 +48,31 @@ def run(
 @pytest.fixture
 def quick_scene(tmp_path: Path) -> Path:
     """Return a copy of the built-in scene in ``tmp_path`` that takes no time."""
+    path = tmp_path / "quick.toml"
+    path.write_text(_quick(), encoding="utf-8")
+    return path
+
+
+def _quick() -> str:
     text = built_in_text("two-blades")
     for old, new in QUICK.items():
         assert text.count(old) == 1, old
         text = text.replace(old, new)
-    path = tmp_path / "quick.toml"
-    path.write_text(text, encoding="utf-8")
-    return path
+    return text
+
+
+@pytest.fixture(scope="session")
+def compiled(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Have the machine code of the kernels, whose making takes its time."""
+    folder = tmp_path_factory.mktemp("compiled")
+    scene = folder / "quick.toml"
+    scene.write_text(_quick(), encoding="utf-8")
+    for command in ("frc", "sweep"):
+        assert main([command, str(scene), "-o", str(folder / command)]) == 0
 
 
 @pytest.fixture
-def no_hang() -> Iterator[None]:
+def no_hang(compiled: None) -> Iterator[None]:  # noqa: ARG001
     """End a test that does not end by itself."""
 
     def stop(*_: object) -> None:

@@ -141,5 +141,6 @@ MARKS = ("restart", "detached", "branch")
 
 
 def _between(before: PeriodicResponse, after: PeriodicResponse) -> bool:
-    """Return whether the wanted drive lies between two responses."""
-    return (before.parameter - 1.0) * (after.parameter - 1.0) <= 0.0
+    """Return whether the wanted drive lies between two responses, or is the second."""
+    first, last = before.parameter - 1.0, after.parameter - 1.0
+    return first * last < 0.0 or (last == 0.0 and first != 0.0)

@@ -30,6 +30,13 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_range(parser: argparse.ArgumentParser) -> None:
+    """Add a number of the scene, and the values between which it changes."""
+    parser.add_argument("key", metavar="TABLE.KEY", help="such as excitation.force")
+    parser.add_argument("first", metavar="FROM", help="first value of that key")
+    parser.add_argument("last", metavar="TO", help="last value")
+
+
 def add_output(parser: argparse.ArgumentParser, suffix: str) -> None:
     """Add where the results go."""
     parser.add_argument(

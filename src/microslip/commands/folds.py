@@ -35,9 +35,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--set model=A --set friction.law=gkf",
     )
     arguments.add_scene(parser)
-    parser.add_argument("key", metavar="TABLE.KEY", help="such as excitation.force")
-    parser.add_argument("first", metavar="FROM", help="first value of that key")
-    parser.add_argument("last", metavar="TO", help="last value")
+    arguments.add_range(parser)
     arguments.add_output(parser, "folds")
     parser.set_defaults(run=_run)
 

@@ -29,9 +29,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--frequency 136.8 --set model=A --set friction.law=gkf",
     )
     arguments.add_scene(parser)
-    parser.add_argument("key", metavar="TABLE.KEY", help="such as excitation.force")
-    parser.add_argument("first", metavar="FROM", help="first value of that key")
-    parser.add_argument("last", metavar="TO", help="last value")
+    arguments.add_range(parser)
     parser.add_argument(
         "--frequency",
         type=arguments.positive,

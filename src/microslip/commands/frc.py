@@ -58,7 +58,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.store import Stored, save, save_figure
-    from microslip.studies.curve import Wanted, trace_curve
+    from microslip.studies.curve import LOST, Wanted, trace_curve
 
     data, picture = arguments.outputs(options, "frc")
     if options.tolerance is not None:
@@ -74,8 +74,9 @@ def _run(options: argparse.Namespace) -> int:
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
     print(_resolution(traced.curve))
-    sought = options.detached and traced.curve.ending != "interrupted"
-    if sought and "detached" not in traced.curve.event:
+    ending = traced.curve.ending
+    sought = ending == "complete" or ending.startswith(LOST)
+    if options.detached and sought and "detached" not in traced.curve.event:
         print("no detached curve was found")
     return arguments.ended(traced.curve.ending)
 

@@ -37,6 +37,8 @@ class Wanted:
 
 
 ALONE = Wanted()
+LOST = "a branch was lost"
+"""begins the ending of a curve that is whole, as is the search for detached ones"""
 
 
 def trace_curve(
@@ -79,7 +81,7 @@ def _all(
     if wanted.detached:
         yield from detached(problem, rest, options, known)
     if lost is not None:
-        raise ContinuationError(f"a branch was lost: {lost}")
+        raise ContinuationError(f"{LOST}: {lost}")
 
 
 def gathered(

@@ -2,7 +2,7 @@
 
 Needs ``pip install '.[bench]'``. All are given the same equations (first_order.py), a
 compiled right-hand side and its exact Jacobian, and begin on the same orbit; a window
-of the scene's swept sine through resonance is marched with a ladder of tolerances or steps.
+of the scene's swept sine is marched with a ladder of tolerances or of steps.
 The error is the largest one of the energy taken out by friction, over the window, by
 that energy at its end; two methods at tight settings tell what is right, and how well
 it is known. Costs at the errors asked for are interpolated between the cheapest runs.

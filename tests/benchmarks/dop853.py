@@ -82,7 +82,8 @@ def integrated(
     now, trial = state.copy(), np.empty_like(state)
     stages = np.empty((STAGES + 1, state.size))
     flow(system, times[0], now, stages[0])
-    time, step, accepted, rejected = times[0], first, 0, 0
+    adaptive = relative > 0.0 or absolute > 0.0
+    time, step, accepted, rejected, grown = times[0], first, 0, 0, LARGEST
     for place in range(1, times.size):
         while time < times[place]:
             if accepted + rejected >= most:
@@ -94,15 +95,16 @@ def integrated(
             wrong = _error(tableau, now, trial, stages, taken, relative, absolute)
             if not wrong <= 1.0:
                 rejected += 1
-                step = taken * _factor(wrong)
+                step, grown = taken * _factor(wrong, 1.0), 1.0
                 continue
             accepted += 1
             time = times[place] if last else time + taken
             now, trial = trial, now
             stages[0] = stages[STAGES]
-            if wrong > 0.0:
-                wanted = taken * _factor(wrong)
+            if adaptive:
+                wanted = taken * _factor(wrong, grown)
                 step = max(step, wanted) if last else wanted
+            grown = LARGEST
         states[place] = now
     return states, accepted, rejected
 
@@ -154,11 +156,13 @@ def _error(
 
 
 @kernel
-def _factor(wrong: float) -> float:
+def _factor(wrong: float, largest: float) -> float:
     """Return by what to multiply a step with this error; NaN shrinks it."""
+    if wrong == 0.0:
+        return largest
     if not wrong < np.inf:
         return SMALLEST
-    return float(min(LARGEST, max(SMALLEST, SAFETY * wrong**-0.125)))
+    return float(min(largest, max(SMALLEST, SAFETY * wrong**-0.125)))
 
 
 def real_limit(tableau: Tableau) -> float:

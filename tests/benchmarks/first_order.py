@@ -106,7 +106,8 @@ class FirstOrder(NamedTuple):
 
     def closing_error(self, states: Array) -> Array:
         """Return what the energy balance leaves [J], of states from the first on."""
-        stored = np.array([stored_energy(self.system, each) for each in states])
+        rows = np.ascontiguousarray(states)
+        stored = np.array([stored_energy(self.system, each) for each in rows])
         friction, damping, put_in = self.system.energy * states[:, -ENERGIES:].T
         left: Array = put_in + stored[0] - friction - damping - stored
         return left

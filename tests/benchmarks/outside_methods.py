@@ -89,7 +89,7 @@ class Method:
 
 def by_scipy(case: Case, tolerance: float, share: float, *, method: str) -> March:
     """March by one of scipy's solvers."""
-    found = solve_ivp(
+    found = solve_ivp(  # type: ignore[call-overload]
         case.rate,
         (case.times[0], case.times[-1]),
         case.state,

@@ -208,7 +208,7 @@ METHODS = {
     "microslip Newmark": Method(by_newmark, STEPS),
     "scipy Radau": Method(
         functools.partial(by_scipy, method="Radau"),
-        tolerances(1e-3, 1e-6, each_decade=1),
+        tolerances(1e-2, 1e-6, each_decade=1),
     ),
     "scipy BDF": Method(
         functools.partial(by_scipy, method="BDF"), tolerances(1e-3, 1e-6, each_decade=1)

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.style import COLOURS, framed
+from microslip.figures.style import COLOURS, STYLES, framed
 
 Setting = tuple[float, ...]
 """a step, or a relative tolerance and the absolute one's share of it"""
@@ -78,15 +78,15 @@ def written(runs: Sequence[Run], path: Path) -> None:
 
 def drawn(runs: Sequence[Run], title: str, path: Path) -> None:
     """Draw cost by error of all methods; a line joins the best runs of each."""
-    figure = Figure(figsize=(7.0, 5.0), layout="constrained")
+    figure = Figure(figsize=(9.0, 5.0), layout="constrained")
     axes = figure.subplots()
-    outsiders = 0
+    outsiders, own = iter(COLOURS * len(runs)), iter(STYLES * len(runs))
     for name in dict.fromkeys(run.name for run in runs):
-        colour = "0.15" if name.startswith(OURS) else COLOURS[outsiders % len(COLOURS)]
-        outsiders += not name.startswith(OURS)
-        own = [run for run in runs if run.name == name and np.isfinite(run.error)]
-        _line(axes, own, "o", colour=colour, size=2.0, label="")
-        _line(axes, front(own), "-o", colour=colour, size=4.0, label=name)
+        ours = name.startswith(OURS)
+        look = ("0.15", next(own)) if ours else (next(outsiders), "-")
+        those = [run for run in runs if run.name == name and np.isfinite(run.error)]
+        _line(axes, those, "o", colour=look[0], size=2.0, label="")
+        _line(axes, front(those), "o" + look[1], colour=look[0], size=4.0, label=name)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.invert_xaxis()
@@ -97,7 +97,7 @@ def drawn(runs: Sequence[Run], title: str, path: Path) -> None:
         title=title,
     )
     axes.margins(x=0.04)
-    axes.legend(frameon=False)
+    figure.legend(loc="outside right upper", frameon=False)
     figure.savefig(path, dpi=150)
 
 

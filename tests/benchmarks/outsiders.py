@@ -6,7 +6,9 @@ of the scene's swept sine is marched with a ladder of tolerances or of steps.
 The error is the largest one of the energy taken out by friction, over the window, by
 that energy at its end; two methods at tight settings tell what is right, and how well
 it is known. Costs at the errors asked for are interpolated between the cheapest runs.
-Times are of one thread's processor, warm, per simulated second.
+Times are of one thread's processor, warm, per simulated second; windows of half and of
+twice the length show that they do not depend on it. Errors grow with the window until
+it is as long as the motion remembers (0.6 s at 0.2 % damping): ``--window 1`` tells.
 """
 
 from __future__ import annotations

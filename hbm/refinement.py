@@ -15,6 +15,8 @@ from microslip_mechanics.jit import kernel
 
 GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
+INSET = 1e-15
+"""share of a piece by which its ends are looked at from inside"""
 
 
 class Samples(NamedTuple):
@@ -55,41 +57,72 @@ def refine(
 ) -> None:
     """Replace the trapezoidal rule in one cell by Gauss rules between its events.
 
-    What a node sees is shared out to the two samples as a linear function would be.
+    What a node sees is shared out to the two samples as a linear function would be. The
+    longer a piece, the more of it is the straight line between its ends: the rule turns
+    into that of whole cells when an event passes a sample.
     """
     wraps = place + 1 == made.forces.shape[1] // 2 and symmetry.signs.size > 0
     target = 0 if wraps else after
-    for piece in range(-2, 3 * (events.size - 1)):
-        if piece < 0:
-            # what the trapezoidal rule has put there is taken back
-            share = piece + 2.0
-            near, far = -0.5 * (1.0 - share), -0.5 * share
-            blur = 1.0 / 6.0
-        else:
-            left, right = events[piece // 3], events[piece // 3 + 1]
-            share = left + (right - left) * GAUSS_PLACES[piece % 3]
-            weight = (right - left) * GAUSS_WEIGHTS[piece % 3]
-            near, far, blur = weight * (1.0 - share), weight * share, 0.0
-        for axis in range(3):
-            row = 3 * point + axis
-            work.moved[axis] = (1.0 - share) * displacement[row, place] + (
-                share * displacement[row, after]
-            )
-            work.moving[axis] = (1.0 - share) * velocity[row, place] + (
-                share * velocity[row, after]
-            )
-        contact_force(
-            points, point, work.moved, work.moving, work.force,
-            work.by_displacement, work.by_velocity,
-        )  # fmt: skip
-        _deposit(
-            point, work, made, first, last, place, near,
-            near + blur * (1.0 - 2.0 * share), False, symmetry,
-        )  # fmt: skip
-        _deposit(
-            point, work, made, first, last, target, far,
-            far - blur * (1.0 - 2.0 * share), wraps, symmetry,
-        )  # fmt: skip
+    for side in range(2):
+        # what the trapezoidal rule has put there is taken back
+        share = float(side)
+        _evaluate(points, point, displacement, velocity, place, after, share, work)
+        near, far = -0.5 * (1.0 - share), -0.5 * share
+        blur = (1.0 - 2.0 * share) / 6.0
+        _deposit(point, work, made, first, last, place, near, near + blur, False, symmetry)
+        _deposit(point, work, made, first, last, target, far, far - blur, wraps, symmetry)
+    for piece in range(events.size - 1):
+        left, right = events[piece], events[piece + 1]
+        length = right - left
+        straight = length * length
+        for node in range(5):
+            # nodes 3 and 4 are the ends, which stand for the straight line
+            if node < 3:
+                share = left + length * GAUSS_PLACES[node]
+            else:
+                share = left + length * (INSET if node == 3 else 1.0 - INSET)
+            _evaluate(points, point, displacement, velocity, place, after, share, work)
+            near = far = near_forced = far_forced = 0.0
+            if node < 3:
+                weight = length * GAUSS_WEIGHTS[node]
+                near, far = weight * (1.0 - share), weight * share
+                near_forced, far_forced = (1.0 - straight) * near, (1.0 - straight) * far
+            else:
+                for other in range(3):
+                    at = GAUSS_PLACES[other]
+                    weight = straight * length * GAUSS_WEIGHTS[other]
+                    weight *= 1.0 - at if node == 3 else at
+                    between = left + length * at
+                    near_forced += weight * (1.0 - between)
+                    far_forced += weight * between
+            _deposit(point, work, made, first, last if node < 3 else first, place, near, near_forced, False, symmetry)
+            _deposit(point, work, made, first, last if node < 3 else first, target, far, far_forced, wraps, symmetry)
+
+
+@kernel
+def _evaluate(
+    points: ContactPoints,
+    point: int,
+    displacement: Array,
+    velocity: Array,
+    place: int,
+    after: int,
+    share: float,
+    work: Work,
+) -> None:
+    """Write force and tangents at a place between two samples."""
+    for axis in range(3):
+        row = 3 * point + axis
+        work.moved[axis] = (1.0 - share) * displacement[row, place] + (
+            share * displacement[row, after]
+        )
+        work.moving[axis] = (1.0 - share) * velocity[row, place] + (
+            share * velocity[row, after]
+        )
+    contact_force(
+        points, point, work.moved, work.moving, work.force,
+        work.by_displacement, work.by_velocity,
+    )  # fmt: skip
 
 
 @kernel

@@ -12,6 +12,18 @@ from microslip_mechanics.arrays import Array
 
 
 @dataclass(frozen=True, slots=True)
+class Checkpoint:
+    """The end of a block: from here a march goes on as if it had never stopped."""
+
+    displacement: Array
+    """[m], shape (dofs,)"""
+    velocity: Array
+    """[m/s], shape (dofs,)"""
+    memory: Array
+    """what else the integrator keeps, in an order of its own, shape (numbers,)"""
+
+
+@dataclass(frozen=True, slots=True)
 class TimeHistory:
     """Response to a load history at stored times."""
 
@@ -40,6 +52,8 @@ class TimeHistory:
     """steps that converged only when they were divided"""
     ending: str = "complete"
     """how the march ended: "complete", "interrupted", or the cause"""
+    checkpoint: Checkpoint | None = None
+    """at the last time, if the march can go on from there"""
 
     def of(self, energy: str) -> Array:
         """Return one energy over time [J], shape (times,)."""
@@ -68,4 +82,5 @@ def joined(blocks: Sequence[TimeHistory], ending: str) -> TimeHistory:
         iterations=sum(block.iterations for block in blocks),
         divided=sum(block.divided for block in blocks),
         ending=ending,
+        checkpoint=blocks[-1].checkpoint,
     )

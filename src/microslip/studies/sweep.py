@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 from microslip.progress import Watch
 from microslip.scene_file import March, Sweep
 from microslip_mechanics.excitation import SweptSine
@@ -46,12 +44,13 @@ def march_whole(
 
 
 def swept_sine(sweep: Sweep, *, slower: float = 1.0) -> SweptSine:
-    """Return the load history of a scene, its sweep made ``slower`` times as long."""
+    """Return a scene's upward exponential sweep, made ``slower`` times as long."""
     longer = (slower - 1.0) * (sweep.end - sweep.start)
     return SweptSine(
-        **dataclasses.asdict(
-            dataclasses.replace(
-                sweep, end=sweep.end + longer, duration=sweep.duration + longer
-            )
-        )
+        sweep.ramp,
+        sweep.start,
+        sweep.end + longer,
+        sweep.duration + longer,
+        sweep.lowest,
+        sweep.highest,
     )

@@ -53,6 +53,11 @@ class Layout:
     record: int
     """bytes of a record"""
 
+    def same(self, header: bytes) -> bool:
+        """Return whether a file has its variables where this one has them."""
+        last = max(self.attributes.values())
+        return len(header) == len(self.header) and header[last:] == self.header[last:]
+
 
 class RecordFile:
     """A file open for more records; each number is written in one go.

@@ -8,7 +8,8 @@ from pathlib import Path
 from microslip.quantity import SceneError
 from microslip.schema import Growing
 from microslip.store import StoreError, begin, end_of, told
-from microslip.stream import Stream
+from microslip.stream import Stream, rows_of
+from microslip_mechanics.time_history import Checkpoint
 
 
 @dataclass(slots=True)
@@ -61,3 +62,18 @@ def resumed(path: Path, scene: str) -> tuple[Recording, Growing]:
         raise StoreError(f"{path} is complete: there is nothing to resume")
     with told(path):
         return Recording(path, scene, "", Stream(path, head)), end
+
+
+def last_state(path: Path) -> tuple[Checkpoint, float]:
+    """Return where a march stood at its end, and the drive's frequency there [rad/s].
+
+    Raises
+    ------
+    StoreError
+        If the file does not tell.
+    """
+    end, head = end_of(path)
+    if end.checkpoint is None or not head.rows or "frequency" not in head.growing:
+        raise StoreError(f"{path} does not tell where its march ended: march anew")
+    row = rows_of(path, head, head.rows - 1, 1)
+    return end.checkpoint, float(row["frequency"][0])

@@ -81,11 +81,12 @@ class RecordFile:
     def append(self, records: int, rows: Sequence[Array], states: bytes | None) -> int:
         """Write rows behind so many records; return how many there are then.
 
-        ``rows`` are the columns of the growing variables, in their order; ``states``
+        ``rows`` are the columns of the growing variables, in their order, each of shape
+        ``(records, numbers)``; ``states``
         replaces the last of the others before the new records count.
         """
         count = len(rows[0])
-        table = np.concatenate([each.reshape(count, -1) for each in rows], axis=1)
+        table = np.concatenate(rows, axis=1)
         place = self._layout.first_record + records * self._layout.record
         self._at(place, table.astype(">f8").tobytes())
         if states is not None:

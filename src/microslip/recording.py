@@ -8,18 +8,27 @@ from pathlib import Path
 from microslip.quantity import SceneError
 from microslip.schema import Growing
 from microslip.store import StoreError, begin, end_of, told
-from microslip.stream import Stream, rows_of
+from microslip.stream import Head, Stream, rows_of
 from microslip_mechanics.time_history import Checkpoint
 
 
 @dataclass(slots=True)
 class Recording:
-    """Where the blocks of a march go."""
+    """Where the blocks of a march go; ``with`` it the file is closed in any case."""
 
     path: Path
     scene: str
     command: str
+    head: Head | None = None
+    """of a file that goes on"""
     stream: Stream | None = None
+
+    def __enter__(self) -> Recording:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.stream is not None:
+            self.stream.close()
 
     @property
     def rows(self) -> int:
@@ -27,11 +36,9 @@ class Recording:
         return self.stream.rows if self.stream else 0
 
     def keep(self, block: Growing) -> None:
-        """Write a block; the first one begins the file."""
+        """Write a block; the first one opens the file."""
         if self.stream is None:
-            self.stream = begin(
-                self.path, block, scene=self.scene, command=self.command
-            )
+            self.stream = self._opened(block)
         with told(self.path):
             self.stream.append(block)
 
@@ -40,6 +47,12 @@ class Recording:
         if self.stream is not None:
             with told(self.path):
                 self.stream.end(ending)
+
+    def _opened(self, block: Growing) -> Stream:
+        if self.head is None:
+            return begin(self.path, block, scene=self.scene, command=self.command)
+        with told(self.path):
+            return Stream(self.path, self.head)
 
 
 def resumed(path: Path, scene: str) -> tuple[Recording, Growing]:
@@ -60,8 +73,7 @@ def resumed(path: Path, scene: str) -> tuple[Recording, Growing]:
         )
     if end.ending == "complete":
         raise StoreError(f"{path} is complete: there is nothing to resume")
-    with told(path):
-        return Recording(path, scene, "", Stream(path, head)), end
+    return Recording(path, scene, head.text("command"), head), end
 
 
 def last_state(path: Path) -> tuple[Checkpoint, float]:

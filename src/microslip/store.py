@@ -70,6 +70,7 @@ def save(path: Path, stored: Stored) -> None:
         with told(path):
             stream.append(result)
             stream.end(result.ending)
+            stream.close()
         return
     _, schema = kind_of(result)
     about = _about(result, scene=stored.scene, command=stored.command)

@@ -154,10 +154,13 @@ class Stream:
         self.rows = self._file.append(self.rows, rows, state)
 
     def end(self, ending: str) -> None:
-        """Write how the march ended, and close the file."""
+        """Write how the march ended."""
         place = max(RESERVED, len(self._head.text("ending").encode()))
         text = ending.encode()[:place].ljust(place, b"\0")
         self._file.put_attribute("ending", text)
+
+    def close(self) -> None:
+        """Close the file."""
         self._file.close()
 
 

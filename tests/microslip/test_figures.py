@@ -17,6 +17,7 @@ from microslip.figures import sweep as sweeps
 from microslip.figures.agreement import agreement_figure
 from microslip.figures.envelope import envelope_figure
 from microslip.figures.passes import passes
+from microslip.figures.result import result_figure
 from microslip.figures.track import track_figure
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response import ResponseCurve
@@ -421,3 +422,10 @@ def test_envelope_figure_has_a_labelled_panel_for_each_thing_to_see(
     # as those of a sweep, and the amplitude of both blades against frequency
     assert len(titles) == len(set(titles)) == 9
     assert legend(figure.axes[-1]) == ["up", "down"]
+
+
+def test_march_without_rows_is_not_drawn(small_envelope: Envelope) -> None:
+    none = swept(np.zeros(0), np.zeros(0), small_envelope)
+
+    with pytest.raises(ValueError, match="no cycle is complete"):
+        result_figure(none, "title")

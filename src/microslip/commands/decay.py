@@ -144,8 +144,9 @@ def _released(
         problem, state, scene.march, frequency=frequency, periods=options.periods
     )
     length = math.tau / frequency * options.periods
-    ending = kept(watched(length, "decay")(march), keep)
-    recording.end(ending)
+    with recording:
+        ending = kept(watched(length, "decay")(march), keep)
+        recording.end(ending)
     return joined(blocks, ending), ending
 
 

@@ -129,13 +129,14 @@ def dwelled(
         unit="periods at most",
         name="dwell",
     )
-    ending = kept(bar, keep)
-    if ending == "complete" and distances[-1] > options.tolerance:
-        ending = (
-            f"not steady after {len(distances)} periods: give more --most-periods or a "
-            "larger --tolerance"
-        )
-    recording.end(ending)
+    with recording:
+        ending = kept(bar, keep)
+        if ending == "complete" and distances[-1] > options.tolerance:
+            ending = (
+                f"not steady after {len(distances)} periods: give more "
+                "--most-periods or a larger --tolerance"
+            )
+        recording.end(ending)
     return joined(blocks, ending), distances, ending
 
 

@@ -57,8 +57,9 @@ def _run(options: argparse.Namespace) -> int:
     if options.resume is not None:
         recording, end, envelope = _resumed(options, scene)
     blocks = marched(problem_of(scene), loads, scene.march, envelope=envelope, end=end)
-    ending = kept(watched(loads.duration)(blocks), recording.keep)
-    recording.end(ending)
+    with recording:
+        ending = kept(watched(loads.duration)(blocks), recording.keep)
+        recording.end(ending)
     _show(options, data, picture)
     unit = "cycles" if envelope else "times"
     print(f"{recording.rows} {unit} in {data}, picture in {picture}")

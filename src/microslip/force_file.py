@@ -7,11 +7,12 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from microslip.quantity import SceneError
-from microslip_mechanics.arrays import Array
+
+if TYPE_CHECKING:
+    from microslip_mechanics.arrays import Array
 
 COLUMNS = "give time [s] and force [N], two numbers in each line"
 
@@ -38,6 +39,8 @@ def read_force(path: Path) -> Force:
     SceneError
         With file, line and remedy.
     """
+    import numpy as np
+
     content = _content(path)
     rows: list[tuple[float, float]] = []
     header = True

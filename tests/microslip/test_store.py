@@ -4,6 +4,7 @@ import csv
 import dataclasses
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from microslip.store import (
 )
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.thinning import thinned
 from microslip_mechanics.time_history import TimeHistory
 
 SCENE = '# a scene\nscene = "two-blades"\n# --set model=A'
@@ -360,3 +362,36 @@ def test_table_that_cannot_be_written_is_told_in_words(
 
     with pytest.raises(StoreError, match=f"{name} cannot be written: "):
         save_table(tmp_path / name, ("name",), [])
+
+
+def test_a_long_history_is_read_thinned(
+    small_history: TimeHistory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("microslip.store.CHUNK", 100)
+    rows = 1000
+    many: dict[str, Any] = {
+        field.name: np.resize(values, (rows, *values.shape[1:]))
+        for field in dataclasses.fields(small_history)
+        if isinstance(values := getattr(small_history, field.name), np.ndarray)
+    }
+    result = dataclasses.replace(small_history, **many)
+    save(tmp_path / "result.nc", Stored(result, SCENE, COMMAND))
+
+    few = load(tmp_path / "result.nc", most=50).result
+
+    check_same(few, thinned(result, 40))
+
+
+def test_a_file_that_another_program_wrote_anew_is_told(
+    small_history: TimeHistory, tmp_path: Path
+) -> None:
+    path, copy = tmp_path / "result.nc", tmp_path / "copy.nc"
+    save(path, Stored(small_history, SCENE, COMMAND))
+    with netcdf_file(path, "r", mmap=False) as old, netcdf_file(copy, "w") as new:
+        for name in ("kind", "source", "command", "scene", "ending"):
+            setattr(new, name, getattr(old, name))
+        new.createDimension("time", None)
+        new.createVariable("time", "d", ("time",))[:] = old.variables["time"].data
+
+    with pytest.raises(StoreError, match="is not a result file"):
+        load(copy)

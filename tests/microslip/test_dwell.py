@@ -60,7 +60,7 @@ def test_the_distance_is_neither_far_too_small_nor_too_large() -> None:
         axis=1,
     )
     away = np.linalg.norm(ends - ends[-1], axis=1) / np.linalg.norm(ends[-1])
-    middle = slice(20, len(away) // 2)
+    middle = slice(70, len(away) // 2)
     ratio = np.array(distances)[middle] / away[middle]
     assert ratio.min() > 0.5
     assert ratio.max() < 20.0

@@ -15,6 +15,8 @@ from microslip_mechanics.time_history import TimeHistory
 
 FEWEST = 4
 """cycles of a way, and rows of a cycle, that can be seen"""
+MOST = 12
+"""lines that a legend names"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,21 +49,24 @@ def amplitude(axes: Axes, ways: list[Pass], place: int, probe: str) -> None:
     """Draw the amplitude of one probe along each way."""
     levels = sorted({way.level for way in ways})
     both = len({way.rises for way in ways}) > 1
+    named: set[str] = set()
     for number, way in enumerate(ways):
         name = f"level {way.level:g}" if len(levels) > 1 else ""
         direction = ("up" if way.rises else "down") if both else ""
+        label = ", ".join(each for each in (name, direction) if each)
         axes.plot(
             way.hertz,
             1e3 * way.swing[:, place],
             STYLES[0] if way.rises else STYLES[1],
             color=COLOURS[(levels.index(way.level) if len(levels) > 1 else number) % 6],
             linewidth=WIDTH,
-            label=", ".join(each for each in (name, direction) if each),
+            label="" if label in named else label,
         )
+        named.add(label)
     title = f"Amplitude of each cycle, {readable(probe)}"
     framed(axes, x="frequency [Hz]", y="amplitude [mm]", title=title)
     axes.set_ylim(bottom=0.0)
-    if len(levels) > 1 or both:
+    if 1 < len(named) <= MOST:
         axes.legend(frameon=False, fontsize="small")
 
 

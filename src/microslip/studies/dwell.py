@@ -19,8 +19,8 @@ from timedomain.start import Start
 
 ROWS = 60
 """per period at least, if the steps are not longer"""
-WINDOW = 8
-"""periods over which the fading of a transient is measured"""
+WINDOW = 32
+"""periods over which a transient is seen to fade: beats of modes should be shorter"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,8 @@ def dwelling(
         Periods after which it ends in any case.
 
     The period map moves the state by d_k = |x_k − x_{k−1}| in the norm of energy. While
-    the d fade by a factor of ρ in each period, d_k ρ/(1−ρ) is left to go.
+    the d fade by a factor of ρ in each period, d_k ρ/(1−ρ) is left to go. As modes
+    that fade together beat, d_k and ρ are taken from the largest d of each window.
     """
     period = 2.0 * math.pi / frequency
     rest = static_equilibrium(problem).displacement
@@ -89,11 +90,13 @@ class _Ruler:
         here = np.concatenate([place, self._root @ state.velocity])
         self._moved.append(float(np.linalg.norm(here - self._before)))
         self._before = here
-        first, last = self._moved[-WINDOW - 1 :][0], self._moved[-1]
-        if len(self._moved) <= WINDOW or not 0.0 <= last < first:
-            return 0.0 if first == last == 0.0 and len(self._moved) > 1 else math.inf
-        fade = (last / first) ** (1.0 / WINDOW)
-        return float(last * fade / (1.0 - fade) / np.linalg.norm(here))
+        if max(self._moved) == 0.0:
+            return 0.0
+        recent, before = self._moved[-WINDOW:], self._moved[-2 * WINDOW : -WINDOW]
+        if len(before) < WINDOW or not max(recent) < max(before):
+            return math.inf
+        fade = (max(recent) / max(before)) ** (1.0 / WINDOW)
+        return float(max(recent) * fade / (1.0 - fade) / np.linalg.norm(here))
 
 
 def amplitudes(history: TimeHistory, frequency: float) -> Array:

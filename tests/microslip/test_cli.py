@@ -18,7 +18,17 @@ from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
-COMMANDS = ("frc", "sweep", "verify", "tables", "scenes", "explain", "plot")
+COMMANDS = (
+    "frc",
+    "sweep",
+    "dwell",
+    "decay",
+    "verify",
+    "tables",
+    "scenes",
+    "explain",
+    "plot",
+)
 
 
 def curve_of(path: Path) -> ResponseCurve:

@@ -10,7 +10,7 @@ import numpy as np
 
 from microslip.progress import Watch
 from microslip.scene_file import Scene
-from microslip.studies.curve import Traced, followed_upwards, quasi_static_energy
+from microslip.studies.curve import followed_upwards, quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
@@ -49,25 +49,6 @@ class SweepAgreement:
         if self.quasi_static == 0.0:
             return 0.0 if self.energy == 0.0 else float("inf")
         return self.energy / self.quasi_static - 1.0
-
-
-def spread(traced: Traced, count: int) -> list[PeriodicResponse]:
-    """Return responses spread evenly along the branch of an upward sweep.
-
-    Even in arc: half of the weight is frequency, half is amplitude, so that the flanks
-    of a resonance get their share; the peak and both ends are always among them.
-    """
-    curve, places = traced.curve, followed_upwards(traced.curve)
-    amplitude = curve.amplitude[places].max(axis=1)
-    frequency = curve.frequency[places]
-    arc = np.cumsum(
-        np.abs(np.diff(amplitude, prepend=amplitude[0])) / (2.0 * np.ptp(amplitude))
-        + np.abs(np.diff(frequency, prepend=frequency[0])) / np.ptp(frequency)
-    )
-    wanted = np.linspace(arc[0], arc[-1], count)
-    chosen = {int(np.abs(arc - place).argmin()) for place in wanted}
-    chosen |= {0, int(amplitude.argmax()), len(places) - 1}
-    return [traced.responses[places[place]] for place in sorted(chosen)]
 
 
 def orbits(

@@ -141,7 +141,7 @@ class PeriodMap:
         interface = self.problem.interface
         basis, _ = interface.relative_motion()
         moved, moving = (
-            np.reshape(each @ interface.displacement.T, (-1, interface.count, 3))
+            np.reshape(each @ interface.displacement.T, (len(each), interface.count, 3))
             for each in (period.displacement, period.velocity)
         )
         elastic, viscous = contact_tangents(interface.points, basis, moved, moving)
@@ -159,7 +159,8 @@ def _product(free: Array, push: Array, seen: Array, answers: Array) -> Array:
     ``answers`` holds E of each step, shape ``(steps, rank, 2 rank)``.
     """
     size, rank = push.shape
-    blocks = answers.reshape(-1, BLOCK, rank, 2 * rank)
+    count = len(answers) // BLOCK
+    blocks = answers.reshape(count, BLOCK, rank, 2 * rank)
     powers = [np.eye(size)]
     for _ in range(BLOCK):
         powers.append(free @ powers[-1])
@@ -171,9 +172,9 @@ def _product(free: Array, push: Array, seen: Array, answers: Array) -> Array:
         for early in range(late):
             coupled[late, :, early] = watched[late - 1 - early] @ kick
     lag = blocks @ coupled.reshape(BLOCK, 2 * rank, BLOCK * rank)
-    drive = (blocks @ watched).reshape(len(blocks), BLOCK * rank, size)
+    drive = (blocks @ watched).reshape(count, BLOCK * rank, size)
     width = BLOCK * rank
-    forces = np.linalg.solve(np.eye(width) - lag.reshape(-1, width, width), drive)
+    forces = np.linalg.solve(np.eye(width) - lag.reshape(count, width, width), drive)
     carried = powers[0]
     for force in forces:
         carried = powers[BLOCK] @ carried + kicked @ (force @ carried)

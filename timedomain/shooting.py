@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from microslip_mechanics.problem import Problem
-from timedomain.closed_march import closed
+from timedomain.closed_march import ClosedMarch, ShootingError, closed
 from timedomain.period_map import BLOCK, PeriodMap
 from timedomain.periodic_orbit import PeriodicOrbit, extrapolated
 from timedomain.start import Start
@@ -18,7 +18,7 @@ class ShootingOptions:
 
     steps: int = 512
     """of the period in the coarser of the first two orbits"""
-    error: float = 2e-4
+    error: float = 5e-4
     """steps are doubled until the amplitude's estimated relative error is below it"""
     most: int = 8192
     """steps of the finest orbit"""
@@ -45,8 +45,8 @@ def periodic_orbit(
 ) -> PeriodicOrbit:
     """Return the periodic motion near a start, stable or not.
 
-    Two orbits, the second with twice the steps, give the extrapolated motion and how
-    far extrapolation moved it: the error that is reported.
+    Two orbits, the second with twice the steps, give the extrapolated motion; the
+    difference of the two is the error that is reported.
 
     Parameters
     ----------
@@ -69,8 +69,7 @@ def periodic_orbit(
     if not 0.0 < frequency < math.inf:
         raise ValueError(f"frequency {frequency:g} rad/s: give a positive finite one")
     chosen = options or ShootingOptions()
-    carried = PeriodMap.of(problem, frequency, chosen.steps)
-    coarse = closed(carried, carried.state(start))
+    coarse = _first(problem, frequency, start, chosen)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
         fine = closed(finer, coarse.state)
@@ -78,3 +77,21 @@ def periodic_orbit(
         if orbit.error <= chosen.error or 2 * finer.steps > chosen.most:
             return orbit
         coarse = fine
+
+
+def _first(
+    problem: Problem, frequency: float, start: Start, chosen: ShootingOptions
+) -> ClosedMarch:
+    """Return the orbit of the fewest steps that have one.
+
+    Near a fold or a sharp peak those of too few steps have none at this frequency.
+    """
+    steps = chosen.steps
+    while True:
+        carried = PeriodMap.of(problem, frequency, steps)
+        try:
+            return closed(carried, carried.state(start))
+        except ShootingError:
+            steps *= 2
+            if 2 * steps > chosen.most:
+                raise

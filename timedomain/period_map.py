@@ -119,7 +119,8 @@ class PeriodMap:
         carried = _product(free, push, seen, answers[:-1])
         whole: Array = np.eye(len(free))
         before = whole - push @ tangents[0] @ seen
-        return (whole + push @ answers[-1] @ seen) @ carried @ before
+        made: Array = (whole + push @ answers[-1] @ seen) @ carried @ before
+        return made
 
     def _step(self) -> tuple[Array, Array]:
         """Return A and b of one step, (2 modes, 2 modes) and (2 modes, rank)."""

@@ -12,13 +12,13 @@ import pytest
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
 from microslip.studies.curve import quasi_static_energy, trace_curve
+from microslip.studies.orbits import spread
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.verify import (
     SweepAgreement,
     falls,
     orbits,
     rate_of,
-    spread,
     sweep_agreement,
 )
 
@@ -105,7 +105,7 @@ def test_sweeps_agree_when_every_slower_one_is_closer(
 def test_march_stays_on_the_orbits_it_began_on(scene: Scene) -> None:
     problem = problem_of(scene)
     traced = trace_curve(problem, scene.curve)
-    chosen = spread(traced, 3)
+    chosen = [traced.responses[place] for place in spread(traced, 3)]
 
     found = list(orbits(problem, chosen, periods=10, steps_per_period=600))
 
@@ -158,11 +158,14 @@ def test_verification_agrees_within_a_loose_tolerance(
     status, output, error = run("verify", *arguments)
 
     assert (status, error) == (0, "")
+    assert "agree: largest difference of an amplitude" in output
+    assert "3 of 3 orbits within both estimates" in output
     assert "agree: largest deviation of an amplitude" in output
     assert "tolerance 1 %" in output
     assert (tmp_path / "quick-verify.png").is_file()
     rows = [line.split() for line in output.splitlines() if line[:2] == " 1"]
-    assert len(rows) == 3
+    # three orbits by shooting, and three marches
+    assert len(rows) == 6
     assert float(rows[0][0]) == pytest.approx(130.0)
     assert float(rows[-1][0]) == pytest.approx(131.0)
 

@@ -29,6 +29,9 @@ def orbit_row(verdict: Verdict) -> str:
     """Return one orbit as a line."""
     hertz, made = verdict.response.frequency / math.tau, verdict.comparison
     sign = "DISAGREE" if verdict.cause else "agree"
+    if made is not None and not verdict.cause and not made.as_estimated:
+        sign += ", beyond the estimates"
+    sign += ", stability in doubt" if verdict.doubted else ""
     if made is None:
         return f"{hertz:9.4f}  no orbit by shooting  {sign}, {verdict.whereabouts}"
     return (
@@ -78,15 +81,36 @@ def orbits_said(verdicts: Sequence[Verdict]) -> str:
         f"({verdict.whereabouts}): {verdict.cause}"
         for verdict in wrong
     ]
-    made = [each.comparison for each in verdicts if each.comparison is not None]
-    if made and not wrong:
-        worst = max(made, key=lambda each: each.difference)
-        lines.append(
-            f"agree: largest difference of an amplitude {worst.difference:.1e} at "
-            f"{worst.response.frequency / math.tau:.4f} Hz, estimates admit "
-            f"{worst.admitted:.1e}; all of {len(verdicts)} orbits within theirs"
-        )
+    lines += _shared(verdicts)
+    lines += [
+        f"stability in doubt at {each.response.frequency / math.tau:.4f} Hz: largest "
+        f"multiplier {made.multiplier:.4f} by harmonic balance, "
+        f"{made.found_multiplier:.4f} by shooting (± {made.multiplier_error:.4f}); "
+        "more harmonics decide"
+        for each in verdicts
+        if each.doubted and (made := each.comparison) is not None
+    ]
     return "\n".join(lines)
+
+
+def _shared(verdicts: Sequence[Verdict]) -> list[str]:
+    """Return what is said of all orbits together."""
+    from microslip.studies.orbits import beyond, too_many
+
+    count, most = len(verdicts), beyond(verdicts)
+    if too_many(verdicts):
+        share = f"{len(most)} of {count} orbits"
+        return [f"DISAGREE: {share} differ by more than both estimates, not 1 in 10"]
+    pairs = [each.comparison for each in verdicts if each.comparison is not None]
+    if not pairs or any(verdict.cause for verdict in verdicts):
+        return []
+    worst = max(pairs, key=lambda each: each.difference)
+    return [
+        f"agree: largest difference of an amplitude {worst.difference:.1e} at "
+        f"{worst.response.frequency / math.tau:.4f} Hz, estimates "
+        f"{worst.predicted_error:.1e} and {worst.found_error:.1e}; {count - len(most)} "
+        f"of {count} orbits within both estimates"
+    ]
 
 
 def marches_said(marches: Sequence[Agreement], tolerance: float) -> tuple[str, bool]:

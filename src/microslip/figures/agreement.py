@@ -31,6 +31,8 @@ def agreement_figure(
 ) -> Figure:
     """Draw curve and orbits, differences, envelopes of sweeps, and energy by duration.
 
+    The last two are left out without sweeps.
+
     Parameters
     ----------
     curve
@@ -46,8 +48,9 @@ def agreement_figure(
     title
         Of the figure.
     """
-    figure = Figure(figsize=(10.0, 7.0), layout="constrained")
-    panels = figure.subplots(2, 2)
+    rows = 2 if sweeps else 1
+    figure = Figure(figsize=(10.0, 3.5 * rows), layout="constrained")
+    panels = figure.subplots(rows, 2, squeeze=False)
     frequency_response(panels[0, 0], parted(curve))
     for place, colour in zip(absolute(curve.probes), COLOURS, strict=False):
         panels[0, 0].plot(found[0], 1e3 * found[1][:, place], "o", color=colour, ms=4)
@@ -55,8 +58,9 @@ def agreement_figure(
         "Curve, and orbits found by shooting (dots)", loc="left", fontsize="medium"
     )
     _differences(panels[0, 1], found)
-    _envelopes(panels[1, 0], curve, sweeps)
-    _energy(panels[1, 1], energies)
+    if sweeps:
+        _envelopes(panels[1, 0], curve, sweeps)
+        _energy(panels[1, 1], energies)
     figure.suptitle(literal(title))
     return figure
 
@@ -67,12 +71,10 @@ def _differences(axes: Axes, found: tuple[Array, Array, Array, Array]) -> None:
     hertz, _, difference, admitted = (each[order] for each in found)
     shown = 100.0 * np.maximum(difference, SMALLEST)
     fails = difference > admitted
-    axes.semilogy(
-        hertz, 100.0 * admitted, "_", color="k", ms=8, label="estimates admit"
-    )
+    axes.semilogy(hertz, 100.0 * admitted, "_", color="k", ms=8, label="admitted")
     for which, colour, name in (
         (~fails, COLOURS[0], "difference"),
-        (fails, COLOURS[1], "more than admitted"),
+        (fails, COLOURS[1], "too much"),
     ):
         if which.any():
             axes.plot(hertz[which], shown[which], "o", color=colour, ms=4, label=name)

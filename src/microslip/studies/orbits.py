@@ -12,7 +12,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
-from timedomain.comparison import FLOOR, Comparison, compared
+from timedomain.comparison import COVERAGE, FLOOR, Comparison, compared
 
 CURVES = {"branch": "branch", "detached": "detached curve"}
 """events with which another curve begins, and what it is called"""
@@ -30,6 +30,11 @@ class Verdict:
     """None if shooting reached no orbit"""
     cause: str
     """why the two disagree; empty if they agree"""
+
+    @property
+    def doubted(self) -> bool:
+        """Whether shooting denies the stability that harmonic balance reports."""
+        return self.comparison is not None and not self.comparison.as_stable
 
 
 def verdicts(
@@ -56,8 +61,25 @@ def verdicts(
             comparison = compared(problem, response)
         except ShootingError as error:
             yield Verdict(response, where, None, str(error))
-            continue
-        yield Verdict(response, where, comparison, _cause(comparison, tolerance))
+        else:
+            yield Verdict(response, where, comparison, _cause(comparison, tolerance))
+
+
+def beyond(found: Sequence[Verdict]) -> list[Verdict]:
+    """Return those whose amplitudes differ by more than both estimates.
+
+    One in ten may, since estimates are no bounds; see :func:`too_many`.
+    """
+    return [
+        each
+        for each in found
+        if each.comparison is None or not each.comparison.as_estimated
+    ]
+
+
+def too_many(found: Sequence[Verdict]) -> bool:
+    """Return whether more than one, and more than a quarter, are beyond them."""
+    return len(beyond(found)) > max(1, len(found) // 4)
 
 
 def spread(traced: Traced, count: int) -> list[int]:
@@ -133,18 +155,14 @@ def _cause(comparison: Comparison, tolerance: float) -> str:
     )
     if not comparison.agrees:
         return (
-            f"{apart}, more than the estimates {comparison.predicted_error:.1e} and "
-            f"{comparison.found_error:.1e} and the floor {FLOOR:g}; "
+            f"{apart}, more than {COVERAGE:g} x the estimate "
+            f"{comparison.predicted_error:.1e} of harmonic balance, that of shooting "
+            f"{comparison.found_error:.1e} and the floor {FLOOR:g} together; "
             f"harmonics that differ most: {orders}"
         )
     if comparison.difference > tolerance:
         return (
             f"{apart}, more than the tolerance {tolerance:g}; "
             f"harmonics that differ most: {orders}"
-        )
-    if not comparison.as_stable:
-        return (
-            f"largest multiplier {comparison.multiplier:.4f} by harmonic balance, "
-            f"{comparison.found_multiplier:.4f} by shooting"
         )
     return ""

@@ -81,7 +81,7 @@ def sweep_agreement(
     history = march_whole(problem, sweep, scene.march, watch)
     friction, time = history.of("friction"), history.time
     energy = np.diff(np.interp([sweep.start, sweep.end], time, friction))[0] / slower
-    frequency, envelope = _envelope(
+    frequency, envelope = envelope_of(
         history, sweep.frequency(time), sweep.start, sweep.end
     )
     places = followed_upwards(curve)
@@ -124,10 +124,19 @@ def rate_of(agreements: list[SweepAgreement]) -> float | None:
     return float(-np.polyfit(slower, error, 1)[0])
 
 
-def _envelope(
+def envelope_of(
     history: TimeHistory, frequency: Array, start: float, end: float
 ) -> tuple[Array, Array]:
-    """Return frequency and largest deflection of each cycle of the drive."""
+    """Return frequency and largest deflection of each cycle of the drive.
+
+    ``frequency`` is that of the drive [Hz] at each stored time; ``start`` and ``end``
+    are the times [s] between which it acts.
+
+    Raises
+    ------
+    StudyError
+        If a cycle has less than four stored times.
+    """
     driven = (history.time >= start) & (history.time <= end)
     hertz = frequency[driven]
     shown = history.displacement[driven]

@@ -1,6 +1,6 @@
 """Where a swept sine jumps, extrapolated to an infinitely slow sweep.
 
-A sweep that passes a fold at the rate r leaves it late by a delay that goes like r^(2/3):
+A sweep that passes a fold at the rate r jumps late by a delay that goes like r^(2/3):
 near a saddle-node x' = r t + x² escapes where the first zero of Airy's function lies
 (Haberman, SIAM J. Appl. Math. 37, 1979; Jung, Gray, Roy & Mandel, Phys. Rev. Lett. 65,
 1990). The time that the motion then takes to fall adds a term like r.
@@ -40,6 +40,8 @@ class Fold:
     """whether a sweep upwards ends there, rather than one downwards"""
     begin: PeriodicResponse
     """a stable motion on the way to it"""
+    end: float
+    """frequency behind it to which sweeps go [Hz]"""
     height: float
     """amplitude of the first probe half way to where the motion lands [m]"""
 
@@ -76,8 +78,8 @@ def folds_of(problem: Problem, traced: Traced, *, lead: float) -> list[Fold]:
     traced
         The curve.
     lead
-        How far before the fold a sweep may begin, over the fold's frequency; less far
-        if the stable motion begins later.
+        How far behind the fold sweeps end, over the fold's frequency; they begin as far
+        before it, or where the stable motion begins.
     """
     found = []
     for place, response in enumerate(traced.responses):
@@ -88,7 +90,9 @@ def folds_of(problem: Problem, traced: Traced, *, lead: float) -> list[Fold]:
             upward = begin.frequency < response.frequency
             height = _height(problem, traced, response, upward=upward)
             if height is not None:
-                found.append(Fold(response, upward, begin, height))
+                share = 1.0 + (lead if upward else -lead)
+                end = share * response.frequency / (2.0 * np.pi)
+                found.append(Fold(response, upward, begin, end, height))
     return found
 
 
@@ -109,7 +113,7 @@ def jumps(
     Raises
     ------
     StudyError
-        If a sweep does not jump within as much behind the fold as it began before it.
+        If a sweep does not jump before its end.
     """
     if len(set(rates)) < LEAST:
         raise StudyError(f"{len(set(rates))} rates: give at least {LEAST} different")
@@ -121,7 +125,7 @@ def jumps(
 
 
 def extrapolated(rates: Array, frequency: Array) -> tuple[float, float]:
-    """Return f₀ of f = f₀ + a r^(2/3) + b r by least squares, and its standard error."""
+    """Return f₀ of f = f₀ + a r^(2/3) + b r, least squares, and its standard error."""
     scaled = rates / rates.max()
     terms = np.stack([np.ones_like(scaled), scaled ** (2.0 / 3.0), scaled], axis=1)
     found, *_ = np.linalg.lstsq(terms, frequency)
@@ -142,7 +146,7 @@ def _begin(
     for step in (-1, 1):
         begin, at = None, place + step
         while 0 <= at < len(responses) and responses[at].unstable == 0:
-            if begin is not None and responses[at].event:
+            if begin is not None and responses[at].event not in ("", "peak"):
                 break
             begin, at = responses[at], at + step
             if abs(begin.frequency - fold) >= lead * fold:
@@ -177,9 +181,8 @@ def _swept(
 ) -> tuple[Array, Array]:
     """Return the envelope of a sweep through a fold, by frequency [Hz]."""
     begin = fold.begin.frequency / (2.0 * np.pi)
-    end = 2.0 * fold.hertz - begin
-    duration = abs(end - begin) / rate
-    sweep = SweptSine(0.0, 0.0, duration, duration, begin, end)
+    duration = abs(fold.end - begin) / rate
+    sweep = SweptSine(0.0, 0.0, duration, duration, begin, fold.end)
     displacement, velocity = fold.begin.at(np.zeros(1))
     stride = max(1, steps // ROWS)
     options = MarchOptions(1.0 / (stride * ROWS * fold.hertz), stride)
@@ -193,12 +196,12 @@ def _swept(
 def _passed(fold: Fold, hertz: Array, envelope: Array) -> float:
     """Return the frequency at which an envelope passes the height for good [Hz]."""
     side = np.sign(envelope - fold.height)
-    (before,) = np.nonzero(side == side[0])
-    last = int(before[-1])
-    if last == len(hertz) - 1:
+    (before,) = np.nonzero(side == side[:1])
+    last = int(before.max(initial=0))
+    if last >= len(hertz) - 1:
         raise StudyError(
-            f"no jump within {abs(hertz[-1] - fold.hertz):.3g} Hz behind the fold at "
-            f"{fold.hertz:.6g} Hz: give slower sweeps, or a longer way"
+            f"no jump within {abs(fold.end - fold.hertz):.3g} Hz behind the fold at "
+            f"{fold.hertz:.6g} Hz: give slower sweeps, or a longer lead"
         )
     ends = envelope[last : last + 2]
     share = (fold.height - ends[0]) / (ends[1] - ends[0])

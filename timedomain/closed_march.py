@@ -110,12 +110,16 @@ def _closer(
 
 def _marched(carried: PeriodMap, state: Array) -> tuple[Period, Array]:
     """Return one period from a state, and end less beginning."""
-    try:
-        period = carried.march(state)
-    except IntegrationError as error:
-        raise ShootingError(f"{_at(carried)}: {error}") from error
-    end = Start(period.displacement[-1], period.velocity[-1])
-    return period, carried.state(end) - state
+    with np.errstate(over="ignore", invalid="ignore"):
+        try:
+            period = carried.march(state)
+        except IntegrationError as error:
+            raise ShootingError(f"{_at(carried)}: {error}") from error
+        end = Start(period.displacement[-1], period.velocity[-1])
+        gap = carried.state(end) - state
+    if not np.isfinite(gap).all():
+        raise ShootingError(f"{_at(carried)} leaves all bounds: give a closer start")
+    return period, gap
 
 
 def _vibration(carried: PeriodMap, period: Period) -> float:

@@ -11,7 +11,7 @@ import pytest
 
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
-from microslip.studies.curve import quasi_static_energy, trace_curve
+from microslip.studies.curve import Traced, quasi_static_energy, trace_curve
 from microslip.studies.orbits import spread
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.verify import (
@@ -21,6 +21,7 @@ from microslip.studies.verify import (
     rate_of,
     sweep_agreement,
 )
+from microslip_mechanics.problem import Problem
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 
@@ -180,6 +181,34 @@ def test_verification_disagrees_within_an_absurd_tolerance(
     assert status == 1
     assert "DISAGREE: largest deviation of an amplitude" in output
     assert (tmp_path / "quick-verify.png").is_file()
+
+
+def test_verification_of_a_curve_of_another_problem_names_where_it_is_wrong(
+    run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # The curve of one per cent more drive, beside orbits of the scene's drive.
+    def traced(problem: Problem, *arguments: object) -> Traced:
+        louder = dataclasses.replace(problem, drive=1.01 * problem.drive)
+        return trace_curve(louder, *arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", traced)
+    band = sets("curve.highest=131", "curve.harmonics=7", "curve.samples=128")
+
+    status, output, _ = run(
+        "verify",
+        str(quick_scene),
+        *band,
+        "--frequencies=3",
+        "--tolerance=1",
+        "--slower",
+    )
+
+    assert status == 1
+    said = [line for line in output.splitlines() if line.startswith("DISAGREE at")]
+    assert len(said) == 3
+    assert said[0].startswith("DISAGREE at 130.0000 Hz (stable): amplitudes differ by")
+    assert "harmonics that differ most: 1 (1e-02)" in said[0]
+    assert "DISAGREE: 3 of 3 orbits differ by more than both estimates" in output
 
 
 @pytest.mark.parametrize(("approach", "status"), [(True, 0), (False, 1)])

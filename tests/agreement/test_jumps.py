@@ -97,7 +97,10 @@ def test_sweeps_too_fast_to_jump_on_their_way_are_refused(fastest: float) -> Non
     with pytest.raises(StudyError, match="give slower sweeps"):
         list(
             jumps(
-                problem, [fold], fastest * np.array([1.0, 0.9, 0.8, 0.7]), steps=STEPS
+                problem,
+                [fold],
+                [fastest * each for each in (1.0, 0.9, 0.8, 0.7)],
+                steps=STEPS,
             )
         )
 

@@ -105,7 +105,8 @@ def test_the_picture_shows_curve_envelopes_and_delays(
     figure.draw_without_rendering()
     left, right = figure.axes
     curve, *envelopes, fold = left.lines
-    np.testing.assert_allclose(curve.get_ydata(), 1e3 * small_curve.peak[:, 0])
+    shown = np.asarray(curve.get_ydata(), dtype=float)
+    np.testing.assert_allclose(shown, 1e3 * small_curve.peak[:, 0])
     for each in envelopes:
         np.testing.assert_allclose(np.asarray(each.get_ydata()), 1e-2 * hertz)
     assert len(envelopes) == 4

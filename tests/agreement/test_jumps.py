@@ -58,7 +58,9 @@ def test_the_error_of_the_extrapolation_is_that_of_scattered_jumps() -> None:
     made = [extrapolated(rates, law + draw.normal(0.0, 1e-4, 5)) for _ in range(400)]
 
     away, error = np.array(made).T
-    assert np.sqrt(np.mean(error**2)) == pytest.approx(away.std(), rel=0.2)
+    # on the safe side: what the fastest sweep changes counts too
+    assert 1.0 < np.sqrt(np.mean(error**2)) / away.std() < 2.5
+    assert np.mean(np.abs(away) < 3.0 * error) > 0.9
     assert abs(away.mean()) < 3.0 * away.std() / 20.0
 
 

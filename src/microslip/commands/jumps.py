@@ -18,7 +18,7 @@ HEADER = """\
      fold  sweep    rate     jump  behind the fold
      [Hz]         [Hz/s]     [Hz]             [Hz]"""
 SPREAD = 3.0
-"""standard errors of the fit within which a jump is on its fold"""
+"""errors of the extrapolation within which a jump is on its fold"""
 STEPS = 1e-4
 """of a fold's frequency: what time steps and harmonics may shift it by"""
 
@@ -31,7 +31,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Trace the curve of a scene; sweep through each fold at which a "
         "stable motion ends, at several rates, up or down; extrapolate the jump to no "
         "rate, compare it with the fold; write SCENE-jumps.png. Exit status 1 if one "
-        f"is further from its fold than {SPREAD:g} standard errors of the fit and "
+        f"is further from its fold than {SPREAD:g} errors of the extrapolation and "
         f"{STEPS:g} of the frequency.",
         epilog="example: microslip jumps two-blades --set model=A --set "
         "friction.law=gkf --set excitation.force=1.9",
@@ -92,13 +92,13 @@ def _lines(jump: Jump) -> str:
     """Return the jumps at one fold, and what follows, as lines."""
     fold, way = jump.fold.hertz, "up" if jump.fold.upward else "down"
     rows = [
-        f"{fold:9.4f}  {way:5s} {rate:7g} {place:8.4f} {_late(jump, place):16.4f}"
+        f"{fold:9.4f}  {way:5s} {rate:7g} {place:8.4f} {_late(jump, place):16.2e}"
         for rate, place in zip(jump.rates, jump.frequency, strict=True)
     ]
     word = "agree" if _agrees(jump) else "DISAGREE"
     rows.append(
         f"{fold:9.4f}  {way:5s}       0 {jump.extrapolated:8.4f} "
-        f"{_late(jump, jump.extrapolated):16.4f} ± {jump.error:.4f}  {word}"
+        f"{_late(jump, jump.extrapolated):16.2e} ± {jump.error:.1e}  {word}"
     )
     return "\n".join(rows)
 

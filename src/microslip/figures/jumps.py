@@ -29,7 +29,7 @@ class JumpLine:
     extrapolated: float
     """the same of an infinitely slow one [Hz]"""
     error: float
-    """its standard error [Hz]"""
+    """its error [Hz]"""
     envelopes: Sequence[tuple[Array, Array]]
     """frequency [Hz] and largest deflection [m] of each cycle"""
 

@@ -63,7 +63,7 @@ class Jump:
     extrapolated: float
     """to no rate [Hz]"""
     error: float
-    """standard error of that, from the fit's residual [Hz]"""
+    """of that, see :func:`extrapolated` [Hz]"""
     envelopes: tuple[tuple[Array, Array], ...]
     """frequency [Hz] and largest deflection [m] of each cycle, for each rate"""
 
@@ -125,12 +125,25 @@ def jumps(
 
 
 def extrapolated(rates: Array, frequency: Array) -> tuple[float, float]:
-    """Return f₀ of f = f₀ + a r^(2/3) + b r, least squares, and its standard error."""
+    """Return f₀ of f = f₀ + a r^(2/3) + b r by least squares, and its error.
+
+    The error is the larger of the fit's standard error, which the scatter of jumps
+    makes, and of what leaving the fastest sweep out changes, where terms that the law
+    does not have are largest.
+    """
+    found, error = _fitted(rates, frequency)
+    slower = rates < rates.max()
+    without, _ = _fitted(rates[slower], frequency[slower])
+    return found, max(error, abs(found - without))
+
+
+def _fitted(rates: Array, frequency: Array) -> tuple[float, float]:
+    """Return f₀ and its standard error; zero where three jumps fix the fit."""
     scaled = rates / rates.max()
     terms = np.stack([np.ones_like(scaled), scaled ** (2.0 / 3.0), scaled], axis=1)
     found, *_ = np.linalg.lstsq(terms, frequency)
     away = frequency - terms @ found
-    variance = float(away @ away) / (len(rates) - terms.shape[1])
+    variance = float(away @ away) / max(1, len(rates) - terms.shape[1])
     spread = np.linalg.inv(terms.T @ terms)[0, 0]
     return float(found[0]), float(np.sqrt(variance * spread))
 

@@ -69,8 +69,12 @@ def refine(
         _evaluate(points, point, displacement, velocity, place, after, share, work)
         near, far = -0.5 * (1.0 - share), -0.5 * share
         blur = (1.0 - 2.0 * share) / 6.0
-        _deposit(point, work, made, first, last, place, near, near + blur, False, symmetry)
-        _deposit(point, work, made, first, last, target, far, far - blur, wraps, symmetry)
+        _deposit(
+            point, work, made, first, last, place, near, near + blur, False, symmetry
+        )
+        _deposit(
+            point, work, made, first, last, target, far, far - blur, wraps, symmetry
+        )
     for piece in range(events.size - 1):
         left, right = events[piece], events[piece + 1]
         length = right - left
@@ -86,7 +90,10 @@ def refine(
             if node < 3:
                 weight = length * GAUSS_WEIGHTS[node]
                 near, far = weight * (1.0 - share), weight * share
-                near_forced, far_forced = (1.0 - straight) * near, (1.0 - straight) * far
+                near_forced, far_forced = (
+                    (1.0 - straight) * near,
+                    (1.0 - straight) * far,
+                )
             else:
                 for other in range(3):
                     at = GAUSS_PLACES[other]
@@ -95,8 +102,30 @@ def refine(
                     between = left + length * at
                     near_forced += weight * (1.0 - between)
                     far_forced += weight * between
-            _deposit(point, work, made, first, last if node < 3 else first, place, near, near_forced, False, symmetry)
-            _deposit(point, work, made, first, last if node < 3 else first, target, far, far_forced, wraps, symmetry)
+            _deposit(
+                point,
+                work,
+                made,
+                first,
+                last if node < 3 else first,
+                place,
+                near,
+                near_forced,
+                False,
+                symmetry,
+            )
+            _deposit(
+                point,
+                work,
+                made,
+                first,
+                last if node < 3 else first,
+                target,
+                far,
+                far_forced,
+                wraps,
+                symmetry,
+            )
 
 
 @kernel

@@ -67,6 +67,11 @@ def floquet_multipliers(
     coarse, fine = (
         _marched(structure, orbit, cuts, steps // 2, refinement=each) for each in (1, 2)
     )
+    return extrapolated_multipliers(coarse, fine)
+
+
+def extrapolated_multipliers(coarse: Array, fine: Array) -> Multipliers:
+    """Return the multipliers of maps by steps and by half of them, extrapolated."""
     before = np.linalg.eigvals(coarse)
     values = np.linalg.eigvals(fine + (fine - coarse) / 3.0)
     values = values[np.argsort(-np.abs(values), kind="stable")]

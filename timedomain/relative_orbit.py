@@ -49,9 +49,7 @@ class RelativeOrbit:
         stiffness, damping
             ∂φ/∂y [N/m] and ∂φ/∂ẏ [N s/m], each of shape ``(phases, rank, rank)``.
         """
-        stiffness, damping = np.zeros((2, phase.size, *2 * self.basis.shape[1:]))
-        _tangents(self.points, self.basis, *self._seen(phase), stiffness, damping)
-        return stiffness, damping
+        return contact_tangents(self.points, self.basis, *self._seen(phase))
 
     def mean_tangents(
         self, begin: float, length: float, steps: int
@@ -105,6 +103,30 @@ class RelativeOrbit:
         displacement, velocity = self.motion.at(phase)
         shape = (phase.size, self.points.load.size, 3)
         return displacement.reshape(shape), velocity.reshape(shape)
+
+
+def contact_tangents(
+    points: ContactPoints, basis: Array, displacement: Array, velocity: Array
+) -> tuple[Array, Array]:
+    """Return contact stiffness and damping on the relative coordinates.
+
+    Parameters
+    ----------
+    points
+        The contact table.
+    basis
+        Relative displacements of the points from the coordinates, (3 points, rank).
+    displacement, velocity
+        Of the points, relative, each of shape ``(times, points, 3)``.
+
+    Returns
+    -------
+    stiffness, damping
+        ∂φ/∂y [N/m] and ∂φ/∂ẏ [N s/m], each of shape ``(times, rank, rank)``.
+    """
+    stiffness, damping = np.zeros((2, len(displacement), *2 * basis.shape[1:]))
+    _tangents(points, basis, displacement, velocity, stiffness, damping)
+    return stiffness, damping
 
 
 @kernel

@@ -15,7 +15,6 @@ from microslip.studies.curve import (
     shown_points,
     trace_curve,
 )
-from microslip.studies.verify import spread
 from microslip_mechanics.response import ResponseCurve
 
 
@@ -169,38 +168,3 @@ def test_scene_with_harmonics_keeps_them_and_reports_the_error(scene: Scene) -> 
     assert set(curve.harmonics) == {5.0}
     assert set(curve.samples) == {256.0}
     assert np.isfinite(curve.error).all()
-
-
-@pytest.mark.parametrize("count", [1, 2, 5, 12])
-def test_spread_holds_both_ends_and_the_peak(count: int, scene: Scene) -> None:
-    traced = trace_curve(problem_of(scene), scene.curve)
-    amplitude = np.concatenate([np.linspace(1, 9, 20), np.linspace(8, 2, 100)])[
-        : len(traced.responses)
-    ]
-    peaked = dataclasses.replace(
-        traced.curve, amplitude=np.outer(amplitude, np.ones(len(traced.curve.probes)))
-    )
-
-    chosen = spread(dataclasses.replace(traced, curve=peaked), count)
-
-    frequencies = [response.frequency for response in chosen]
-    assert frequencies == sorted(frequencies)
-    assert chosen[0] is traced.responses[0]
-    assert traced.responses[int(amplitude.argmax())] in chosen
-    assert chosen[-1] is traced.responses[-1]
-    assert count <= len(chosen) <= count + 2
-
-
-def test_spread_leaves_out_what_an_upward_sweep_jumps_over(scene: Scene) -> None:
-    traced = trace_curve(problem_of(scene), scene.curve)
-    points = len(traced.responses)
-    frequency = traced.curve.frequency.copy()
-    frequency[points // 2 :] -= frequency[points // 2] - frequency[points // 4]
-    frequency[-1] = traced.curve.frequency[-1]
-    folded = dataclasses.replace(traced.curve, frequency=frequency)
-
-    chosen = spread(dataclasses.replace(traced, curve=folded), points)
-
-    places = [traced.responses.index(response) for response in chosen]
-    assert set(places) <= set(followed_upwards(folded).tolist())
-    assert points // 2 not in places

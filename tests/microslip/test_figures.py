@@ -253,14 +253,15 @@ def test_sweep_figure_shows_both_blades_on_one_scale(
 def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     small_curve: ResponseCurve,
 ) -> None:
-    frequency, deviation = np.array([130.0, 133.0]), np.array([1e-4, 2e-3])
+    frequency = np.array([133.0, 130.0])
+    difference, admitted = np.array([2e-3, 1e-4]), np.array([1e-3, 5e-4])
     marched = np.arange(8.0).reshape(2, 4) * 1e-4
     swept = np.linspace(130.0, 134.0, 9)
     slower, error = np.array([1.0, 4.0, 10.0]), np.array([0.4, -0.1, 0.05])
 
     figure = agreement_figure(
         unmarked(small_curve),
-        (frequency, marched, deviation),
+        (frequency, marched, difference, admitted),
         [("1 x as long", swept, 1e-4 * swept), ("4 x as long", swept, 2e-4 * swept)],
         (slower, error),
         "two-blades",
@@ -269,7 +270,11 @@ def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     check_labels_of_agreement(figure)
     response, deviations, envelopes, energies = figure.axes
     check_lines(response.lines[3:], frequency, [*1e3 * marched.T[:3]])
-    check_lines(deviations.lines, frequency, [100.0 * deviation])
+    limits, *dots = deviations.lines
+    check_lines([limits], [130.0, 133.0], [[0.05, 0.1]])
+    check_lines(dots[:1], [130.0], [[0.01]])
+    check_lines(dots[1:], [133.0], [[0.2]])
+    assert legend(deviations) == ["admitted", "difference", "too much"]
     check_lines(envelopes.lines[:2], swept, [0.1 * swept, 0.2 * swept])
     hertz = curves.abscissa(small_curve)
     check_lines(envelopes.lines[2:], hertz, [1e3 * small_curve.peak[:, 0]])
@@ -290,15 +295,16 @@ def check_labels_of_agreement(figure: Figure) -> None:
 
 def test_agreement_without_sweeps_is_drawn_too(small_curve: ResponseCurve) -> None:
     nothing = np.zeros(0)
-    marched = (np.array([130.0]), np.full((1, 4), 1e-4), np.array([1e-3]))
+    one = np.array([1e-3])
+    found = (np.array([130.0]), np.full((1, 4), 1e-4), one, 2.0 * one)
 
-    figure = agreement_figure(small_curve, marched, [], (nothing, nothing), "title")
+    figure = agreement_figure(small_curve, found, [], (nothing, nothing), "title")
 
-    titles = [axes.get_title(loc="left") for axes in figure.axes]
-    assert [title.split(",")[0] for title in titles] == [
-        "Curve",
-        "Amplitude after the march",
-    ]
+    figure.draw_without_rendering()
+    assert len(figure.axes) == 2
+    for axes in figure.axes:
+        assert UNIT.search(axes.get_xlabel())
+        assert UNIT.search(axes.get_ylabel())
 
 
 @pytest.mark.parametrize(

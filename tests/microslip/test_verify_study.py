@@ -11,16 +11,17 @@ import pytest
 
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
-from microslip.studies.curve import quasi_static_energy, trace_curve
+from microslip.studies.curve import Traced, quasi_static_energy, trace_curve
+from microslip.studies.orbits import spread
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.verify import (
     SweepAgreement,
     falls,
     orbits,
     rate_of,
-    spread,
     sweep_agreement,
 )
+from microslip_mechanics.problem import Problem
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 
@@ -105,7 +106,7 @@ def test_sweeps_agree_when_every_slower_one_is_closer(
 def test_march_stays_on_the_orbits_it_began_on(scene: Scene) -> None:
     problem = problem_of(scene)
     traced = trace_curve(problem, scene.curve)
-    chosen = spread(traced, 3)
+    chosen = [traced.responses[place] for place in spread(traced, 3)]
 
     found = list(orbits(problem, chosen, periods=10, steps_per_period=600))
 
@@ -158,11 +159,14 @@ def test_verification_agrees_within_a_loose_tolerance(
     status, output, error = run("verify", *arguments)
 
     assert (status, error) == (0, "")
+    assert "agree: largest difference of an amplitude" in output
+    assert "3 of 3 orbits within both estimates" in output
     assert "agree: largest deviation of an amplitude" in output
     assert "tolerance 1 %" in output
     assert (tmp_path / "quick-verify.png").is_file()
     rows = [line.split() for line in output.splitlines() if line[:2] == " 1"]
-    assert len(rows) == 3
+    # three orbits by shooting, and three marches
+    assert len(rows) == 6
     assert float(rows[0][0]) == pytest.approx(130.0)
     assert float(rows[-1][0]) == pytest.approx(131.0)
 
@@ -177,6 +181,34 @@ def test_verification_disagrees_within_an_absurd_tolerance(
     assert status == 1
     assert "DISAGREE: largest deviation of an amplitude" in output
     assert (tmp_path / "quick-verify.png").is_file()
+
+
+def test_verification_of_a_curve_of_another_problem_names_where_it_is_wrong(
+    run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # The curve of one per cent more drive, beside orbits of the scene's drive.
+    def traced(problem: Problem, *arguments: object) -> Traced:
+        louder = dataclasses.replace(problem, drive=1.01 * problem.drive)
+        return trace_curve(louder, *arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", traced)
+    band = sets("curve.highest=131", "curve.harmonics=7", "curve.samples=128")
+
+    status, output, _ = run(
+        "verify",
+        str(quick_scene),
+        *band,
+        "--frequencies=3",
+        "--tolerance=1",
+        "--slower",
+    )
+
+    assert status == 1
+    said = [line for line in output.splitlines() if line.startswith("DISAGREE at")]
+    assert len(said) == 3
+    assert said[0].startswith("DISAGREE at 130.0000 Hz (stable): amplitudes differ by")
+    assert "harmonics that differ most: 1 (1e-02)" in said[0]
+    assert "DISAGREE: 3 of 3 orbits differ by more than both estimates" in output
 
 
 @pytest.mark.parametrize(("approach", "status"), [(True, 0), (False, 1)])

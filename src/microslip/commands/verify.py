@@ -4,28 +4,34 @@ from __future__ import annotations
 
 import argparse
 import math
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from microslip.commands import arguments, frc, sweep
+from microslip.commands import arguments, frc, sweep, verify_tables
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from microslip.scene_file import Scene
     from microslip.studies.curve import Traced
+    from microslip.studies.orbits import Verdict
     from microslip.studies.verify import SweepAgreement
     from microslip_mechanics.problem import Problem
     from timedomain.verify import Agreement
 
 SLOWEST = 1000.0
 """times the length of the scene's sweep"""
-ORBITS = """\
-steady state: march started on the orbit that harmonic balance found
-frequency  amplitude [mm]   deviation [%]                   distance from orbit  drift
-     [Hz]  excited blade     excited  follower   element       first      last"""
-SWEEPS = """\
-swept sine beside the curve's prediction for an infinitely slow one
-  slower   energy of friction [J]  predicted [J]  difference  envelope  closing error"""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What was found so far; it stays when a march is stopped."""
+
+    places: list[int] = field(default_factory=list)
+    """of the orbits on the curve"""
+    orbits: list[Verdict] = field(default_factory=list)
+    marches: list[Agreement] = field(default_factory=list)
+    sweeps: list[SweepAgreement] = field(default_factory=list)
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -33,9 +39,10 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "verify",
         help="check harmonic balance against time integration",
-        description="March from orbits that harmonic balance found, and march the "
-        "scene's sweep and slower ones against the curve; write SCENE-verify.png. Exit "
-        "status 1 if an amplitude deviates by more than the tolerance, or if energy "
+        description="Find orbits of harmonic balance again by shooting, stable or not, "
+        "and march the scene's sweep and slower ones against the curve; write "
+        "SCENE-verify.png. Exit status 1 if an amplitude differs by more than the "
+        "tolerance or than the error estimates of both solvers explain, or if energy "
         "and envelope of the sweep do not approach the curve as it slows.",
         epilog="example: microslip verify two-blades --set model=B --frequencies 15",
     )
@@ -43,13 +50,18 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     arguments.add_output(parser, "verify")
     for name, kind, default, meaning in (
         ("--frequencies", _count, 9, "orbits along the curve"),
-        ("--periods", _several, 200, "length of each march in periods"),
-        ("--steps", _count, 600, "time steps per period"),
+        ("--periods", _several, 0, "also march so many periods from each orbit"),
+        ("--steps", _count, 600, "time steps per period of that march"),
         ("--tolerance", arguments.positive, 0.01, "relative deviation of amplitudes"),
     ):
         parser.add_argument(
             name, type=kind, default=default, help=f"{meaning} (default: {default})"
         )
+    for name, meaning in (
+        ("--branches", "also the branches that begin at branch points"),
+        ("--detached", "also detached curves, sought by varying the drive"),
+    ):
+        parser.add_argument(name, action="store_true", help=meaning)
     parser.add_argument(
         "--slower",
         type=_slowness,
@@ -86,7 +98,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.quantity import SceneError
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
-    from microslip.studies.curve import trace_curve
+    from microslip.studies.curve import Wanted, trace_curve
 
     _, picture = arguments.outputs(options, "verify")
     scene = load_scene(options.scene, options.overrides)
@@ -104,46 +116,66 @@ def _run(options: argparse.Namespace) -> int:
             f"not cover [sweep] {swept.lowest:g} to {swept.highest:g} Hz: give it the "
             "sweep's range, or leave the sweeps out by --slower without a value"
         )
-    traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))
+    wanted = Wanted(options.branches, options.detached)
+    traced = trace_curve(problem, scene.curve, frc.watched(scene.curve), wanted)
     if traced.curve.ending != "complete":
         return arguments.ended(traced.curve.ending)
-    orbits: list[Agreement] = []
-    sweeps: list[SweepAgreement] = []
+    found = Found()
     try:
-        _orbits(options, problem, traced, orbits)
-        _sweeps(options, scene, problem, traced, sweeps)
+        _orbits(options, problem, traced, found)
+        _marches(options, problem, traced, found)
+        _sweeps(options, scene, problem, traced, found.sweeps)
     except KeyboardInterrupt:
         return arguments.ended("interrupted")
     finally:
-        _report(orbits, sweeps)
-    _draw(options, traced, orbits, sweeps, picture)
+        _report(found)
+    _draw(options, traced, found, picture)
     print(f"picture in {picture}")
-    return _verdict(options, orbits, sweeps)
+    return _verdict(options, found)
 
 
 def _orbits(
-    options: argparse.Namespace,
-    problem: Problem,
-    traced: Traced,
-    found: list[Agreement],
+    options: argparse.Namespace, problem: Problem, traced: Traced, found: Found
 ) -> None:
-    """March the orbits; what is found stays when the march is stopped."""
+    """Shoot; print what is found at once."""
     from microslip.progress import shown
-    from microslip.studies.verify import orbits, spread
+    from microslip.studies.orbits import spread, verdicts
 
-    chosen = spread(traced, options.frequencies)
-    marches = orbits(
-        problem, chosen, periods=options.periods, steps_per_period=options.steps
-    )
+    places = spread(traced, options.frequencies)
+    found.places.extend(places)
     bar = shown(
-        marches,
-        total=len(chosen),
-        done=lambda _: len(found) + 1.0,
+        verdicts(problem, traced, places, tolerance=options.tolerance),
+        total=len(places),
+        done=lambda _: len(found.orbits) + 1.0,
         unit="",
         name="orbits",
     )
     for each in bar:
-        found.append(each)  # noqa: PERF402
+        found.orbits.append(each)
+
+
+def _marches(
+    options: argparse.Namespace, problem: Problem, traced: Traced, found: Found
+) -> None:
+    """March from the same orbits; what is found stays when the march is stopped."""
+    from microslip.progress import shown
+    from microslip.studies.verify import orbits
+
+    if options.periods == 0:
+        return
+    responses = [traced.responses[place] for place in found.places]
+    marches = orbits(
+        problem, responses, periods=options.periods, steps_per_period=options.steps
+    )
+    bar = shown(
+        marches,
+        total=len(responses),
+        done=lambda _: len(found.marches) + 1.0,
+        unit="",
+        name="marches",
+    )
+    for each in bar:
+        found.marches.append(each)
 
 
 def _sweeps(
@@ -165,89 +197,63 @@ def _sweeps(
         )
 
 
-def _report(orbits: list[Agreement], sweeps: list[SweepAgreement]) -> None:
+def _report(found: Found) -> None:
     """Print what was found."""
-    from microslip.studies.verify import rate_of
-
-    if orbits:
-        print(ORBITS)
-    for orbit in orbits:
-        print(
-            f"{orbit.frequency / math.tau:9.4f}  {1e3 * orbit.predicted[0]:13.6f}  "
-            + " ".join(f"{100.0 * deviation:9.4f}" for deviation in orbit.deviation[:3])
-            + f"  {orbit.first_distance:10.1e}{orbit.last_distance:10.1e}"
-            f"{orbit.drift:9.1e}"
-            f"{'  unstable: need not stay' if orbit.unstable > 0 else ''}"
-        )
-    if sweeps:
-        print(SWEEPS)
-    for each in sweeps:
-        print(
-            f"{each.slower:8g} {each.energy:24.6f} {each.quasi_static:14.6f}"
-            f" {100.0 * each.energy_error:9.2f} % {100.0 * each.envelope_error:7.1f} %"
-            f" {each.closing_error:14.1e}"
-        )
-    rate = rate_of(sweeps)
-    if rate is not None:
-        print(f"the difference falls as duration^-{rate:.2f}")
+    if found.orbits:
+        print(verify_tables.ORBITS)
+    for each in found.orbits:
+        print(verify_tables.orbit_row(each))
+    if found.marches:
+        print(verify_tables.march_rows(found.marches))
+    if found.sweeps:
+        print(verify_tables.sweep_rows(found.sweeps))
 
 
 def _draw(
-    options: argparse.Namespace,
-    traced: Traced,
-    orbits: list[Agreement],
-    sweeps: list[SweepAgreement],
-    picture: Path,
+    options: argparse.Namespace, traced: Traced, found: Found, picture: Path
 ) -> None:
     import numpy as np
 
     from microslip.figures.agreement import agreement_figure
     from microslip.store import save_figure
 
+    made = [each.comparison for each in found.orbits if each.comparison is not None]
     figure = agreement_figure(
         traced.curve,
         (
-            np.array([each.frequency for each in orbits]) / math.tau,
-            np.array([each.marched for each in orbits]),
-            np.array([_deviation(each) for each in orbits]),
+            np.array([each.response.frequency for each in made]) / math.tau,
+            np.array([each.found for each in made]),
+            np.array([each.difference for each in made]),
+            np.array([each.admitted for each in made]),
         ),
         [
             (f"{s.slower:g} x as long", s.envelope_frequency, s.envelope[:, 0])
-            for s in sweeps
+            for s in found.sweeps
         ],
         (
-            np.array([each.slower for each in sweeps]),
-            np.array([each.energy_error for each in sweeps]),
+            np.array([each.slower for each in found.sweeps]),
+            np.array([each.energy_error for each in found.sweeps]),
         ),
         arguments.title(options),
     )
     save_figure(picture, figure)
 
 
-def _deviation(each: Agreement) -> float:
-    """Return the largest deviation among blades and friction element."""
-    return float(each.deviation[:3].max())
-
-
-def _verdict(
-    options: argparse.Namespace, orbits: list[Agreement], sweeps: list[SweepAgreement]
-) -> int:
+def _verdict(options: argparse.Namespace, found: Found) -> int:
     """Print whether the solvers agree; return the exit status."""
+    from microslip.studies.orbits import too_many
     from microslip.studies.verify import falls
 
-    held = [orbit for orbit in orbits if orbit.unstable <= 0]
-    worst = max(held or orbits, key=_deviation)
-    stays = _deviation(worst) <= options.tolerance
-    among = "" if len(held) == len(orbits) else f" of {len(held)} stable orbits"
-    print(
-        f"{'agree' if stays else 'DISAGREE'}: largest deviation of an amplitude{among} "
-        f"{100.0 * _deviation(worst):.3g} % at {worst.frequency / math.tau:.4f} Hz, "
-        f"tolerance {100.0 * options.tolerance:g} %"
-    )
-    slows = falls(sweeps)
-    if len(sweeps) > 1:
+    print(verify_tables.orbits_said(found.orbits))
+    agrees = not (too_many(found.orbits) or any(each.cause for each in found.orbits))
+    if found.marches:
+        said, stays = verify_tables.marches_said(found.marches, options.tolerance)
+        print(said)
+        agrees &= stays
+    slows = falls(found.sweeps)
+    if len(found.sweeps) > 1:
         print(
             f"{'agree' if slows else 'DISAGREE'}: energy and envelope of the sweep "
             f"{'approach' if slows else 'do not approach'} the curve as it slows"
         )
-    return 0 if stays and slows else 1
+    return 0 if agrees and slows else 1

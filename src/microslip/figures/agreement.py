@@ -8,30 +8,39 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.curve import FREQUENCY, abscissa, frequency_response
+from microslip.figures.curve import (
+    FREQUENCY,
+    abscissa,
+    frequency_response,
+    parted,
+)
 from microslip.figures.style import COLOURS, WIDTH, absolute, framed, literal, readable
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import ResponseCurve
 
+SMALLEST = 1e-9
+"""relative difference that is drawn"""
+
 
 def agreement_figure(
     curve: ResponseCurve,
-    marched: tuple[Array, Array, Array],
+    found: tuple[Array, Array, Array, Array],
     sweeps: Sequence[tuple[str, Array, Array]],
     energies: tuple[Array, Array],
     title: str,
 ) -> Figure:
-    """Draw curve and march, deviation, envelopes of sweeps, and energy by duration.
+    """Draw curve and orbits, differences, envelopes of sweeps, and energy by duration.
 
-    Without sweeps the latter two are left out.
+    The last two are left out without sweeps.
 
     Parameters
     ----------
     curve
         The frequency response curve.
-    marched
-        Frequency [Hz], marched amplitude [m] of each absolute probe and relative
-        deviation of each orbit.
+    found
+        Of each orbit found by shooting: frequency [Hz], amplitude [m] of each probe,
+        shape ``(orbits, probes)``, relative difference, and what the estimated errors
+        of both solvers admit.
     sweeps
         Name, frequency [Hz] and envelope [m] of the first probe, of each sweep.
     energies
@@ -39,18 +48,16 @@ def agreement_figure(
     title
         Of the figure.
     """
-    lines = 2 if sweeps else 1
-    figure = Figure(figsize=(10.0, 3.6 * lines), layout="constrained")
-    panels = figure.subplots(lines, 2, squeeze=False)
-    frequency_response(panels[0, 0], curve)
+    rows = 2 if sweeps else 1
+    figure = Figure(figsize=(10.0, 3.5 * rows), layout="constrained")
+    panels = figure.subplots(rows, 2, squeeze=False)
+    frequency_response(panels[0, 0], parted(curve))
     for place, colour in zip(absolute(curve.probes), COLOURS, strict=False):
-        panels[0, 0].plot(
-            marched[0], 1e3 * marched[1][:, place], "o", color=colour, ms=4
-        )
+        panels[0, 0].plot(found[0], 1e3 * found[1][:, place], "o", color=colour, ms=4)
     panels[0, 0].set_title(
-        "Curve, and the march on its orbits (dots)", loc="left", fontsize="medium"
+        "Curve, and orbits found by shooting (dots)", loc="left", fontsize="medium"
     )
-    _deviation(panels[0, 1], marched)
+    _differences(panels[0, 1], found)
     if sweeps:
         _envelopes(panels[1, 0], curve, sweeps)
         _energy(panels[1, 1], energies)
@@ -58,16 +65,26 @@ def agreement_figure(
     return figure
 
 
-def _deviation(axes: Axes, marched: tuple[Array, Array, Array]) -> None:
-    axes.semilogy(
-        marched[0], 100.0 * marched[2], "o-", color=COLOURS[0], lw=WIDTH, ms=4
-    )
+def _differences(axes: Axes, found: tuple[Array, Array, Array, Array]) -> None:
+    """Draw differences as dots and what is admitted as a line; what fails in red."""
+    order = np.argsort(found[0], kind="stable")
+    hertz, _, difference, admitted = (each[order] for each in found)
+    shown = 100.0 * np.maximum(difference, SMALLEST)
+    fails = difference > admitted
+    axes.semilogy(hertz, 100.0 * admitted, "_", color="k", ms=8, label="admitted")
+    for which, colour, name in (
+        (~fails, COLOURS[0], "difference"),
+        (fails, COLOURS[1], "too much"),
+    ):
+        if which.any():
+            axes.plot(hertz[which], shown[which], "o", color=colour, ms=4, label=name)
     framed(
         axes,
         x=FREQUENCY,
-        y="deviation [%]",
-        title="Amplitude after the march, deviation",
+        y="of the largest amplitude [%]",
+        title="Shooting against harmonic balance",
     )
+    axes.legend(frameon=False)
 
 
 def _envelopes(

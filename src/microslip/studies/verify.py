@@ -10,7 +10,7 @@ import numpy as np
 
 from microslip.progress import Watch
 from microslip.scene_file import Scene
-from microslip.studies.curve import Traced, followed_upwards, quasi_static_energy
+from microslip.studies.curve import followed_upwards, quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
@@ -51,25 +51,6 @@ class SweepAgreement:
         return self.energy / self.quasi_static - 1.0
 
 
-def spread(traced: Traced, count: int) -> list[PeriodicResponse]:
-    """Return responses spread evenly along the branch of an upward sweep.
-
-    Even in arc: half of the weight is frequency, half is amplitude, so that the flanks
-    of a resonance get their share; the peak and both ends are always among them.
-    """
-    curve, places = traced.curve, followed_upwards(traced.curve)
-    amplitude = curve.amplitude[places].max(axis=1)
-    frequency = curve.frequency[places]
-    arc = np.cumsum(
-        np.abs(np.diff(amplitude, prepend=amplitude[0])) / (2.0 * np.ptp(amplitude))
-        + np.abs(np.diff(frequency, prepend=frequency[0])) / np.ptp(frequency)
-    )
-    wanted = np.linspace(arc[0], arc[-1], count)
-    chosen = {int(np.abs(arc - place).argmin()) for place in wanted}
-    chosen |= {0, int(amplitude.argmax()), len(places) - 1}
-    return [traced.responses[places[place]] for place in sorted(chosen)]
-
-
 def orbits(
     problem: Problem,
     responses: list[PeriodicResponse],
@@ -100,7 +81,7 @@ def sweep_agreement(
     history = march_whole(problem, sweep, scene.march, watch)
     friction, time = history.of("friction"), history.time
     energy = np.diff(np.interp([sweep.start, sweep.end], time, friction))[0] / slower
-    frequency, envelope = _envelope(
+    frequency, envelope = envelope_of(
         history, sweep.frequency(time), sweep.start, sweep.end
     )
     places = followed_upwards(curve)
@@ -143,10 +124,19 @@ def rate_of(agreements: list[SweepAgreement]) -> float | None:
     return float(-np.polyfit(slower, error, 1)[0])
 
 
-def _envelope(
+def envelope_of(
     history: TimeHistory, frequency: Array, start: float, end: float
 ) -> tuple[Array, Array]:
-    """Return frequency and largest deflection of each cycle of the drive."""
+    """Return frequency and largest deflection of each cycle of the drive.
+
+    ``frequency`` is that of the drive [Hz] at each stored time; ``start`` and ``end``
+    are the times [s] between which it acts.
+
+    Raises
+    ------
+    StudyError
+        If a cycle has less than four stored times.
+    """
     driven = (history.time >= start) & (history.time <= end)
     hertz = frequency[driven]
     shown = history.displacement[driven]

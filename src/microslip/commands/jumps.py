@@ -1,0 +1,136 @@
+"""microslip jumps: where slow sweeps jump, beside the folds of the curve."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments, frc
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from microslip.studies.curve import Traced
+    from microslip.studies.jumps import Jump
+
+HEADER = """\
+     fold  sweep    rate     jump  behind the fold
+     [Hz]         [Hz/s]     [Hz]             [Hz]"""
+SPREAD = 3.0
+"""errors of the extrapolation within which a jump is on its fold"""
+STEPS = 1e-4
+"""of a fold's frequency: what time steps and harmonics may shift it by"""
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "jumps",
+        help="where swept sines jump, against the folds of the curve",
+        description="Trace the curve of a scene; sweep through each fold at which a "
+        "stable motion ends, at several rates, up or down; extrapolate the jump to no "
+        "rate, compare it with the fold; write SCENE-jumps.png. Exit status 1 if one "
+        f"is further from its fold than {SPREAD:g} errors of the extrapolation and "
+        f"{STEPS:g} of the frequency.",
+        epilog="example: microslip jumps two-blades --set model=A --set "
+        "friction.law=gkf --set excitation.force=1.9",
+    )
+    arguments.add_scene(parser)
+    parser.add_argument(
+        "--rates",
+        type=arguments.positive,
+        nargs="+",
+        default=[0.4, 0.2, 0.1, 0.05],
+        metavar="HZ_PER_S",
+        help="of the sweeps, four or more (default: 0.4 0.2 0.1 0.05)",
+    )
+    parser.add_argument(
+        "--lead",
+        type=arguments.positive,
+        default=0.008,
+        help="how far before and behind a fold, over its frequency (default: 0.008)",
+    )
+    arguments.add_output(parser, "jumps")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.progress import shown
+    from microslip.rigs import problem_of
+    from microslip.scene_file import load_scene
+    from microslip.studies.curve import trace_curve
+    from microslip.studies.jumps import folds_of, jumps
+
+    _, picture = arguments.outputs(options, "jumps")
+    scene = load_scene(options.scene, options.overrides)
+    problem = problem_of(scene)
+    traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))
+    if traced.curve.ending != "complete":
+        return arguments.ended(traced.curve.ending)
+    folds = folds_of(problem, traced, lead=options.lead)
+    if not folds:
+        print("no stable motion ends at a fold: sweeps do not jump")
+        return 0
+    found: list[Jump] = []
+    print(HEADER)
+    for each in shown(
+        jumps(problem, folds, options.rates),
+        total=len(folds),
+        done=lambda _: len(found) + 1.0,
+        unit="folds",
+        name="jumps",
+    ):
+        found.append(each)
+        print(_lines(each), flush=True)
+    _draw(options, traced, found, picture)
+    print(f"picture in {picture}")
+    return 0 if all(_agrees(each) for each in found) else 1
+
+
+def _lines(jump: Jump) -> str:
+    """Return the jumps at one fold, and what follows, as lines."""
+    fold, way = jump.fold.hertz, "up" if jump.fold.upward else "down"
+    rows = [
+        f"{fold:9.4f}  {way:5s} {rate:7g} {place:8.4f} {_late(jump, place):16.2e}"
+        for rate, place in zip(jump.rates, jump.frequency, strict=True)
+    ]
+    word = "agree" if _agrees(jump) else "DISAGREE"
+    rows.append(
+        f"{fold:9.4f}  {way:5s}       0 {jump.extrapolated:8.4f} "
+        f"{_late(jump, jump.extrapolated):16.2e} ± {jump.error:.1e}  {word}"
+    )
+    return "\n".join(rows)
+
+
+def _late(jump: Jump, place: float) -> float:
+    """Return how far a jump lies behind its fold [Hz]."""
+    return (place - jump.fold.hertz) * (1.0 if jump.fold.upward else -1.0)
+
+
+def _agrees(jump: Jump) -> bool:
+    accepted = SPREAD * jump.error + STEPS * jump.fold.hertz
+    return abs(_late(jump, jump.extrapolated)) <= accepted
+
+
+def _draw(
+    options: argparse.Namespace, traced: Traced, found: Sequence[Jump], picture: Path
+) -> None:
+    import numpy as np
+
+    from microslip.figures.jumps import JumpLine, jumps_figure
+    from microslip.store import save_figure
+
+    lines = [
+        JumpLine(
+            f"{each.fold.hertz:.2f} Hz {'up' if each.fold.upward else 'down'}",
+            each.fold.hertz,
+            each.rates,
+            np.array([_late(each, place) for place in each.frequency]),
+            _late(each, each.extrapolated),
+            each.error,
+            each.envelopes,
+        )
+        for each in found
+    ]
+    save_figure(picture, jumps_figure(traced.curve, lines, arguments.title(options)))

@@ -1,0 +1,132 @@
+"""What microslip verify prints: orbits, marches, sweeps, and whether they agree."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from microslip.studies.orbits import Verdict
+    from microslip.studies.verify import SweepAgreement
+    from timedomain.verify import Agreement
+
+ORBITS = """\
+orbits: shooting started on the orbit that harmonic balance found
+frequency     amplitude [mm]        largest   estimated error      multiplier
+     [Hz]    balance   shooting  difference  balance shooting   balance shooting"""
+MARCHES = """\
+steady state: march started on the orbit that harmonic balance found
+frequency  amplitude [mm]   deviation [%]                   distance from orbit  drift
+     [Hz]  excited blade     excited  follower   element       first      last"""
+SWEEPS = """\
+swept sine beside the curve's prediction for an infinitely slow one
+  slower   energy of friction [J]  predicted [J]  difference  envelope  closing error"""
+
+
+def orbit_row(verdict: Verdict) -> str:
+    """Return one orbit as a line."""
+    hertz, made = verdict.response.frequency / math.tau, verdict.comparison
+    sign = "DISAGREE" if verdict.cause else "agree"
+    if made is not None and not verdict.cause and not made.as_estimated:
+        sign += ", beyond the estimates"
+    sign += ", stability in doubt" if verdict.doubted else ""
+    if made is None:
+        return f"{hertz:9.4f}  no orbit by shooting  {sign}, {verdict.whereabouts}"
+    return (
+        f"{hertz:9.4f} {1e3 * made.predicted[0]:10.6f} {1e3 * made.found[0]:10.6f}"
+        f"  {made.difference:10.1e} {made.predicted_error:8.1e} {made.found_error:8.1e}"
+        f"   {made.multiplier:7.4f} {made.found_multiplier:8.4f}"
+        f"  {sign}, {verdict.whereabouts}"
+    )
+
+
+def march_rows(marches: Sequence[Agreement]) -> str:
+    """Return the marches as a table."""
+    lines = [MARCHES]
+    lines += [
+        f"{march.frequency / math.tau:9.4f}  {1e3 * march.predicted[0]:13.6f}  "
+        + " ".join(f"{100.0 * deviation:9.4f}" for deviation in march.deviation[:3])
+        + f"  {march.first_distance:10.1e}{march.last_distance:10.1e}"
+        f"{march.drift:9.1e}"
+        f"{'  unstable: need not stay' if march.unstable > 0 else ''}"
+        for march in marches
+    ]
+    return "\n".join(lines)
+
+
+def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
+    """Return the sweeps as a table, and how fast their difference falls."""
+    from microslip.studies.verify import rate_of
+
+    lines = [SWEEPS]
+    lines += [
+        f"{sweep.slower:8g} {sweep.energy:24.6f} {sweep.quasi_static:14.6f}"
+        f" {100.0 * sweep.energy_error:9.2f} % {100.0 * sweep.envelope_error:7.1f} %"
+        f" {sweep.closing_error:14.1e}"
+        for sweep in sweeps
+    ]
+    rate = rate_of(list(sweeps))
+    if rate is not None:
+        lines.append(f"the difference falls as duration^-{rate:.2f}")
+    return "\n".join(lines)
+
+
+def orbits_said(verdicts: Sequence[Verdict]) -> str:
+    """Return whether the orbits agree, and where and why not."""
+    wrong = [verdict for verdict in verdicts if verdict.cause]
+    lines = [
+        f"DISAGREE at {verdict.response.frequency / math.tau:.4f} Hz "
+        f"({verdict.whereabouts}): {verdict.cause}"
+        for verdict in wrong
+    ]
+    lines += _shared(verdicts)
+    lines += [
+        f"stability in doubt at {each.response.frequency / math.tau:.4f} Hz: largest "
+        f"multiplier {made.multiplier:.4f} by harmonic balance, "
+        f"{made.found_multiplier:.4f} by shooting (± {made.multiplier_error:.4f}); "
+        "more harmonics decide"
+        for each in verdicts
+        if each.doubted and (made := each.comparison) is not None
+    ]
+    return "\n".join(lines)
+
+
+def _shared(verdicts: Sequence[Verdict]) -> list[str]:
+    """Return what is said of all orbits together."""
+    from microslip.studies.orbits import beyond, too_many
+
+    count, most = len(verdicts), beyond(verdicts)
+    if too_many(verdicts):
+        share = f"{len(most)} of {count} orbits"
+        return [f"DISAGREE: {share} differ by more than both estimates, not 1 in 10"]
+    pairs = [each.comparison for each in verdicts if each.comparison is not None]
+    if not pairs or any(verdict.cause for verdict in verdicts):
+        return []
+    worst = max(pairs, key=lambda each: each.difference)
+    return [
+        f"agree: largest difference of an amplitude {worst.difference:.1e} at "
+        f"{worst.response.frequency / math.tau:.4f} Hz, estimates "
+        f"{worst.predicted_error:.1e} and {worst.found_error:.1e}; {count - len(most)} "
+        f"of {count} orbits within both estimates"
+    ]
+
+
+def marches_said(marches: Sequence[Agreement], tolerance: float) -> tuple[str, bool]:
+    """Return whether the marches agree, in words and as such."""
+    held = [march for march in marches if march.unstable <= 0]
+    worst = max(held or marches, key=deviation)
+    stays = deviation(worst) <= tolerance
+    among = "" if len(held) == len(marches) else f" of {len(held)} stable orbits"
+    said = (
+        f"{'agree' if stays else 'DISAGREE'}: largest deviation of an amplitude{among} "
+        f"{100.0 * deviation(worst):.3g} % at {worst.frequency / math.tau:.4f} Hz, "
+        f"tolerance {100.0 * tolerance:g} %"
+    )
+    return said, stays
+
+
+def deviation(march: Agreement) -> float:
+    """Return the largest deviation among blades and friction element."""
+    return float(march.deviation[:3].max())

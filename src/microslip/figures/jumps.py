@@ -1,0 +1,85 @@
+"""Picture of where swept sines jump, beside the folds of the curve."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from microslip.figures.curve import FREQUENCY, abscissa, parted
+from microslip.figures.style import COLOURS, WIDTH, framed, literal, readable
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.response import ResponseCurve
+
+
+@dataclass(frozen=True, slots=True)
+class JumpLine:
+    """Sweeps through one fold."""
+
+    name: str
+    fold: float
+    """[Hz]"""
+    rates: Array
+    """[Hz/s], shape (rates,)"""
+    late: Array
+    """how far behind the fold each sweep jumps [Hz], shape (rates,)"""
+    extrapolated: float
+    """the same of an infinitely slow one [Hz]"""
+    error: float
+    """its error [Hz]"""
+    envelopes: Sequence[tuple[Array, Array]]
+    """frequency [Hz] and largest deflection [m] of each cycle"""
+
+
+def jumps_figure(curve: ResponseCurve, jumps: Sequence[JumpLine], title: str) -> Figure:
+    """Draw the curve with the envelopes of sweeps, and jumps against the rate."""
+    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    _envelopes(left, curve, jumps)
+    for colour, jump in zip(COLOURS, jumps, strict=False):
+        _late(right, jump, colour)
+    framed(
+        right,
+        x="(sweep rate)^(2/3) [(Hz/s)^(2/3)]",
+        y="jump behind the fold [Hz]",
+        title="Delay of the jump, and what is left of it at no rate",
+    )
+    right.set_xlim(left=0.0)
+    right.axhline(0.0, color="k", linewidth=WIDTH)
+    right.legend(frameon=False)
+    figure.suptitle(literal(title))
+    return figure
+
+
+def _envelopes(axes: Axes, curve: ResponseCurve, jumps: Sequence[JumpLine]) -> None:
+    whole = parted(curve)
+    axes.plot(abscissa(whole), 1e3 * whole.peak[:, 0], "k", lw=2 * WIDTH, label="curve")
+    for colour, jump in zip(COLOURS, jumps, strict=False):
+        for place, (hertz, envelope) in enumerate(jump.envelopes):
+            label = f"sweeps through {jump.name}" if place == 0 else None
+            axes.plot(hertz, 1e3 * envelope, color=colour, lw=WIDTH, label=label)
+        axes.axvline(jump.fold, color=colour, ls=":", lw=WIDTH)
+    title = f"Envelopes, {readable(curve.probes[0])}"
+    framed(axes, x=FREQUENCY, y="peak [mm]", title=title)
+    axes.legend(frameon=False)
+
+
+def _late(axes: Axes, jump: JumpLine, colour: str) -> None:
+    scaled = jump.rates ** (2.0 / 3.0)
+    axes.plot(scaled, jump.late, "o", color=colour, ms=4, label=jump.name)
+    axes.errorbar(
+        [0.0],
+        [jump.extrapolated],
+        yerr=[jump.error],
+        fmt="D",
+        color=colour,
+        ms=4,
+        capsize=4,
+        clip_on=False,
+    )
+    order = np.argsort(scaled)
+    line = np.append(jump.extrapolated, jump.late[order])
+    axes.plot(np.append(0.0, scaled[order]), line, color=colour, lw=WIDTH, ls="--")

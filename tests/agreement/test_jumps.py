@@ -1,0 +1,126 @@
+"""Swept sines both ways jump where harmonic balance folds, their rate taken out."""
+
+import functools
+
+import numpy as np
+import pytest
+
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
+from microslip.studies.curve import Traced
+from microslip.studies.jumps import Fold, Jump, extrapolated, folds_of, jumps
+from microslip.studies.verify import StudyError
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import response_curve
+from microslip_mechanics.static import static_equilibrium
+from rigs import rig_problem
+from small_problems import cubic_oscillator
+
+TURN = 2.0 * np.pi
+RATES = [2e-4, 1e-4, 5e-5, 2.5e-5, 1.25e-5]
+"""of the sweeps [Hz/s]: the slowest passes three thousand periods"""
+STEPS = 200
+
+
+def traced(problem: Problem, start: float, end: float) -> Traced:
+    rest = static_equilibrium(problem)
+    found = tuple(frequency_response(problem, rest, CurveOptions(start, end)))
+    return Traced(response_curve(problem, found, "complete"), found, rest)
+
+
+@functools.cache
+def duffing() -> tuple[Problem, list[Fold]]:
+    problem = cubic_oscillator(drive=0.3, damping=0.1)
+    return problem, folds_of(problem, traced(problem, 0.8, 2.4), lead=0.1)
+
+
+@functools.cache
+def jumped() -> list[Jump]:
+    problem, folds = duffing()
+    return list(jumps(problem, folds, RATES, steps=STEPS))
+
+
+@pytest.mark.parametrize("exact", [0.28, 137.0])
+def test_the_law_of_the_delay_is_taken_out_of_jumps(exact: float) -> None:
+    rates = np.array([8.0, 4.0, 2.0, 1.0])
+    made = exact + 3e-3 * rates ** (2.0 / 3.0) - 1e-3 * rates
+
+    found, error = extrapolated(rates, made)
+
+    assert found == pytest.approx(exact, abs=1e-12 * exact)
+    assert error < 1e-11 * exact
+
+
+def test_the_error_of_the_extrapolation_is_that_of_scattered_jumps() -> None:
+    draw, rates = np.random.default_rng(3), np.array([16.0, 8.0, 4.0, 2.0, 1.0])
+    law = 3e-3 * rates ** (2.0 / 3.0)
+
+    made = [extrapolated(rates, law + draw.normal(0.0, 1e-4, 5)) for _ in range(400)]
+
+    away, error = np.array(made).T
+    # on the safe side: what the fastest sweep changes counts too
+    assert 1.0 < np.sqrt(np.mean(error**2)) / away.std() < 2.5
+    assert np.mean(np.abs(away) < 3.0 * error) > 0.9
+    assert abs(away.mean()) < 3.0 * away.std() / 20.0
+
+
+def test_one_fold_ends_sweeps_upwards_and_the_other_those_downwards() -> None:
+    _, (first, second) = duffing()
+
+    assert (first.upward, second.upward) == (True, False)
+    assert first.hertz > second.hertz
+    assert first.begin.frequency < first.response.frequency
+    assert second.begin.frequency > second.response.frequency
+
+
+def test_duffings_jumps_lie_on_the_folds_once_the_rate_is_taken_out() -> None:
+    for jump in jumped():
+        late = (jump.frequency - jump.fold.hertz) * (1.0 if jump.fold.upward else -1.0)
+        # every sweep jumps late, a slower one less so
+        assert np.all(late > 0.0)
+        assert np.all(np.diff(late) < 0.0)
+        # the delay of the slowest is what is taken out; the steps shift by 8e-5
+        accepted = 3.0 * jump.error + 1e-4 * jump.fold.hertz
+        assert accepted < 0.5 * late[-1]
+        assert abs(jump.extrapolated - jump.fold.hertz) < accepted
+
+
+def test_the_delay_goes_like_the_power_two_thirds_of_the_rate() -> None:
+    for jump in jumped():
+        late = np.abs(jump.frequency - jump.fold.hertz)[1:]
+        power, _ = np.polyfit(np.log(jump.rates[1:]), np.log(late), 1)
+        assert power == pytest.approx(2.0 / 3.0, abs=0.06)
+
+
+@pytest.mark.parametrize("fastest", [0.1, 4e-3])
+def test_sweeps_too_fast_to_jump_on_their_way_are_refused(fastest: float) -> None:
+    problem, (fold, _) = duffing()
+
+    with pytest.raises(StudyError, match="give slower sweeps"):
+        list(
+            jumps(
+                problem,
+                [fold],
+                [fastest * each for each in (1.0, 0.9, 0.8, 0.7)],
+                steps=STEPS,
+            )
+        )
+
+
+def test_too_few_rates_are_refused() -> None:
+    problem, folds = duffing()
+
+    with pytest.raises(StudyError, match="at least 4"):
+        list(jumps(problem, folds, [1e-4, 1e-4, 1e-4, 5e-5]))
+
+
+@pytest.mark.slow
+def test_the_rig_with_falling_friction_jumps_on_its_upper_fold() -> None:
+    # Under 1.9 N the excited blade leaves 1 mm for 0.26 mm at 137.17 Hz.
+    problem = rig_problem(model="A", friction__law="gkf", excitation__force="1.9 N")
+    folds = folds_of(problem, traced(problem, TURN * 133.0, TURN * 140.0), lead=8e-3)
+    (fold,) = [each for each in folds if each.upward and each.hertz > 136.0]
+
+    (jump,) = jumps(problem, [fold], [0.4, 0.2, 0.1, 0.05], steps=400)
+
+    assert abs(jump.extrapolated - fold.hertz) < 3.0 * jump.error + 1e-4 * fold.hertz

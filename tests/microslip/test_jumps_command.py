@@ -1,0 +1,116 @@
+"""The command that compares jumps with folds: verdict, picture, refusals."""
+
+import dataclasses
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
+from microslip.figures.jumps import JumpLine, jumps_figure
+from microslip.studies.curve import Traced
+from microslip.studies.jumps import Jump, folds_of
+from microslip_mechanics.response import ResponseCurve, response_curve
+from microslip_mechanics.static import static_equilibrium
+from small_problems import cubic_oscillator
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+RATES = np.array([8.0, 4.0, 2.0, 1.0])
+
+
+@pytest.fixture(scope="module")
+def traced() -> Traced:
+    """Return the curve of Duffing's oscillator, with two folds."""
+    problem = cubic_oscillator(drive=0.3, damping=0.1)
+    rest, options = static_equilibrium(problem), CurveOptions(0.8, 2.4)
+    found = tuple(frequency_response(problem, rest, options))
+    return Traced(response_curve(problem, found, "complete"), found, rest)
+
+
+def made(traced: Traced, away: float) -> list[Jump]:
+    """Return jumps that lie so far behind their folds once extrapolated [Hz]."""
+    problem, found = cubic_oscillator(drive=0.3, damping=0.1), []
+    for fold in folds_of(problem, traced, lead=0.1):
+        sign = 1.0 if fold.upward else -1.0
+        late = away + 1e-3 * RATES ** (2.0 / 3.0)
+        places, slow = fold.hertz + sign * late, fold.hertz + sign * away
+        envelopes = tuple((places, 0.1 * places) for _ in RATES)
+        found.append(Jump(fold, RATES, places, slow, 1e-6, envelopes))
+    return found
+
+
+@pytest.mark.parametrize(("away", "status"), [(1e-6, 0), (-2e-5, 0), (1e-3, 1)])
+def test_jumps_far_from_their_folds_decide_the_status(
+    away: float,
+    status: int,
+    traced: Traced,
+    run: Run,
+    quick_scene: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    jumps = made(traced, away)
+
+    def marched(*_: object) -> Iterator[Jump]:
+        yield from jumps
+
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
+    monkeypatch.setattr("microslip.studies.jumps.folds_of", lambda *_, **__: [1, 2])
+    monkeypatch.setattr("microslip.studies.jumps.jumps", marched)
+
+    ended, output, error = run("jumps", str(quick_scene))
+
+    assert (ended, error) == (status, "")
+    rows = re.findall(r"(up|down) +(\S+) +(\S+) +(\S+)(?: ± \S+  (\w+))?\n", output)
+    assert [row[0] for row in rows] == ["up"] * 5 + ["down"] * 5
+    assert [float(row[1]) for row in rows[:5]] == [8.0, 4.0, 2.0, 1.0, 0.0]
+    behind = [float(row[3]) for row in rows[5:]]
+    assert behind == pytest.approx([*(away + 1e-3 * RATES ** (2 / 3)), away], abs=6e-5)
+    assert rows[4][4] == rows[9][4] == ("DISAGREE" if status else "agree")
+    assert (quick_scene.parent / "quick-jumps.png").is_file()
+
+
+def test_a_curve_without_folds_has_no_jumps(run: Run, quick_scene: Path) -> None:
+    ended, output, _ = run("jumps", str(quick_scene), "--set=curve.highest=130.5")
+
+    assert ended == 0
+    assert output == "no stable motion ends at a fold: sweeps do not jump\n"
+
+
+@pytest.mark.parametrize(
+    "arguments", [("--rates", "0"), ("--rates", "1", "nan"), ("--lead", "-1")]
+)
+def test_rates_and_lead_must_be_positive(
+    arguments: tuple[str, ...], run: Run, quick_scene: Path
+) -> None:
+    status, _, error = run("jumps", str(quick_scene), *arguments)
+
+    assert status == 2
+    assert "is not positive and finite" in error
+
+
+def test_the_picture_shows_curve_envelopes_and_delays(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz = np.linspace(131.0, 133.0, 5)
+    late = 1e-2 * RATES ** (2.0 / 3.0)
+    line = JumpLine("up", 132.0, RATES, late, 2e-3, 1e-3, [(hertz, 1e-5 * hertz)] * 4)
+    plain = dataclasses.replace(small_curve, event=("",) * 4)
+
+    figure = jumps_figure(plain, [line], "title")
+
+    figure.draw_without_rendering()
+    left, right = figure.axes
+    curve, *envelopes, fold = left.lines
+    shown = np.asarray(curve.get_ydata(), dtype=float)
+    np.testing.assert_allclose(shown, 1e3 * small_curve.peak[:, 0])
+    for each in envelopes:
+        np.testing.assert_allclose(np.asarray(each.get_ydata()), 1e-2 * hertz)
+    assert len(envelopes) == 4
+    assert np.asarray(fold.get_xdata())[0] == 132.0
+    dots = np.asarray(right.lines[0].get_xydata())
+    np.testing.assert_allclose(dots, np.stack([RATES ** (2 / 3), late], axis=1))
+    assert right.get_ylabel().endswith("[Hz]")

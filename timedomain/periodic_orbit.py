@@ -1,0 +1,105 @@
+"""A periodic motion found in time, and how far it may be wrong."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array, ComplexArray
+from timedomain.closed_march import ClosedMarch
+from timedomain.floquet import extrapolated_multipliers
+from timedomain.start import Start
+
+SHARE = 8
+"""steps of the coarser march in a cycle of the highest harmonic"""
+
+
+@dataclass(frozen=True, slots=True)
+class PeriodicOrbit:
+    """A periodic motion under drive · sin ωt."""
+
+    frequency: float
+    """excitation frequency ω [rad/s]"""
+    start: Start
+    """of the finer march, at phase 0: marched with its steps, it repeats itself"""
+    coefficients: Array
+    """a₀, a₁, b₁, … [m or rad], extrapolated in the steps, (2 harmonics + 1, dofs)"""
+    moved: Array
+    """how far extrapolation moved them, signed, of the same shape"""
+    rows: Array
+    """of the probes that :attr:`error` speaks of, shape (probes, dofs)"""
+    multipliers: ComplexArray
+    """Floquet multipliers, extrapolated, the largest first, shape (2 dofs,)"""
+    multiplier_error: Array
+    """how far extrapolation moved them, shape (2 dofs,)"""
+    friction_energy: float
+    """taken out by friction per period, extrapolated [J]"""
+    neutral: int
+    """directions in which nothing pins the mean position: it is that of the start"""
+    steps: int
+    """of the finer march"""
+    iterations: int
+    """of Newton, in both marches"""
+    gap: float
+    """distance of end and beginning of the finer march, over the vibration"""
+
+    @property
+    def amplitude(self) -> Array:
+        """First harmonic of each probe [m], shape (probes,)."""
+        return _amplitude(self.coefficients, self.rows)
+
+    @property
+    def error(self) -> float:
+        """Estimated error of the amplitudes, over the largest one.
+
+        How far they are from those of half the steps, three times as much as
+        extrapolation moves them: it gains nothing where friction turns over within a
+        step.
+        """
+        fine = _amplitude(self.coefficients - self.moved, self.rows)
+        away = np.abs(self.amplitude - fine).max(initial=0.0)
+        return float(3.0 * away / max(self.amplitude.max(initial=0.0), 1e-300))
+
+
+def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
+    """Return the orbit to which two marches converge, the second of twice the steps.
+
+    The error of a step falls with its square: extrapolation adds a third of the change.
+    """
+    harmonics = coarse.map.steps // SHARE
+    before, after = (_coefficients(each, harmonics) for each in (coarse, fine))
+    moved = (after - before) / 3.0
+    multipliers = extrapolated_multipliers(coarse.monodromy, fine.monodromy)
+    more = (fine.period.friction - coarse.period.friction) / 3.0
+    return PeriodicOrbit(
+        fine.map.frequency,
+        fine.map.start(fine.state),
+        after + moved,
+        moved,
+        fine.map.problem.probes.rows,
+        multipliers.values,
+        multipliers.error,
+        fine.period.friction + more,
+        max(coarse.neutral, fine.neutral),
+        fine.map.steps,
+        coarse.iterations + fine.iterations,
+        fine.gap,
+    )
+
+
+def _coefficients(marched: ClosedMarch, harmonics: int) -> Array:
+    """Return a₀, a₁, b₁, … of the displacement, shape (2 harmonics + 1, dofs)."""
+    steps = marched.map.steps
+    spectrum = np.fft.rfft(marched.period.displacement[:-1], axis=0)[: harmonics + 1]
+    found = np.empty((2 * harmonics + 1, spectrum.shape[1]))
+    found[0] = spectrum[0].real / steps
+    found[1::2] = 2.0 / steps * spectrum[1:].real
+    found[2::2] = -2.0 / steps * spectrum[1:].imag
+    return found
+
+
+def _amplitude(coefficients: Array, rows: Array) -> Array:
+    """Return the first harmonic of each probe, shape (probes,)."""
+    found: Array = np.hypot(*(coefficients[1:3] @ rows.T))
+    return found

@@ -1,0 +1,97 @@
+"""The public function of shooting: periodic orbits as fixed points (theory §7)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from microslip_mechanics.problem import Problem
+from timedomain.closed_march import ClosedMarch, ShootingError, closed
+from timedomain.period_map import BLOCK, PeriodMap
+from timedomain.periodic_orbit import PeriodicOrbit, extrapolated
+from timedomain.start import Start
+
+
+@dataclass(frozen=True, slots=True)
+class ShootingOptions:
+    """Steps and accuracy of a periodic orbit."""
+
+    steps: int = 512
+    """of the period in the coarser of the first two orbits"""
+    error: float = 5e-4
+    """steps are doubled until the amplitude's estimated relative error is below it"""
+    most: int = 8192
+    """steps of the finest orbit"""
+
+    def __post_init__(self) -> None:
+        """Check that orbits can be compared, and that a number of steps ends it."""
+        if self.steps < 2 * BLOCK:
+            raise ValueError(f"{self.steps} steps: give at least {2 * BLOCK}")
+        if self.most < 2 * self.steps:
+            raise ValueError(
+                f"at most {self.most} steps: give at least {2 * self.steps}, twice the "
+                "first number"
+            )
+        if not 0.0 < self.error < math.inf:
+            raise ValueError(f"error {self.error:g}: give a positive finite number")
+
+
+def periodic_orbit(
+    problem: Problem,
+    frequency: float,
+    *,
+    start: Start,
+    options: ShootingOptions | None = None,
+) -> PeriodicOrbit:
+    """Return the periodic motion near a start, stable or not.
+
+    Two orbits, the second with twice the steps, give the extrapolated motion; the
+    difference of the two is the error that is reported.
+
+    Parameters
+    ----------
+    problem
+        What moves.
+    frequency
+        Of the excitation [rad/s].
+    start
+        A motion at phase 0 close to the orbit, such as that of harmonic balance.
+    options
+        Steps and accuracy; the default ones if left out.
+
+    Raises
+    ------
+    ShootingError
+        If no orbit is reached.
+    ValueError
+        If the frequency is not positive, or the structure sparse.
+    """
+    if not 0.0 < frequency < math.inf:
+        raise ValueError(f"frequency {frequency:g} rad/s: give a positive finite one")
+    chosen = options or ShootingOptions()
+    coarse = _first(problem, frequency, start, chosen)
+    while True:
+        finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
+        fine = closed(finer, coarse.state)
+        orbit = extrapolated(coarse, fine)
+        if orbit.error <= chosen.error or 2 * finer.steps > chosen.most:
+            return orbit
+        coarse = fine
+
+
+def _first(
+    problem: Problem, frequency: float, start: Start, chosen: ShootingOptions
+) -> ClosedMarch:
+    """Return the orbit of the fewest steps that have one.
+
+    Near a fold or a sharp peak those of too few steps have none at this frequency.
+    """
+    steps = chosen.steps
+    while True:
+        carried = PeriodMap.of(problem, frequency, steps)
+        try:
+            return closed(carried, carried.state(start))
+        except ShootingError:
+            steps *= 2
+            if 2 * steps > chosen.most:
+                raise

@@ -17,6 +17,8 @@ GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
 INSET = 1e-15
 """share of a piece by which its ends are looked at from inside"""
+PLACES = np.append(GAUSS_PLACES, [INSET, 1.0 - INSET])
+"""where a piece is looked at"""
 
 
 class Samples(NamedTuple):
@@ -76,56 +78,31 @@ def refine(
             point, work, made, first, last, target, far, far - blur, wraps, symmetry
         )
     for piece in range(events.size - 1):
-        left, right = events[piece], events[piece + 1]
-        length = right - left
+        left, length = events[piece], events[piece + 1] - events[piece]
         straight = length * length
         for node in range(5):
-            # nodes 3 and 4 are the ends, which stand for the straight line
-            if node < 3:
-                share = left + length * GAUSS_PLACES[node]
-            else:
-                share = left + length * (INSET if node == 3 else 1.0 - INSET)
+            share = left + length * PLACES[node]
             _evaluate(points, point, displacement, velocity, place, after, share, work)
-            near = far = near_forced = far_forced = 0.0
             if node < 3:
-                weight = length * GAUSS_WEIGHTS[node]
+                weight, kept = length * GAUSS_WEIGHTS[node], last
                 near, far = weight * (1.0 - share), weight * share
-                near_forced, far_forced = (
-                    (1.0 - straight) * near,
-                    (1.0 - straight) * far,
-                )
+                weight = 1.0 - straight
+                near_forced, far_forced = weight * near, weight * far
             else:
-                for other in range(3):
-                    at = GAUSS_PLACES[other]
-                    weight = straight * length * GAUSS_WEIGHTS[other]
-                    weight *= 1.0 - at if node == 3 else at
-                    between = left + length * at
-                    near_forced += weight * (1.0 - between)
-                    far_forced += weight * between
+                # an end stands for its share in the line, and brings no tangent:
+                # that of a contact that closes is infinite there
+                near, far, kept = 0.0, 0.0, first
+                slope = length / (6.0 if node == 3 else 3.0)
+                near_forced = straight * length * (0.5 * (1.0 - left) - slope)
+                far_forced = straight * length * (0.5 * left + slope)
             _deposit(
-                point,
-                work,
-                made,
-                first,
-                last if node < 3 else first,
-                place,
-                near,
-                near_forced,
-                False,
+                point, work, made, first, kept, place, near, near_forced, False,
                 symmetry,
-            )
+            )  # fmt: skip
             _deposit(
-                point,
-                work,
-                made,
-                first,
-                last if node < 3 else first,
-                target,
-                far,
-                far_forced,
-                wraps,
+                point, work, made, first, kept, target, far, far_forced, wraps,
                 symmetry,
-            )
+            )  # fmt: skip
 
 
 @kernel

@@ -6,18 +6,20 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import ContinuationError, Metric
 from hbm.events import Segment, crossings, excess, folds
+from hbm.fourier import FourierBasis
+from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome
 from hbm.residual import HarmonicBalance
 from hbm.resolution import PathResolution
-from hbm.stability import SmallMotions
 from hbm.step_control import StepControl
-from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
@@ -35,8 +37,7 @@ class Curve:
     system: AdaptiveBalance
     resolution: PathResolution
     control: StepControl
-    motions: Callable[[float], SmallMotions] | None
-    """parameter ↦ the structure for small motions, if stability is wanted"""
+    multipliers: Multipliers
 
     def followed(
         self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
@@ -45,21 +46,21 @@ class Curve:
 
         ``beginning`` is what the first point is marked as.
         """
-        before: tuple[Correction, PeriodicResponse] | None = None
+        before: tuple[Correction, Made] | None = None
         for correction in corrections:
             mark = beginning if before is None else "restart"
             made = self._made(correction, "" if correction.joined else mark)
             if before is not None and correction.joined:
                 yield from self._between(*before, correction, made, metric)
-            yield made
+            yield made.response
             before = correction, made
 
     def _between(
         self,
         before: Correction,
-        last: PeriodicResponse,
+        last: Made,
         after: Correction,
-        made: PeriodicResponse,
+        made: Made,
         metric: Metric,
     ) -> Iterator[PeriodicResponse]:
         """Yield the events between two neighbouring points, in their order."""
@@ -78,16 +79,17 @@ class Curve:
             normal /= np.abs(normal).max()
             settled = self.system.settle(located, normal, tolerance)
             if settled.outcome is Outcome.CONVERGED:
-                yield self._made(settled, name)
+                yield self._made(settled, name).response
         self.system.fourier = fourier
 
-    def _tests(self, last: PeriodicResponse, made: PeriodicResponse) -> list[Test]:
+    def _tests(self, last: Made, made: Made) -> list[Test]:
         """Return what is to be located between two responses."""
         tests: list[Test] = [("fold", folds, None), ("peak", self._slope, None)]
-        before, after = last.multipliers, made.multipliers
+        before, after = last.response.multipliers, made.response.multipliers
+        finer = max(last.finer, made.finer, key=lambda each: each.harmonics)
         for which, kind in crossings(before, after):
             ends = excess(before, which), excess(after, which)
-            tests.append((kind, partial(self._growth, which), ends))
+            tests.append((kind, partial(self._growth, which, finer), ends))
         return tests
 
     def _slope(self, correction: Correction) -> float:
@@ -105,37 +107,38 @@ class Curve:
         place = int(sizes[0].argmax())
         return float(sizes[1][place] - sizes[0][place]) / small
 
-    def _growth(self, which: int, correction: Correction) -> float:
-        """Return by how much a multiplier exceeds one, by its place in their order."""
-        balance, point = self.resolution.at(self.system.fourier).at_frequency(
-            correction.point
-        )
-        balance.contact(*balance.split(point))
-        parameter = float(correction.point[-1])
-        return excess(self._multipliers(balance, point, parameter), which)
+    def _growth(self, which: int, finer: FourierBasis, correction: Correction) -> float:
+        """Return by how much a multiplier exceeds one, by its place in their order.
 
-    def _multipliers(
-        self, balance: HarmonicBalance, point: Array, parameter: float
-    ) -> ComplexArray:
-        """Return the multipliers at a point at which the contacts were called."""
-        if self.motions is None:
-            return np.empty(0, complex)
-        motions = self.motions(parameter)
-        return motions.multipliers(balance.contact, float(point[-1]))
+        What has asked for ``finer`` orbits at an end does so between the ends.
+        """
+        point, fourier = correction.point, self.system.fourier
+        if finer.harmonics > 2 * fourier.harmonics + 1:
+            found = self.multipliers.finer(point, finer)
+            point, fourier = (point, fourier) if found is None else (found, finer)
+        return excess(self.multipliers.at(point, fourier), which)
 
-    def _made(self, correction: Correction, event: str) -> PeriodicResponse:
+    def _made(self, correction: Correction, event: str) -> Made:
         """Return the response at a settled point."""
         kept, fourier, error = self.system.kept(correction.point)
         balance, point = self.resolution.at(fourier).at_frequency(kept)
         made = response(self.problem, balance, replace(correction, point=point))
-        multipliers = self._multipliers(balance, point, float(kept[-1]))
-        return replace(
+        multipliers, finer = self.multipliers.sure(kept, fourier, made.normal_smallest)
+        told = replace(
             made,
             error=error,
             event=event,
             multipliers=multipliers,
             parameter=float(kept[-1]),
         )
+        return Made(told, finer)
+
+
+class Made(NamedTuple):
+    """A response, and the resolution that its multipliers ask for."""
+
+    response: PeriodicResponse
+    finer: FourierBasis
 
 
 Test = tuple[str, Callable[[Correction], float], tuple[float, float] | None]

@@ -8,6 +8,7 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.curve import Curve
+from hbm.multipliers import Multipliers
 from hbm.options import CurveOptions
 from hbm.path import Path
 from hbm.pieces import Pieces
@@ -31,7 +32,10 @@ class Tracer:
         )
         self.control = options.control(problem.force_scale)
         motions = path.motions if options.stability else None
-        self.curve = Curve(problem, self.system, resolution, self.control, motions)
+        multipliers = Multipliers(
+            resolution, motions, self.control.tolerance, options.harmonics is not None
+        )
+        self.curve = Curve(problem, self.system, resolution, self.control, multipliers)
         self.pieces = Pieces(
             path, self.system, options.start, options.end, self.control
         )

@@ -1,0 +1,103 @@
+"""Multipliers of truncated orbits; where contacts rattle, of finer ones (theory §6)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from hbm.fourier import FourierBasis
+from hbm.newton import Outcome, correct
+from hbm.resolution import PathResolution
+from hbm.stability import SmallMotions
+from microslip_mechanics.arrays import Array, ComplexArray
+
+RATTLING = 0.5
+"""share of the contact points that lift off, from which more harmonics are tried"""
+HARMONICS = 63
+"""most that are taken for multipliers alone"""
+CHANGE = 1e-2
+"""of the leading multipliers from one order to the next, from which they are known"""
+LEADING = 3
+"""how many of them are looked at"""
+ASIDE = 0.02
+"""relative change of the amplitude from which a finer orbit is another one"""
+
+
+@dataclass(frozen=True, slots=True)
+class Multipliers:
+    """The Floquet multipliers at points of a path."""
+
+    resolution: PathResolution
+    motions: Callable[[float], SmallMotions] | None
+    """parameter ↦ the structure for small motions, if stability is wanted"""
+    tolerance: float
+    """of the residual"""
+    fixed: bool
+    """whether the harmonics are given, not found"""
+
+    def at(self, point: Array, fourier: FourierBasis) -> ComplexArray:
+        """Return the multipliers of the orbit as it is; none if they are not wanted."""
+        if self.motions is None:
+            return np.empty(0, complex)
+        balance, orbit = self.resolution.at(fourier).at_frequency(point)
+        balance.contact(*balance.split(orbit))
+        motions = self.motions(float(point[-1]))
+        return motions.multipliers(balance.contact, float(orbit[-1]))
+
+    def sure(
+        self, point: Array, fourier: FourierBasis, normal_smallest: Array
+    ) -> tuple[ComplexArray, FourierBasis]:
+        """Return the multipliers, of more harmonics if they ask for it, and which.
+
+        Parameters
+        ----------
+        point, fourier
+            An orbit and its resolution.
+        normal_smallest
+            Of each contact point during a period [N], shape ``(points,)``.
+        """
+        known = self.at(point, fourier)
+        if self.fixed or known.size == 0 or not _rattles(normal_smallest):
+            return known, fourier
+        orbit, trusted = point, fourier
+        while fourier.harmonics < HARMONICS:
+            fourier = _finer(fourier)
+            found = self.finer(orbit, fourier)
+            if found is None:
+                continue
+            orbit, before = found, known
+            known, trusted = self.at(orbit, fourier), fourier
+            if _change(before, known) < CHANGE:
+                break
+        return known, trusted
+
+    def finer(self, point: Array, fourier: FourierBasis) -> Array | None:
+        """Return the orbit at the same parameter with another resolution, if found."""
+        normal = np.zeros_like(point)
+        normal[-1] = 1.0
+        found = correct(
+            self.resolution.at(fourier), point, normal, tolerance=self.tolerance
+        )
+        if found.outcome is not Outcome.CONVERGED:
+            return None
+        before, after = map(self.resolution.amplitudes, (point, found.point))
+        other = np.abs(after - before).max() > ASIDE * before.max()
+        return None if other else found.point
+
+
+def _rattles(normal_smallest: Array) -> bool:
+    return bool(np.mean(normal_smallest <= 0.0) >= RATTLING)
+
+
+def _finer(fourier: FourierBasis) -> FourierBasis:
+    return FourierBasis(
+        min(2 * fourier.harmonics + 1, HARMONICS), 2 * fourier.samples
+    )
+
+
+def _change(before: ComplexArray, after: ComplexArray) -> float:
+    """Return by how much the leading multipliers differ in modulus."""
+    leading = np.abs(before[:LEADING]) - np.abs(after[:LEADING])
+    return float(np.abs(leading).max())

@@ -12,7 +12,15 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import ContinuationError, Metric
-from hbm.events import Segment, crossings, excess, folds
+from hbm.events import (
+    PRECISION,
+    ROUGH,
+    ROUGHER,
+    Segment,
+    crossings,
+    excess,
+    folds,
+)
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome
@@ -25,6 +33,8 @@ from microslip_mechanics.response import PeriodicResponse
 
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
+LOCATING = FourierBasis(31, 512)
+"""most that is taken between two points to locate a change of stability"""
 UPRIGHT = 0.1
 """part of the parameter in a unit tangent below which a multiplier +1 is a fold's"""
 
@@ -71,8 +81,8 @@ class Curve:
         tests = self._tests(last, made)
         found = [
             (segment.place(located.point), name, located)
-            for name, test, ends in tests
-            if (located := segment.locate(test, ends)) is not None
+            for name, test, ends, precision in tests
+            if (located := segment.locate(test, ends, precision)) is not None
         ]
         for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):
             normal = located.along / metric(located.point) ** 2
@@ -84,13 +94,22 @@ class Curve:
 
     def _tests(self, last: Made, made: Made) -> list[Test]:
         """Return what is to be located between two responses."""
-        tests: list[Test] = [("fold", folds, None), ("peak", self._slope, None)]
+        tests: list[Test] = [
+            ("fold", folds, None, PRECISION),
+            ("peak", self._slope, None, PRECISION),
+        ]
         before, after = last.response.multipliers, made.response.multipliers
         finer = max(last.finer, made.finer, key=lambda each: each.harmonics)
+        finer = min(finer, LOCATING, key=lambda each: each.harmonics)
+        rough = ROUGHER if self._rises(finer) else ROUGH
         for which, kind in crossings(before, after):
             ends = excess(before, which), excess(after, which)
-            tests.append((kind, partial(self._growth, which, finer), ends))
+            tests.append((kind, partial(self._growth, which, finer), ends, rough))
         return tests
+
+    def _rises(self, finer: FourierBasis) -> bool:
+        """Return whether multipliers ask for more harmonics than a point has."""
+        return finer.harmonics > 2 * self.system.fourier.harmonics + 1
 
     def _slope(self, correction: Correction) -> float:
         """Return the change of the largest amplitude along the curve."""
@@ -113,7 +132,7 @@ class Curve:
         What has asked for ``finer`` orbits at an end does so between the ends.
         """
         point, fourier = correction.point, self.system.fourier
-        if finer.harmonics > 2 * fourier.harmonics + 1:
+        if self._rises(finer):
             found = self.multipliers.finer(point, finer)
             point, fourier = (point, fourier) if found is None else (found, finer)
         return excess(self.multipliers.at(point, fourier), which)
@@ -141,8 +160,8 @@ class Made(NamedTuple):
     finer: FourierBasis
 
 
-Test = tuple[str, Callable[[Correction], float], tuple[float, float] | None]
-"""name, function that vanishes, its values at the ends if they are known"""
+Test = tuple[str, Callable[[Correction], float], tuple[float, float] | None, float]
+"""name, function that vanishes, its values at the ends if they are known, precision"""
 Found = tuple[float, str, Correction]
 """place along a segment, name, point"""
 

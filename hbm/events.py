@@ -18,9 +18,9 @@ from hbm.newton import Correction, Outcome, SingularError, System, correct
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.response import MARGIN
 
-PRECISION, ROUGH = 1e-5, 1e-3
+PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
 """of a located place, over the length of the step in which it is; the second where a
-test function is known to be less accurate than that"""
+test function is less accurate than that, the third where it is costly too"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,11 +44,13 @@ class Segment:
         self,
         test: Callable[[Correction], float],
         ends: tuple[float, float] | None = None,
+        precision: float = PRECISION,
     ) -> Correction | None:
         """Return the point between the two at which ``test`` is zero.
 
-        ``ends`` are its values at the two, if they are known better: it is rough then.
-        None if it has no change of sign, or if a point between does not converge.
+        ``ends`` are its values at the two, if they are known better; ``precision`` is
+        over the length of the step. None if it has no change of sign, or if a point
+        between does not converge.
         """
         first, last = ends or (test(self.before), test(self.after))
         length = self.length
@@ -60,9 +62,9 @@ class Segment:
                 return first
             return last if place >= length else test(self._at(place, length))
 
-        precision = (ROUGH if ends else PRECISION) * length
+        near = precision * length
         try:
-            root = scipy.optimize.brentq(value, 0.0, length, xtol=precision, rtol=1e-12)
+            root = scipy.optimize.brentq(value, 0.0, length, xtol=near, rtol=1e-12)
             return self._at(float(root), length)
         except (_LostError, SingularError):
             return None

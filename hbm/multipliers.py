@@ -92,9 +92,7 @@ def _rattles(normal_smallest: Array) -> bool:
 
 
 def _finer(fourier: FourierBasis) -> FourierBasis:
-    return FourierBasis(
-        min(2 * fourier.harmonics + 1, HARMONICS), 2 * fourier.samples
-    )
+    return FourierBasis(min(2 * fourier.harmonics + 1, HARMONICS), 2 * fourier.samples)
 
 
 def _change(before: ComplexArray, after: ComplexArray) -> float:

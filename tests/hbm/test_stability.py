@@ -8,7 +8,7 @@ from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
-from hbm.solve import frequency_response
+from hbm.solve import frequency_response, periodic_response
 from hbm.stability import small_motions
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -78,6 +78,20 @@ def test_largest_multipliers_are_those_of_the_time_domain(model: str, law: str) 
         assert abs(point.multipliers[0]) == pytest.approx(
             abs(other.values[0]), abs=1e-3
         )
+
+
+def test_rattling_contacts_get_the_multipliers_of_more_harmonics() -> None:
+    problem = rig_problem(model="full")
+    rest = static_equilibrium(problem)
+    point = curve(problem, 134.9, 135.0586)[-1]
+    finest = periodic_response(problem, rest, point, harmonics=63, samples=1024)
+
+    other = floquet_multipliers(problem, finest, steps=1024)
+
+    # 15 harmonics give the amplitude to 1e-3; their multiplier is 1.003.
+    assert point.harmonics < 63
+    assert abs(other.values[0]) > 1.2
+    assert abs(point.multipliers[0]) == pytest.approx(abs(other.values[0]), abs=1e-2)
 
 
 @pytest.mark.parametrize("model", ["A", "full"])

@@ -32,3 +32,32 @@ def solve_in_place(matrix: Array, right: Array) -> bool:
             right[k] -= matrix[k, j] * right[j]
         right[k] /= matrix[k, k]
     return True
+
+
+@kernel
+def eliminate(matrix: Array, right: Array) -> bool:
+    """Solve in place like :func:`solve_in_place`, without memory of its own."""
+    size = right.size
+    for k in range(size):
+        pivot, largest = k, abs(matrix[k, k])
+        for i in range(k + 1, size):
+            if abs(matrix[i, k]) > largest:
+                pivot, largest = i, abs(matrix[i, k])
+        if not largest > 0.0:
+            return False
+        if pivot != k:
+            for j in range(k, size):
+                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
+            right[k], right[pivot] = right[pivot], right[k]
+        inverse = 1.0 / matrix[k, k]
+        for i in range(k + 1, size):
+            factor = matrix[i, k] * inverse
+            if factor != 0.0:
+                for j in range(k + 1, size):
+                    matrix[i, j] -= factor * matrix[k, j]
+                right[i] -= factor * right[k]
+    for k in range(size - 1, -1, -1):
+        for j in range(k + 1, size):
+            right[k] -= matrix[k, j] * right[j]
+        right[k] /= matrix[k, k]
+    return True

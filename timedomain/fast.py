@@ -1,0 +1,240 @@
+"""The fast march: modes, contacts in few coordinates, a ladder of steps (theory, §7)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.segments import Segments, clock
+from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.contact_newton import empty_local
+from timedomain.coordinates import Contacts, Coordinates, modal_coordinates
+from timedomain.ladder import (
+    DONE,
+    FAILED,
+    ITERATIONS,
+    LENGTH,
+    REFERENCE,
+    REJECTED,
+    STEPS,
+    TICK,
+    TICKS,
+    Control,
+    Motion,
+    Trial,
+    climb,
+)
+from timedomain.options import IntegrationError, MarchOptions
+from timedomain.record import FLOWS, STORES, row_length
+from timedomain.schemes import LINEAR_FORCE, TR_BDF2, Scheme
+from timedomain.start import Start, first_state, powers, refill, stored_energy
+from timedomain.tables import LEVELS, Tables, empty_tables, fill
+
+NUMBERS = 4
+"""that a row holds behind the energies"""
+PER_CYCLE = 12
+"""least number of steps in a cycle of the load"""
+RESIDUAL = 1e-2
+"""of contact forces, over the tolerance of one step"""
+SAFETY = 0.1
+"""error of one step over the tolerance of the whole march"""
+
+
+class FastMarch:
+    """A march by the fast method under way."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        history: LoadHistory,
+        options: MarchOptions,
+        steps: int,
+        start: Start,
+        *,
+        schemes: tuple[Scheme, Scheme] = (LINEAR_FORCE, TR_BDF2),
+    ) -> None:
+        self._problem, self._options, self._schemes = problem, options, schemes
+        self._duration, self._steps = history.duration, steps
+        self._step = history.duration / steps
+        self._coordinates = modal_coordinates(problem)
+        self._segments = history.segments()
+        self._control = self._controlled()
+        state = first_state(problem, history, start)
+        self._stored_at_start = stored_energy(problem, state)
+        modes, contacts = self._coordinates.modes, self._coordinates.contacts
+        self._tables = tuple(empty_tables(each, modes, contacts) for each in schemes)
+        self._trial = _trial(schemes, self._coordinates)
+        inverse = self._coordinates.inverse
+        reaction = _reaction(contacts, state.forces)
+        self._motion = Motion(
+            inverse @ state.displacement,
+            inverse @ state.velocity,
+            np.stack(
+                [
+                    modes.coupling @ inverse @ state.velocity,
+                    modes.coupling @ inverse @ state.acceleration,
+                ]
+            ),
+            state.gaps,
+            state.slips,
+            state.forces,
+            np.zeros_like(state.forces),
+            np.stack([reaction, np.zeros_like(reaction)]),
+            powers(problem, history, state),
+            np.zeros(len(FLOWS)),
+            np.zeros(5),
+            np.zeros(8, dtype=np.int64),
+        )
+        self._motion.numbers[LENGTH] = self._control.longest
+        self._motion.numbers[REFERENCE] = self._reference()
+
+    def resume(self, end: Checkpoint) -> int:
+        """Go back to the end of a block; return the steps until there."""
+        refill(self._motion, end.memory[1:])
+        self._stored_at_start = float(end.memory[0])
+        rows = self._motion.counts[TICK] // (self._control.stride * TICKS)
+        return int(rows) * self._options.store_every
+
+    def block(self, first: int, count: int) -> TimeHistory:
+        """March ``count`` steps from step ``first``, numbered in nominal steps."""
+        stride, counts = self._options.store_every, self._motion.counts
+        numbers = 1 + first // stride + np.arange(count // stride)
+        times = self._duration * (numbers * stride / self._steps)
+        probes, points = len(self._problem.probes.names), self._problem.interface.count
+        rows = np.empty((len(times), row_length(probes, points) + NUMBERS))
+        before, done, status = counts.copy(), 0, FAILED
+        modes, contacts = self._coordinates.modes, self._coordinates.contacts
+        while status != DONE:
+            done, status = climb(
+                self._control,
+                modes,
+                contacts,
+                self._tables,
+                self._segments,
+                self._motion,
+                self._trial,
+                rows,
+                done,
+            )
+            if status == FAILED:
+                raise self._failure()
+            if status >= 0:
+                self._fill(*divmod(status, LEVELS))
+        return self._table(times, rows, counts - before)
+
+    def _fill(self, place: int, level: int) -> None:
+        """Make the tables of a scheme for the steps of a level."""
+        fill(
+            self._tables[place],
+            self._schemes[place],
+            self._coordinates.modes,
+            self._coordinates.contacts,
+            level=level,
+            step=self._control.longest / 2.0**level,
+        )
+
+    def _controlled(self) -> Control:
+        """Return step, ladder and tolerances."""
+        options = self._options
+        stride, longest, tolerance = options.store_every, self._step, 0.0
+        lowest = min(LEVELS - 1, options.divisions)
+        if options.tolerance is not None:
+            row = self._step * stride
+            wanted = min(self._longest(), row)
+            stride = 2 ** max(0, math.ceil(math.log2(row / wanted) - 1e-9))
+            longest, tolerance = row / stride, SAFETY * options.tolerance
+            lowest = LEVELS - 1
+        floor = 1e-10 * self._problem.force_scale
+        residual = options.residual
+        if tolerance > 0.0:
+            residual = max(residual, RESIDUAL * tolerance)
+        return Control(longest, stride, tolerance, residual, floor, lowest)
+
+    def _longest(self) -> float:
+        """Return the longest step [s] that resolves the load."""
+        begin = self._segments.begin
+        edges = np.append(begin, self._duration)
+        times = np.concatenate([edges, begin + 1e-9 * np.diff(edges)])
+        fastest = float(np.abs(clock(self._segments, times)[:, 0]).max())
+        return 2.0 * np.pi / (PER_CYCLE * fastest) if fastest > 0.0 else math.inf
+
+    def _reference(self) -> float:
+        """Return twice the least energy [J] that errors are compared with."""
+        modes, step = self._coordinates.modes, self._control.longest
+        flexibility = 1.0 / np.maximum(modes.stiffness, 1.0 / step**2)
+        static = float((modes.loads**2 * flexibility).sum(axis=1).max())
+        return max(static, 2.0 * self._stored_at_start, 1e-300)
+
+    def _failure(self) -> IntegrationError:
+        tick = self._motion.counts[TICK]
+        return IntegrationError(
+            f"the step at t = {self._control.longest * tick / TICKS:.6g} s does not "
+            f"converge, even in {2**self._control.lowest} parts: "
+            "give a shorter time step, a larger threshold velocity or a softer contact"
+        )
+
+    def _table(self, times: Array, rows: Array, counts: Array) -> TimeHistory:
+        probes, contacts = self._problem.probes.names, self._problem.interface.names
+        sizes = [len(probes), len(probes), len(contacts), 1, len(FLOWS) + len(STORES)]
+        shown, moving, normal, power, energy, _ = np.split(
+            rows, np.cumsum(sizes), axis=1
+        )
+        return TimeHistory(
+            times,
+            probes,
+            shown,
+            moving,
+            contacts,
+            normal,
+            power[:, 0],
+            (*FLOWS, *STORES),
+            energy,
+            self._stored_at_start,
+            self._step,
+            int(counts[ITERATIONS]),
+            int(counts[REJECTED]),
+            checkpoint=self._checkpoint(),
+        )
+
+    def _checkpoint(self) -> Checkpoint:
+        shapes, motion = self._coordinates.shapes, self._motion
+        kept = [np.ravel(array).astype(float) for array in motion]
+        return Checkpoint(
+            shapes @ motion.displacement,
+            shapes @ motion.velocity,
+            np.concatenate([[self._stored_at_start], *kept]),
+        )
+
+
+def _reaction(contacts: Contacts, forces: Array) -> Array:
+    """Return φ from the forces of the points."""
+    reaction = np.zeros(int((contacts.first + contacts.width).max(initial=0)))
+    for first, width, basis, force in zip(
+        contacts.first, contacts.width, contacts.basis, forces, strict=True
+    ):
+        reaction[first : first + width] += force @ basis[:, :width]
+    return reaction
+
+
+def _trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
+    """Return workspace for a step."""
+    modes, points = coordinates.modes, coordinates.contacts.first.size
+    count, rank = modes.stiffness.size, len(modes.selection)
+    stages = 1 + max(scheme.stages for scheme in schemes)
+    return Trial(
+        empty_local(rank, points),
+        np.zeros(count),
+        np.zeros(count),
+        np.zeros((stages, count)),
+        np.zeros(count),
+        np.zeros((2, rank)),
+        np.zeros((stages, len(FLOWS))),
+        np.zeros(2),
+        np.zeros((points, 3)),
+        np.zeros(rank),
+        np.zeros(2),
+    )

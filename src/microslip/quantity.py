@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import MISSING, dataclass, field
 from typing import Any
 
 from microslip_mechanics.errors import MicroslipError
@@ -102,14 +102,16 @@ def quantity(
     highest: float = math.inf,
     positive: bool = False,
     optional: bool = False,
+    default: object = MISSING,
 ) -> Any:  # noqa: ANN401  (a dataclass field, like dataclasses.field)
     """Declare a number of a scene with its SI unit and its range.
 
     ``positive`` sets the lower bound to zero and excludes the bound itself;
-    ``optional`` makes None of a number that the scene leaves out.
+    ``optional`` makes None of a number that the scene leaves out, ``default`` another
+    value.
     """
     low = max(lowest, 0.0) if positive else lowest
     metadata = {"quantity": Quantity(unit, low, highest, positive)}
-    return (
-        field(default=None, metadata=metadata) if optional else field(metadata=metadata)
-    )
+    if optional:
+        default = None
+    return field(default=default, metadata=metadata)

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.segments import Segments, factors_over
+from microslip_mechanics.segments import Segments, after_ramp, factors_over
 
 
 class LoadHistory(Protocol):
@@ -81,30 +81,11 @@ class SweptSine:
         """Return ramp, waiting, sweep and free motion, those that take time."""
         low, high = 2.0 * np.pi * self.lowest, 2.0 * np.pi * self.highest
         turned = low * np.expm1(self.rate * (self.end - self.start)) / self.rate
-        pieces = (
-            (0.0, self.ramp, 0.0, 1.0 / self.ramp if self.ramp else 0.0, 0.0),
-            (self.ramp, self.start, 1.0, 0.0, 0.0),
-            (self.start, self.end, 1.0, 0.0, 1.0),
-            (self.end, self.duration, 1.0, 0.0, 0.0),
+        rows = (
+            (self.start, 0.0, 0.0, 1.0, 0.0, 0.0, low, self.rate, 0.0),
+            (self.end, 0.0, 0.0, 0.0, 0.0, turned, high, 0.0, 0.0),
         )
-        sines = (
-            (-low * self.start, low, 0.0, 0.0),
-            (-low * (self.start - self.ramp), low, 0.0, 0.0),
-            (0.0, low, self.rate, 0.0),
-            (turned, high, 0.0, 0.0),
-        )
-        kept = [place for place, piece in enumerate(pieces) if piece[0] < piece[1]]
-        if self.end == self.duration:
-            kept.append(3)  # nothing drives a time after the end either
-        table = np.array(pieces)[kept]
-        still = np.zeros((len(kept), 2))
-        return Segments(
-            table[:, 0].copy(),
-            table[:, 2:4].copy(),
-            still,
-            np.stack([table[:, 4], still[:, 0]], axis=1),
-            np.array(sines)[kept],
-        )
+        return after_ramp(self.ramp, self.start, np.array(rows))
 
     def factors(self, time: Array) -> Array:
         """Return the factors of preload and drive, shape (times, 2)."""

@@ -68,6 +68,27 @@ def phase_of(sine: Array, elapsed: float) -> float:
     return float(phase + frequency * elapsed + 0.5 * rate * elapsed**2)
 
 
+def after_ramp(ramp: float, start: float, rows: Array) -> Segments:
+    """Return a preload ramp and a time of waiting, and then what drives from a start.
+
+    Each row, shape ``(segments, 9)``, is begin, offset, amplitude and sine in the
+    order of :class:`Segments`; the first begins at the start, where its phase is zero.
+    The clock of the cycles has its frequency before.
+    """
+    frequency = rows[0, 6]
+    waits = [begin for begin, end in ((0.0, ramp), (ramp, start)) if begin < end]
+    before = np.zeros((len(waits), 9))
+    before[:, 0] = waits
+    before[:, 5] = rows[0, 5] - frequency * (start - before[:, 0])
+    before[:, 6] = frequency
+    table = np.concatenate([before, rows])
+    preload = np.tile([1.0, 0.0], (len(table), 1))
+    if ramp > 0.0:
+        preload[0] = 0.0, 1.0 / ramp
+    parts = (table[:, 0], preload, table[:, 1:3], table[:, 3:5], table[:, 5:])
+    return Segments(*(np.ascontiguousarray(part) for part in parts))
+
+
 def factors_over(segments: Segments, time: Array) -> Array:
     """Return the factors of preload and drive at many times, shape (times, 2)."""
     factors = np.empty((time.size, 2))

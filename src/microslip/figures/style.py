@@ -24,6 +24,14 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
 
 
+def legend_above(axes: Axes) -> None:
+    """Put the legend above the lines, in space that is made for it."""
+    lines = -(-len(axes.get_legend_handles_labels()[0]) // 2)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + (0.08 + 0.1 * lines) * (high - low))
+    axes.legend(frameon=False, loc="upper left", ncols=2, fontsize="small")
+
+
 def absolute(probes: Iterable[str]) -> list[int]:
     """Return the places of the probes that are no relative motion."""
     return [place for place, name in enumerate(probes) if "-to-" not in name]

@@ -40,6 +40,8 @@ PER_CYCLE = 12
 """least number of steps in a cycle of the load"""
 RESIDUAL = 1e-2
 """of contact forces, over the tolerance of one step"""
+HOLD = 1.0
+"""cycles of the load without a rough step before steps grow"""
 SAFETY = 0.1
 """error of one step over the tolerance of the whole march"""
 
@@ -87,7 +89,7 @@ class FastMarch:
             powers(problem, history, state),
             np.zeros(len(FLOWS)),
             np.zeros(5),
-            np.zeros(8, dtype=np.int64),
+            np.zeros(9, dtype=np.int64),
         )
         self._motion.numbers[LENGTH] = self._control.longest
         self._motion.numbers[REFERENCE] = self._reference()
@@ -144,7 +146,7 @@ class FastMarch:
         lowest = min(LEVELS - 1, options.divisions)
         if options.tolerance is not None:
             row = self._step * stride
-            wanted = min(self._longest(), row)
+            wanted = min(self._cycle() / PER_CYCLE, row)
             stride = 2 ** max(0, math.ceil(math.log2(row / wanted) - 1e-9))
             longest, tolerance = row / stride, SAFETY * options.tolerance
             lowest = LEVELS - 1
@@ -152,15 +154,16 @@ class FastMarch:
         residual = options.residual
         if tolerance > 0.0:
             residual = max(residual, RESIDUAL * tolerance)
-        return Control(longest, stride, tolerance, residual, floor, lowest)
+        hold = int(TICKS * HOLD * self._cycle() / longest) if tolerance > 0.0 else 0
+        return Control(longest, stride, tolerance, residual, floor, lowest, hold)
 
-    def _longest(self) -> float:
-        """Return the longest step [s] that resolves the load."""
+    def _cycle(self) -> float:
+        """Return the shortest cycle of the load [s], or the whole march."""
         begin = self._segments.begin
         edges = np.append(begin, self._duration)
         times = np.concatenate([edges, begin + 1e-9 * np.diff(edges)])
         fastest = float(np.abs(clock(self._segments, times)[:, 0]).max())
-        return 2.0 * np.pi / (PER_CYCLE * fastest) if fastest > 0.0 else math.inf
+        return min(2.0 * np.pi / fastest, self._duration) if fastest else self._duration
 
     def _reference(self) -> float:
         """Return twice the least energy [J] that errors are compared with."""

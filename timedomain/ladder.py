@@ -23,9 +23,9 @@ KINK = 12
 SOONEST = 1e-8
 """of a step: how far behind a kink it begins"""
 DONE, FAILED = -1, -2
-TICK, LEVEL, HINT, STEPS, REJECTED, ITERATIONS, SAFE, SAFE_STEPS = range(8)
+TICK, LEVEL, HINT, STEPS, REJECTED, ITERATIONS, SAFE, SAFE_STEPS, ROUGH = range(9)
 REFERENCE, DRIFT, LARGEST_DRIFT, DISCRETE_WORK, LENGTH = range(5)
-SAFE_RUN = 8
+SAFE_RUN = 32
 """dissipative steps before another linear force is tried"""
 STIFF = 4.0
 """largest contact stiffness times compliance of a step with linear force; alone, a
@@ -51,6 +51,8 @@ class Control(NamedTuple):
     """absolute one [N]"""
     lowest: int
     """level of the shortest steps"""
+    hold: int
+    """ticks without a rough step before steps grow"""
 
 
 class Motion(NamedTuple):
@@ -81,7 +83,7 @@ class Motion(NamedTuple):
     friction's discrete work [J]; length of the last step [s]"""
     counts: NDArray[np.int64]
     """tick, level, segment, steps, rejected steps, iterations, dissipative steps to go
-    and so far"""
+    and so far, tick of the last step too rough for a longer one"""
 
 
 class Trial(NamedTuple):
@@ -142,11 +144,13 @@ def climb(
                 control, modes, contacts, table, segments, motion, trial, level
             )
             error = np.inf
-            if taken > 0 and (safe or trial.numbers[0] <= STIFF):
+            stiff = trial.numbers[0] > STIFF
+            if taken > 0 and (safe or control.tolerance > 0.0 or not stiff):
                 error = _error(control, modes, table, motion, trial, level, safe)
             if error > 1.0:
                 counts[REJECTED] += 1
-                if safe or error <= SHARE:
+                counts[ROUGH] = counts[TICK]
+                if safe or (error <= SHARE and not stiff):
                     level += 1
                 else:
                     counts[SAFE] = SAFE_RUN
@@ -159,8 +163,11 @@ def climb(
             if safe:
                 counts[SAFE] -= 1
                 counts[SAFE_STEPS] += 1
-            if error < GROWTH:
+            if error > GROWTH:
+                counts[ROUGH] = counts[TICK]
+            elif counts[TICK] - counts[ROUGH] > control.hold:
                 counts[LEVEL] = max(0, level - 1)
+                counts[ROUGH] = counts[TICK]
         _store(modes, contacts, motion, rows[row])
     return rows.shape[0], DONE
 

@@ -38,6 +38,14 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         metavar="FILE",
         help="go on with the march that a stopped sweep of the same scene left there",
     )
+    parser.add_argument(
+        "--tolerance",
+        type=_tolerance,
+        default=1e-3,
+        metavar="SHARE",
+        help="of dissipated energy and peak amplitude; 0 takes the scene's time step "
+        "(default: 1e-3)",
+    )
     arguments.add_output(parser, "sweep")
     parser.set_defaults(run=_run)
 
@@ -56,13 +64,30 @@ def _run(options: argparse.Namespace) -> int:
     envelope = options.envelope
     if options.resume is not None:
         recording, end, envelope = _resumed(options, scene)
-    blocks = marched(problem_of(scene), loads, scene.march, envelope=envelope, end=end)
+    blocks = marched(
+        problem_of(scene),
+        loads,
+        scene.march,
+        envelope=envelope,
+        end=end,
+        tolerance=options.tolerance or None,
+    )
     ending = kept(watched(loads.duration)(blocks), recording.keep)
     recording.end(ending)
     _show(options, data, picture)
     unit = "cycles" if envelope else "times"
     print(f"{recording.rows} {unit} in {data}, picture in {picture}")
     return arguments.ended(ending)
+
+
+def _tolerance(text: str) -> float:
+    """Return a tolerance, or 0 for none."""
+    value = float(text)
+    if not 0.0 <= value < 1.0:
+        raise argparse.ArgumentTypeError(
+            f"{text}: give one between 0 and 1, such as 1e-3"
+        )
+    return value
 
 
 def _places(options: argparse.Namespace) -> tuple[Path, Path]:
@@ -139,7 +164,21 @@ def energy_table(result: TimeHistory | Envelope) -> str:
     closing = abs(result.closing_error).max()
     share = closing / max(abs(result.of("input")).max(), 1e-300)
     lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")
+    if result.energy_error.size:
+        lines += _estimates(result)
     return "\n".join(lines)
+
+
+def _estimates(result: TimeHistory | Envelope) -> list[str]:
+    """Return the estimated errors of what was marched."""
+    energy = result.energy_error[-1]
+    friction = max(abs(result.of("friction")[-1]), 1e-300)
+    work = result.work_difference[-1]
+    return [
+        f"  {'friction, error':20s} {energy:12.2g}  ({energy / friction:.1e} of it)",
+        f"  {'quadrature - work':20s} {work:12.2g}  ({work / friction:.1e} of it)",
+        f"estimated error of the peak amplitude {result.peak_error[-1]:.1e}",
+    ]
 
 
 def _extremes(result: TimeHistory | Envelope) -> list[str]:

@@ -113,20 +113,23 @@ def compact_contacts(interface: Interface) -> tuple[Contacts, Array]:
         The second maps the structure to the coordinates, shape ``(rank, dofs)``.
     """
     count = interface.count
-    whole, _ = interface.relative_motion()
+    whole, rows = interface.relative_motion()
+    if count == 0:
+        none = np.zeros(0, dtype=np.int64)
+        return Contacts(interface.points, np.zeros((0, 3, 0)), none, none), rows
     projection = np.abs(whole @ whole.T).reshape(count, 3, count, 3).max(axis=(1, 3))
     _, group = connected_components(projection > 1e-9)
     pieces = [np.flatnonzero(group == each) for each in np.unique(group)]
     spans = [_part(interface, members).relative_motion() for members in pieces]
     widths = [basis.shape[1] for basis, _ in spans]
-    table = np.zeros((count, 3, max(widths, default=0)))
+    table = np.zeros((count, 3, max(widths)))
     first, width = np.zeros((2, count), dtype=np.int64)
     place = 0
     for members, (basis, _), size in zip(pieces, spans, widths, strict=True):
         table[members, :, :size] = basis.reshape(-1, 3, size)
         first[members], width[members] = place, size
         place += size
-    selection = np.vstack([rows for _, rows in spans] or [interface.displacement])
+    selection = np.vstack([rows for _, rows in spans])
     return Contacts(interface.points, table, first, width), selection
 
 

@@ -12,7 +12,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import Segments, clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.contact_newton import empty_local
-from timedomain.coordinates import Contacts, Coordinates, modal_coordinates
+from timedomain.coordinates import Contacts, Coordinates, Modes, modal_coordinates
 from timedomain.ladder import (
     DONE,
     FAILED,
@@ -28,9 +28,10 @@ from timedomain.ladder import (
     Trial,
     climb,
 )
+from timedomain.newmark import State
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record import FLOWS, STORES, row_length
-from timedomain.schemes import LINEAR_FORCE, TR_BDF2, Scheme
+from timedomain.schemes import MEAN_FORCE, SDIRK2, Scheme
 from timedomain.start import Start, first_state, powers, refill, stored_energy
 from timedomain.tables import LEVELS, Tables, empty_tables, fill
 
@@ -57,7 +58,7 @@ class FastMarch:
         steps: int,
         start: Start,
         *,
-        schemes: tuple[Scheme, Scheme] = (LINEAR_FORCE, TR_BDF2),
+        schemes: tuple[Scheme, Scheme] = (MEAN_FORCE, SDIRK2),
     ) -> None:
         self._problem, self._options, self._schemes = problem, options, schemes
         self._duration, self._steps = history.duration, steps
@@ -86,6 +87,7 @@ class FastMarch:
             state.forces,
             np.zeros_like(state.forces),
             np.stack([reaction, np.zeros_like(reaction)]),
+            _relative(modes, inverse, state),
             powers(problem, history, state),
             np.zeros(len(FLOWS)),
             np.zeros(5),
@@ -213,6 +215,12 @@ class FastMarch:
         )
 
 
+def _relative(modes: Modes, inverse: Array, state: State) -> Array:
+    """Return y and ẏ, shape (2, rank)."""
+    motion = np.stack([state.displacement, state.velocity], axis=1)
+    return np.ascontiguousarray((modes.selection @ inverse @ motion).T)
+
+
 def _reaction(contacts: Contacts, forces: Array) -> Array:
     """Return φ from the forces of the points."""
     reaction = np.zeros(int((contacts.first + contacts.width).max(initial=0)))
@@ -239,5 +247,6 @@ def _trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
         np.zeros(2),
         np.zeros((points, 3)),
         np.zeros(rank),
-        np.zeros(2),
+        np.zeros(3),
+        np.zeros(count),
     )

@@ -8,7 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_energy, contact_power
+from microslip_mechanics.contact.hunt_crossley import normal_force
+from microslip_mechanics.contact.law import (
+    contact_energy,
+    contact_power,
+    normal_law,
+)
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.segments import Segments, load_factors, segment_of
 from timedomain.contact_newton import Answer, Local, solve_contact
@@ -22,6 +27,8 @@ KINK = 12
 """level of the steps that may cross a kink of the load"""
 SOONEST = 1e-8
 """of a step: how far behind a kink it begins"""
+EARLIER = 1.0 - SOONEST
+"""loads at the end of a step are those before a jump at that time"""
 DONE, FAILED = -1, -2
 TICK, LEVEL, HINT, STEPS, REJECTED, ITERATIONS, SAFE, SAFE_STEPS, ROUGH = range(9)
 REFERENCE, DRIFT, LARGEST_DRIFT, DISCRETE_WORK, LENGTH = range(5)
@@ -69,11 +76,13 @@ class Motion(NamedTuple):
     slips: Array
     """[m/s], shape (points, 3)"""
     forces: Array
-    """[N], shape (points, 3)"""
+    """[N], at the end of the last step or its mean, shape (points, 3)"""
     rates: Array
     """[N/s], shape (points, 3)"""
     reaction: Array
     """φ [N] and its rate over the last step, shape (2, rank)"""
+    relative: Array
+    """y and ẏ, shape (2, rank)"""
     powers: Array
     """of FLOWS [W], shape (4,)"""
     energies: Array
@@ -107,7 +116,10 @@ class Trial(NamedTuple):
     curvature: Array
     """second derivative of φ, shape (rank,)"""
     numbers: Array
-    """contact stiffness times compliance, drift of energy; shape (2,)"""
+    """contact stiffness times compliance, drift of energy, structural power at the end
+    of a step with mean force; shape (3,)"""
+    load: Array
+    """modal forces of the loads at the begin, shape (modes,)"""
 
 
 @kernel
@@ -210,15 +222,22 @@ def _attempt(
     stages = tables.times.size - 1
     trial.local.reaction[:] = motion.reaction[0]
     _load(modes, segments, motion, trial, 0, begin + SOONEST * length, 0.0)
-    _contact_force(modes, trial)
-    trial.force[0] -= trial.contact
+    if tables.mean == 0.0:
+        _contact_force(modes, trial)
+        trial.force[0] -= trial.contact
     trial.powers[0] = motion.powers
     _input_power(modes, trial, motion.velocity, 0)
+    for j in range(trial.load.size):
+        trial.load[j] = trial.factors[0] * modes.loads[0, j]
+        trial.load[j] += trial.factors[1] * modes.loads[1, j]
     iterations = 0
     for stage in range(1, stages + 1):
         part = tables.times[stage] * length
-        _load(modes, segments, motion, trial, stage, begin + part, part)
+        _load(modes, segments, motion, trial, stage, begin + part * EARLIER, part)
         _predict(modes, tables, motion, trial, level, stage)
+        if tables.mean > 0.0:
+            _average(motion, trial, length)
+            part = 0.5 * (length + motion.numbers[LENGTH])
         if stage == stages:
             trial.before[:] = trial.local.forces
         for point in range(contacts.first.size):
@@ -246,7 +265,9 @@ def _attempt(
             return -1
         iterations += taken
         _complete(modes, tables, trial, level, stage)
-        _powers(modes, contacts, motion, trial, stage, part)
+        _powers(
+            modes, contacts, tables, motion, trial, stage, tables.times[stage] * length
+        )
     motion.counts[ITERATIONS] += iterations
     stiff = 0.0
     for point in range(contacts.first.size):
@@ -299,6 +320,16 @@ def _predict(
 
 
 @kernel
+def _average(motion: Motion, trial: Trial, length: float) -> None:
+    """Make means over the step of the relative motion at its end."""
+    for i in range(trial.curvature.size):
+        begin, end = motion.relative[0, i], trial.relative[0, i]
+        trial.curvature[i] = trial.relative[1, i]
+        trial.relative[0, i] = 0.5 * (begin + end)
+        trial.relative[1, i] = (end - begin) / length
+
+
+@kernel
 def _contact_force(modes: Modes, trial: Trial) -> None:
     """Write the modal contact force."""
     trial.contact[:] = 0.0
@@ -314,12 +345,14 @@ def _complete(
 ) -> None:
     """Add the contact force to a stage."""
     _contact_force(modes, trial)
-    own = tables.forced[level, stage - 1, stage]
-    for j in range(trial.contact.size):
-        force = trial.contact[j]
-        trial.force[stage, j] -= force
-        trial.displacement[j] -= own[0, j] * force
-        trial.velocity[j] -= own[1, j] * force
+    first = 0 if tables.mean > 0.0 else stage
+    for before in range(first, stage + 1):
+        own = tables.forced[level, stage - 1, before]
+        for j in range(trial.contact.size):
+            force = trial.contact[j]
+            trial.force[before, j] -= force
+            trial.displacement[j] -= own[0, j] * force
+            trial.velocity[j] -= own[1, j] * force
 
 
 @kernel
@@ -335,6 +368,7 @@ def _input_power(modes: Modes, trial: Trial, velocity: Array, stage: int) -> Non
 def _powers(
     modes: Modes,
     contacts: Contacts,
+    tables: Tables,
     motion: Motion,
     trial: Trial,
     stage: int,
@@ -358,6 +392,27 @@ def _powers(
         lost += v * (motion.coupled[0, j] + part * motion.coupled[1, j])
     trial.powers[stage, 1], trial.powers[stage, 2] = friction, damping
     trial.powers[stage, 3] = lost
+    if tables.mean > 0.0:
+        trial.powers[1, 3] = 0.5 * (lost + motion.powers[3])
+        trial.numbers[2] = lost
+        _mean_input(modes, motion, trial, part)
+
+
+@kernel
+def _mean_input(modes: Modes, motion: Motion, trial: Trial, length: float) -> None:
+    """Write the mean power of loads that are linear over the step.
+
+    With a cubic between the modal motions of its ends it is p̄ Δq/h + Δp Δq̇/12.
+    """
+    one, two = trial.factors[0], trial.factors[1]
+    power = 0.0
+    for j in range(trial.velocity.size):
+        begin = trial.load[j]
+        end = one * modes.loads[0, j] + two * modes.loads[1, j]
+        moved = trial.displacement[j] - motion.displacement[j]
+        faster = trial.velocity[j] - motion.velocity[j]
+        power += 0.5 * (begin + end) * moved / length + (end - begin) * faster / 12.0
+    trial.powers[1, 0] = power
 
 
 @kernel
@@ -417,13 +472,13 @@ def _curvature(modes: Modes, motion: Motion, trial: Trial, length: float) -> flo
     share = length**3 / 6.0 / (length + motion.numbers[LENGTH])
     for i in range(rank):
         rate = (trial.local.reaction[i] - motion.reaction[0, i]) / length
-        trial.curvature[i] = share * (rate - motion.reaction[1, i])
+        trial.local.change[1, i] = share * (rate - motion.reaction[1, i])
     energy, drift = 0.0, 0.0
     for i in range(rank):
-        force = trial.curvature[i]
+        force = trial.local.change[1, i]
         drift -= force * trial.local.velocity[i]
         for j in range(rank):
-            energy += force * modes.mobility[i, j] * trial.curvature[j]
+            energy += force * modes.mobility[i, j] * trial.local.change[1, j]
     trial.numbers[1] = drift
     return energy
 
@@ -444,22 +499,22 @@ def _accept(
     local, last = trial.local, (1.0 - tables.times[stages - 1]) * length
     if stages == 1:
         trial.before[:] = motion.forces
+    if tables.mean > 0.0:
+        last = 0.5 * (length + motion.numbers[LENGTH])
+    _follow(contacts, tables, motion, trial, level, length)
     for point in range(contacts.first.size):
         for axis in range(3):
-            if axis > 0:
-                mean = 0.5 * (motion.forces[point, axis] + local.forces[point, axis])
-                slid = local.gaps[point, axis] - motion.gaps[point, axis]
-                motion.numbers[DISCRETE_WORK] += mean * slid
             force = local.forces[point, axis]
             motion.rates[point, axis] = (force - trial.before[point, axis]) / last
             motion.forces[point, axis] = force
-            motion.gaps[point, axis] = local.gaps[point, axis]
             motion.slips[point, axis] = local.slips[point, axis]
     for flow in range(len(FLOWS)):
         for stage in range(stages + 1):
             work = length * trial.powers[stage, flow]
             motion.energies[flow] += tables.work[stage] * work
         motion.powers[flow] = trial.powers[stages, flow]
+    if tables.mean > 0.0:
+        motion.powers[3] = trial.numbers[2]
     motion.displacement[:] = trial.displacement
     motion.velocity[:] = trial.velocity
     for i in range(local.reaction.size):
@@ -473,6 +528,51 @@ def _accept(
     _couple(modes, motion, trial, length)
     motion.counts[TICK] += TICKS >> level
     motion.counts[STEPS] += 1
+
+
+@kernel
+def _follow(
+    contacts: Contacts,
+    tables: Tables,
+    motion: Motion,
+    trial: Trial,
+    level: int,
+    length: float,
+) -> None:
+    """Renew the relative motion; add friction's work by the other of two ways.
+
+    It is the mean force times the sliding increment, or where that is the energy
+    already, the mean force times the mean velocity.
+    """
+    local, begin = trial.local, trial.relative
+    rank = local.velocity.size
+    for i in range(rank):
+        begin[0, i], begin[1, i] = motion.relative[0, i], motion.relative[1, i]
+        if tables.mean > 0.0:
+            motion.relative[0, i] += length * local.velocity[i]
+            motion.relative[1, i] = trial.curvature[i]
+        else:
+            motion.relative[0, i] = local.displacement[i]
+            motion.relative[1, i] = local.velocity[i]
+    if tables.mean > 0.0:
+        for j in range(rank):
+            for i in range(rank):
+                motion.relative[1, i] -= tables.swing[level, j, i] * local.reaction[j]
+    for point in range(contacts.first.size):
+        first = contacts.first[point]
+        for axis in range(1, 3):
+            force, slid = local.forces[point, axis], 0.0
+            if tables.mean == 0.0:
+                force = 0.5 * (force + motion.forces[point, axis])
+            for i in range(contacts.width[point]):
+                each = first + i
+                if tables.mean > 0.0:
+                    moved = motion.relative[1, each] + begin[1, each]
+                    moved *= 0.5 * length
+                else:
+                    moved = motion.relative[0, each] - begin[0, each]
+                slid += contacts.basis[point, axis, i] * moved
+            motion.numbers[DISCRETE_WORK] += force * slid
 
 
 @kernel
@@ -504,8 +604,13 @@ def _store(modes: Modes, contacts: Contacts, motion: Motion, row: Array) -> None
         elastic += 0.5 * modes.stiffness[j] * q * q
     place = 2 * probes
     for point in range(count):
-        row[place + point] = motion.forces[point, 0]
-        stored += contact_energy(contacts.points, point, motion.gaps[point, 0])
+        first, gap = contacts.first[point], 0.0
+        for i in range(contacts.width[point]):
+            gap += contacts.basis[point, 0, i] * motion.relative[0, first + i]
+        motion.gaps[point, 0] = gap
+        law = normal_law(contacts.points, point)
+        row[place + point], _, _ = normal_force(law, gap, motion.slips[point, 0])
+        stored += contact_energy(contacts.points, point, gap)
     place += count
     row[place] = motion.powers[1]
     row[place + 1 : place + 5] = motion.energies

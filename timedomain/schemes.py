@@ -15,7 +15,9 @@ class Scheme:
     """Diagonally implicit Runge–Kutta scheme whose last stage is the end of the step.
 
     Stage 0 is the begin of the step. An ``exact`` scheme does not discretise the
-    structure but the force on it, which is linear in time over the step.
+    structure but the forces on it: loads are linear in time over the step, contact
+    forces linear too, or with ``mean`` constant: those of the mean displacement and the
+    mean velocity of the step.
     """
 
     name: str
@@ -28,6 +30,7 @@ class Scheme:
     order: int
     """of the smaller of both"""
     exact: bool = False
+    mean: bool = False
 
     @property
     def times(self) -> Array:
@@ -67,8 +70,9 @@ def _tr_bdf2() -> Scheme:
 def _sdirk2() -> Scheme:
     """Return Alexander's L-stable scheme of second order (1977)."""
     diagonal = 1.0 - math.sqrt(0.5)
-    rows = [[0.0], [0.0, diagonal], [0.0, 1.0 - diagonal, diagonal]]
-    return _scheme("SDIRK2", rows, 2, np.array([0.0, 1.0, 0.0]))
+    matrix = np.array([[0.0, 0.0, 0.0], [0.0, diagonal, 0.0], [0.0, 1 - diagonal, 0]])
+    matrix[2, 2] = diagonal
+    return Scheme("SDIRK2", matrix, matrix[2], np.array([0.0, 1.0, 0.0]), 2)
 
 
 def _esdirk3() -> Scheme:
@@ -93,6 +97,15 @@ SDIRK2 = _sdirk2()
 ESDIRK3 = _esdirk3()
 TRAPEZOID = _scheme(
     "average acceleration", [[0.0], [0.5, 0.5]], 2, np.array([1.0, 0.0])
+)
+MEAN_FORCE = Scheme(
+    "mean force",
+    TRAPEZOID.matrix,
+    np.array([0.0, 1.0]),
+    TRAPEZOID.other,
+    2,
+    exact=True,
+    mean=True,
 )
 LINEAR_FORCE = Scheme(
     "linear force",

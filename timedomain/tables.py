@@ -40,6 +40,8 @@ class Tables(NamedTuple):
     """relative displacement by relative velocity, shape (levels, stages, rank, rank)"""
     weight: Array
     """Newton's scale of the friction of a point, shape (levels, stages, points)"""
+    swing: Array
+    """velocity at the end by a mean contact force, shape (levels, rank, rank)"""
     depth: Array
     """normal displacement of a point from its force [m/N], (levels, stages, points)"""
     times: Array
@@ -48,6 +50,8 @@ class Tables(NamedTuple):
     """quadrature of powers, shape (stages + 1,)"""
     scalar: Array
     """the slope where it is a multiple of the unit matrix, else −1, (levels, stages)"""
+    mean: float
+    """1 if the contact force is a mean one, else 0"""
 
 
 def empty_tables(scheme: Scheme, modes: Modes, contacts: Contacts) -> Tables:
@@ -65,10 +69,12 @@ def empty_tables(scheme: Scheme, modes: Modes, contacts: Contacts) -> Tables:
         np.zeros(square),
         np.zeros(square),
         np.zeros((LEVELS, stages, points)),
+        np.zeros((LEVELS, rank, rank)),
         np.zeros((LEVELS, stages, points)),
         scheme.times,
         scheme.work,
         np.zeros((LEVELS, stages)),
+        float(scheme.mean),
     )
 
 
@@ -162,11 +168,18 @@ def _contact(
 ) -> None:
     """Make the matrices of the contact Newton of one stage."""
     own = tables.forced[level, stage, stage + 1]
+    if scheme.mean:
+        own = tables.forced[level, stage].sum(axis=0)
     moving = (modes.selection * own[1]) @ modes.seen
     moved = (modes.selection * own[0]) @ modes.seen
+    if scheme.mean:
+        tables.swing[level] = moving
+        moving, moved = moved / step, 0.5 * moved
     inverse = np.linalg.inv(moving)
     tables.compliance[level, stage], tables.stiffness[level, stage] = moving, inverse
-    if scheme.exact:
+    if scheme.mean:
+        tables.scalar[level, stage] = 0.5 * step
+    elif scheme.exact:
         tables.scalar[level, stage] = -1.0
         tables.slope[level, stage] = moved @ inverse
     else:

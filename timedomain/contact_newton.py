@@ -27,6 +27,8 @@ class Answer(NamedTuple):
     slope: Array
     scalar: float
     weight: Array
+    begins: Array
+    """penetrations at the begin of a step of means, or empty"""
 
 
 class Local(NamedTuple):
@@ -194,6 +196,7 @@ def _assemble(
             point,
             answer.weight[point],
             careful,
+            answer.begins,
             local.gaps,
             local.slips,
             local.forces,

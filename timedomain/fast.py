@@ -9,18 +9,20 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.segments import Segments, clock
+from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.contact_newton import empty_local
 from timedomain.coordinates import Contacts, Coordinates, Modes, modal_coordinates
 from timedomain.ladder import (
     DONE,
+    DRIFT,
     FAILED,
     ITERATIONS,
+    LARGEST_DRIFT,
     LENGTH,
+    OTHER_WORK,
     REFERENCE,
     REJECTED,
-    STEPS,
     TICK,
     TICKS,
     Control,
@@ -185,9 +187,10 @@ class FastMarch:
     def _table(self, times: Array, rows: Array, counts: Array) -> TimeHistory:
         probes, contacts = self._problem.probes.names, self._problem.interface.names
         sizes = [len(probes), len(probes), len(contacts), 1, len(FLOWS) + len(STORES)]
-        shown, moving, normal, power, energy, _ = np.split(
+        shown, moving, normal, power, energy, more = np.split(
             rows, np.cumsum(sizes), axis=1
         )
+        difference = energy[:, FLOWS.index("friction")] - more[:, OTHER_WORK]
         return TimeHistory(
             times,
             probes,
@@ -203,6 +206,9 @@ class FastMarch:
             int(counts[ITERATIONS]),
             int(counts[REJECTED]),
             checkpoint=self._checkpoint(),
+            energy_error=np.abs(more[:, DRIFT]) + np.abs(difference),
+            peak_error=more[:, LARGEST_DRIFT] / more[:, REFERENCE],
+            work_difference=difference,
         )
 
     def _checkpoint(self) -> Checkpoint:
@@ -249,4 +255,5 @@ def _trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
         np.zeros(rank),
         np.zeros(3),
         np.zeros(count),
+        np.zeros(points),
     )

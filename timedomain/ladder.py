@@ -18,6 +18,7 @@ from microslip_mechanics.jit import kernel
 from microslip_mechanics.segments import Segments, load_factors, segment_of
 from timedomain.contact_newton import Answer, Local, solve_contact
 from timedomain.coordinates import Contacts, Modes
+from timedomain.point_law import between
 from timedomain.record import FLOWS
 from timedomain.tables import LEVELS, Tables
 
@@ -31,7 +32,7 @@ EARLIER = 1.0 - SOONEST
 """loads at the end of a step are those before a jump at that time"""
 DONE, FAILED = -1, -2
 TICK, LEVEL, HINT, STEPS, REJECTED, ITERATIONS, SAFE, SAFE_STEPS, ROUGH = range(9)
-REFERENCE, DRIFT, LARGEST_DRIFT, DISCRETE_WORK, LENGTH = range(5)
+REFERENCE, DRIFT, LARGEST_DRIFT, OTHER_WORK, LENGTH = range(5)
 SAFE_RUN = 32
 """dissipative steps before another linear force is tried"""
 STIFF = 4.0
@@ -120,6 +121,8 @@ class Trial(NamedTuple):
     of a step with mean force; shape (3,)"""
     load: Array
     """modal forces of the loads at the begin, shape (modes,)"""
+    begins: Array
+    """penetrations at the begin, shape (points,)"""
 
 
 @kernel
@@ -156,7 +159,7 @@ def climb(
                 control, modes, contacts, table, segments, motion, trial, level
             )
             error = np.inf
-            stiff = trial.numbers[0] > STIFF
+            stiff = table.mean == 0.0 and trial.numbers[0] > STIFF
             if taken > 0 and (safe or control.tolerance > 0.0 or not stiff):
                 error = _error(control, modes, table, motion, trial, level, safe)
             if error > 1.0:
@@ -236,7 +239,7 @@ def _attempt(
         _load(modes, segments, motion, trial, stage, begin + part * EARLIER, part)
         _predict(modes, tables, motion, trial, level, stage)
         if tables.mean > 0.0:
-            _average(motion, trial, length)
+            _average(contacts, motion, trial, length)
             part = 0.5 * (length + motion.numbers[LENGTH])
         if stage == stages:
             trial.before[:] = trial.local.forces
@@ -251,6 +254,7 @@ def _attempt(
             tables.slope[level, stage - 1],
             tables.scalar[level, stage - 1],
             tables.weight[level, stage - 1],
+            trial.begins if tables.mean > 0.0 else trial.begins[:0],
         )
         taken = solve_contact(
             contacts,
@@ -320,8 +324,15 @@ def _predict(
 
 
 @kernel
-def _average(motion: Motion, trial: Trial, length: float) -> None:
+def _average(
+    contacts: Contacts, motion: Motion, trial: Trial, length: float
+) -> None:
     """Make means over the step of the relative motion at its end."""
+    for point in range(contacts.first.size):
+        gap, first = 0.0, contacts.first[point]
+        for i in range(contacts.width[point]):
+            gap += contacts.basis[point, 0, i] * motion.relative[0, first + i]
+        trial.begins[point] = gap
     for i in range(trial.curvature.size):
         begin, end = motion.relative[0, i], trial.relative[0, i]
         trial.curvature[i] = trial.relative[1, i]
@@ -385,6 +396,13 @@ def _powers(
         )
         friction += slid
         damping += damped
+        if tables.mean > 0.0:
+            more = between(
+                normal_law(contacts.points, point),
+                trial.begins[point],
+                local.gaps[point, 0],
+            )
+            damping -= more[0] * local.slips[point, 0]
     lost = 0.0
     for j in range(trial.velocity.size):
         v = trial.velocity[j]
@@ -572,7 +590,7 @@ def _follow(
                 else:
                     moved = motion.relative[0, each] - begin[0, each]
                 slid += contacts.basis[point, axis, i] * moved
-            motion.numbers[DISCRETE_WORK] += force * slid
+            motion.numbers[OTHER_WORK] += force * slid
 
 
 @kernel

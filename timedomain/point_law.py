@@ -18,7 +18,11 @@ import math
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.coulomb import Coulomb, coulomb_coefficients
 from microslip_mechanics.contact.gkf import GKF, gkf_coefficients
-from microslip_mechanics.contact.hunt_crossley import normal_force, spring_force
+from microslip_mechanics.contact.hunt_crossley import (
+    HuntCrossley,
+    normal_force,
+    spring_force,
+)
 from microslip_mechanics.contact.law import (
     COULOMB,
     FRICTIONLESS,
@@ -35,6 +39,7 @@ def linearise(
     point: int,
     weight: float,
     careful: bool,
+    begins: Array,
     gaps: Array,
     slips: Array,
     forces: Array,
@@ -54,6 +59,9 @@ def linearise(
         Whether the slope of normal damping by penetration is a secant through zero
         where it is positive, and zero where it is negative: near first touch and
         separation its tangent, which grows without bound, makes Newton cycle.
+    begins
+        Penetrations at the begin of the step, (points,), if ``gaps`` and ``slips`` are
+        means over it; else empty.
     gaps, slips
         Relative displacement and velocity: normal and two tangents, (points, 3).
     forces
@@ -70,6 +78,9 @@ def linearise(
     if careful and depth > 0.0:
         stiff = law.exponent * spring_force(law, depth) / depth
         stiff += max(0.0, viscous * approach / depth)
+    if begins.size > 0:
+        more, stiffer = between(law, begins[point], depth)
+        normal, stiff = normal + more, stiff + stiffer
     lines[point, 0], by_gap[point, 0], by_slip[point, 0, 0] = normal, stiff, viscous
     load = normal
     if points.constant_load[point]:
@@ -97,6 +108,24 @@ def linearise(
     by_slip[point, 1, 0], by_slip[point, 2, 0] = viscous * per_one, viscous * per_two
     by_slip[point, 1, 1], by_slip[point, 1, 2] = d11 + drag, d12
     by_slip[point, 2, 1], by_slip[point, 2, 2] = d21, d22 + drag
+
+
+@kernel
+def between(law: HuntCrossley, begin: float, mean: float) -> tuple[float, float]:
+    """Return what the mean spring force of a step exceeds that of its mean by.
+
+    By Simpson's rule over the penetration, which keeps the spring's energy where the
+    force is a cubic; with the derivative by the mean penetration.
+    """
+    end = 2.0 * mean - begin
+    middle, last = spring_force(law, mean), spring_force(law, end)
+    more = (spring_force(law, begin) + last - 2.0 * middle) / 6.0
+    slope = 0.0
+    if last > 0.0:
+        slope += law.exponent * last / end / 3.0
+    if middle > 0.0:
+        slope -= law.exponent * middle / mean / 3.0
+    return more, slope
 
 
 @kernel

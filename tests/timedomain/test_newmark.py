@@ -32,7 +32,10 @@ newmark.NEWTON_LIMIT = 1
 points = contact_points(stiffness=300.0, exponent=1.0, damping=0.0, friction=0)
 problem = mass_on_contact(points, direction=NORMAL, preload=3.0, drive=0.5)
 history = marched(
-    problem, Dwell(1.0, 0.1), MarchOptions(0.01), start=from_rest(problem)
+    problem,
+    Dwell(1.0, 0.1),
+    MarchOptions(0.01, method="reference"),
+    start=from_rest(problem),
 )
 print(history.iterations, history.divided)
 """
@@ -40,7 +43,9 @@ print(history.iterations, history.divided)
 
 def last(problem: Problem, steps: int, *, duration: float, start: Start) -> np.ndarray:
     """Return displacement and velocity of a single mass at the end of a free march."""
-    options = MarchOptions(duration / steps, store_every=steps, tolerance=1e-13)
+    options = MarchOptions(
+        duration / steps, store_every=steps, method="reference", residual=1e-13
+    )
     (history,) = integrate(
         problem, Dwell(1.0, duration), options, start=start, block=duration
     )

@@ -31,6 +31,7 @@ def lines(
         0,
         weight,
         False,
+        np.zeros(0),
         gap[None],
         slip[None],
         force[None],

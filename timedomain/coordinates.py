@@ -73,7 +73,11 @@ def modal_coordinates(problem: Problem) -> Coordinates:
     floor = 1e-12 * np.abs(damping).max(initial=0.0)
     _, families = connected_components(np.abs(damping) > floor)
     order = np.argsort(families, kind="stable")
-    squares, shapes, damping = squares[order], shapes[:, order], damping[order][:, order]
+    squares, shapes, damping = (
+        squares[order],
+        shapes[:, order],
+        damping[order][:, order],
+    )
     coupling = damping - np.diag(np.diag(damping))
     coupling[np.abs(coupling) <= floor] = 0.0
     contacts, selection = compact_contacts(problem.interface)

@@ -39,16 +39,8 @@ def eliminate(matrix: Array, right: Array) -> bool:
     """Solve in place like :func:`solve_in_place`, without memory of its own."""
     size = right.size
     for k in range(size):
-        pivot, largest = k, abs(matrix[k, k])
-        for i in range(k + 1, size):
-            if abs(matrix[i, k]) > largest:
-                pivot, largest = i, abs(matrix[i, k])
-        if not largest > 0.0:
+        if not _pivoted(matrix, right, k):
             return False
-        if pivot != k:
-            for j in range(k, size):
-                matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
-            right[k], right[pivot] = right[pivot], right[k]
         inverse = 1.0 / matrix[k, k]
         for i in range(k + 1, size):
             factor = matrix[i, k] * inverse
@@ -61,3 +53,18 @@ def eliminate(matrix: Array, right: Array) -> bool:
             right[k] -= matrix[k, j] * right[j]
         right[k] /= matrix[k, k]
     return True
+
+
+@kernel
+def _pivoted(matrix: Array, right: Array, k: int) -> bool:
+    """Bring the largest entry of column ``k`` to its diagonal; return if there is one."""
+    size = right.size
+    pivot, largest = k, abs(matrix[k, k])
+    for i in range(k + 1, size):
+        if abs(matrix[i, k]) > largest:
+            pivot, largest = i, abs(matrix[i, k])
+    if pivot != k:
+        for j in range(k, size):
+            matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
+        right[k], right[pivot] = right[pivot], right[k]
+    return largest > 0.0

@@ -1,4 +1,4 @@
-"""The fast march: modes, contacts in few coordinates, a ladder of steps (theory, §7)."""
+"""The fast march: modes, contacts in few coordinates, a ladder of steps (§7)."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.contact_newton import empty_local
 from timedomain.coordinates import Contacts, Coordinates, Modes, modal_coordinates
-from timedomain.ladder import (
-    DONE,
+from timedomain.ladder import DONE, FAILED, TICKS, climb
+from timedomain.motion import (
     DRIFT,
-    FAILED,
     ITERATIONS,
     LARGEST_DRIFT,
     LENGTH,
@@ -24,18 +23,16 @@ from timedomain.ladder import (
     REFERENCE,
     REJECTED,
     TICK,
-    TICKS,
     Control,
     Motion,
     Trial,
-    climb,
 )
 from timedomain.newmark import State
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record import FLOWS, STORES, row_length
 from timedomain.schemes import MEAN_FORCE, SDIRK2, Scheme
 from timedomain.start import Start, first_state, powers, refill, stored_energy
-from timedomain.tables import LEVELS, Tables, empty_tables, fill
+from timedomain.tables import LEVELS, empty_tables, fill
 
 NUMBERS = 4
 """that a row holds behind the energies"""

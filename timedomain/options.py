@@ -49,7 +49,9 @@ class MarchOptions:
                 f"{self.divisions} divisions of a step: give 1 to {MOST_DIVISIONS}"
             )
         if self.method not in METHODS:
-            raise ValueError(f"method {self.method!r}: give one of {', '.join(METHODS)}")
+            raise ValueError(
+                f"method {self.method!r}: give one of {', '.join(METHODS)}"
+            )
         if not 0.0 < self.residual < 1.0:
             raise ValueError(
                 f"residual {self.residual:g}: give one between 0 and 1, such as 1e-9"

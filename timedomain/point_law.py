@@ -7,8 +7,8 @@ velocity v, the friction f, the radius R = µ N and the dashpot ε = V_lim / R,
 
 has the same solutions as f = R v / max(|v|, V_lim) for every 0 < ρ ≤ 1/ε. With
 1/ρ = G + ε, where G is the compliance of the point over the step, the choice between
-sticking and sliding is made by what friction is needed, and Newton's cost hardly depends
-on V_lim (Alart & Curnier, 1991). ρ = 1/ε is the choice by velocity.
+sticking and sliding is made by what friction is needed, and Newton's cost hardly
+depends on V_lim (Alart & Curnier, 1991). ρ = 1/ε is the choice by velocity.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from __future__ import annotations
 import math
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.coulomb import Coulomb, coulomb_coefficients
 from microslip_mechanics.contact.gkf import GKF, gkf_coefficients
 from microslip_mechanics.contact.hunt_crossley import (
     HuntCrossley,

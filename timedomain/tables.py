@@ -79,12 +79,17 @@ def empty_tables(scheme: Scheme, modes: Modes, contacts: Contacts) -> Tables:
 
 
 def fill(
-    tables: Tables, scheme: Scheme, modes: Modes, contacts: Contacts, *, level: int,
+    tables: Tables,
+    scheme: Scheme,
+    modes: Modes,
+    contacts: Contacts,
+    *,
+    level: int,
     step: float,
 ) -> None:
     """Make the tables of a level, whose steps have the length ``step`` [s]."""
-    free, forced = _exact(scheme, modes, step) if scheme.exact else _implicit(
-        scheme, modes, step
+    free, forced = (
+        _exact(scheme, modes, step) if scheme.exact else _implicit(scheme, modes, step)
     )
     tables.free[level] = np.moveaxis(free[1:], 1, -1)
     tables.forced[level] = np.moveaxis(forced[1:], 2, -1)

@@ -87,9 +87,7 @@ def compared() -> None:
 
 def _extrapolated(problem: Problem) -> Array:
     """Return friction's energy and the peak, by the reference method."""
-    coarse, fine = (
-        _measured(_reference(problem, ROW / parts)) for parts in (32, 64)
-    )
+    coarse, fine = (_measured(_reference(problem, ROW / parts)) for parts in (32, 64))
     extrapolated: Array = fine + (fine - coarse) / 3.0
     return extrapolated
 
@@ -99,8 +97,10 @@ def _runs(problem: Problem):
     for parts in PARTS:
         step = ROW / parts
         for scheme in SCHEMES:
-            yield scheme.name, 1e6 * step, lambda s=scheme, h=step: _fixed(
-                problem, s, h
+            yield (
+                scheme.name,
+                1e6 * step,
+                lambda s=scheme, h=step: _fixed(problem, s, h),
             )
         yield "reference", 1e6 * step, lambda h=step: _reference(problem, h)
     for tolerance in TOLERANCES:
@@ -192,9 +192,7 @@ def _with_points(problem: Problem, count: int) -> Problem:
         if count < own.count
         else np.repeat(np.arange(own.count), copies)
     )
-    columns = {
-        name: column[chosen] for name, column in own.points._asdict().items()
-    }
+    columns = {name: column[chosen] for name, column in own.points._asdict().items()}
     for name in ("stiffness", "damping"):
         columns[name] = columns[name] / copies
     rows = own.displacement.reshape(own.count, 3, -1)[chosen]

@@ -16,8 +16,9 @@ from timedomain.integrate import MarchOptions
 from timedomain.start import Start
 
 STEPS = (64, 128, 256, 512)
-SHORT = SweptSine(ramp=0.01, start=0.012, end=0.05, duration=0.05, lowest=130.0,
-                  highest=138.0)
+SHORT = SweptSine(
+    ramp=0.01, start=0.012, end=0.05, duration=0.05, lowest=130.0, highest=138.0
+)
 
 
 def ended(problem: Problem, options: MarchOptions, history: Dwell, start: Start):
@@ -106,7 +107,9 @@ def test_a_block_stops_where_friction_stops_it() -> None:
     stopped = speed**2 / (2.0 * deceleration)
     np.testing.assert_allclose(history.displacement[-1, 0], stopped, rtol=1e-4)
     assert history.time[-1] > speed / deceleration
-    np.testing.assert_allclose(history.of("friction")[-1], mass * speed**2 / 2.0, rtol=2e-3)
+    np.testing.assert_allclose(
+        history.of("friction")[-1], mass * speed**2 / 2.0, rtol=2e-3
+    )
 
 
 @pytest.mark.parametrize("damping", [0.0, 20.0])
@@ -114,9 +117,7 @@ def test_a_block_stops_where_friction_stops_it() -> None:
 def test_a_mass_that_bounces_is_marched_through_each_separation(
     damping: float, clamped: bool
 ) -> None:
-    points = contact_points(
-        stiffness=3e5, damping=damping, friction=0, clamped=clamped
-    )
+    points = contact_points(stiffness=3e5, damping=damping, friction=0, clamped=clamped)
     problem = mass_on_contact(points, direction=NORMAL, mass=2.0, preload=20.0)
     start = Start(np.array([-0.05]), np.array([0.0]))
     ends = [

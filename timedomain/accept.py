@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 from timedomain.coordinates import Contacts, Modes
+from timedomain.dense import copy, copy_rows
 from timedomain.motion import (
     DRIFT,
     LARGEST_DRIFT,
@@ -15,7 +16,7 @@ from timedomain.motion import (
 from timedomain.tables import Tables
 
 
-@kernel
+@bare_kernel
 def accept(
     modes: Modes,
     contacts: Contacts,
@@ -26,13 +27,13 @@ def accept(
     length: float,
 ) -> None:
     """Take over a step that was tried."""
-    trial.relative[:] = motion.relative
+    copy_rows(motion.relative, trial.relative)
     _renew_relative(tables, motion, trial, level, length)
     motion.numbers[OTHER_WORK] += _other_work(contacts, tables, motion, trial, length)
     _renew_forces(tables, motion, trial, length)
     _renew_energies(tables, motion, trial, length)
-    motion.displacement[:] = trial.displacement
-    motion.velocity[:] = trial.velocity
+    copy(trial.displacement, motion.displacement)
+    copy(trial.velocity, motion.velocity)
     motion.numbers[LENGTH] = length
     motion.numbers[DRIFT] += trial.numbers[1]
     drift = abs(motion.numbers[DRIFT])
@@ -40,15 +41,15 @@ def accept(
     _couple(modes, motion, trial, length)
 
 
-@kernel
+@bare_kernel
 def _renew_relative(
     tables: Tables, motion: Motion, trial: Trial, level: int, length: float
 ) -> None:
     """Write the relative motion at the end."""
     local = trial.local
     if tables.mean == 0.0:
-        motion.relative[0] = local.displacement
-        motion.relative[1] = local.velocity
+        copy(local.displacement, motion.relative[0])
+        copy(local.velocity, motion.relative[1])
         return
     rank = local.velocity.size
     for i in range(rank):
@@ -59,7 +60,7 @@ def _renew_relative(
             motion.relative[1, i] -= tables.swing[level, j, i] * local.reaction[j]
 
 
-@kernel
+@bare_kernel
 def _other_work(
     contacts: Contacts, tables: Tables, motion: Motion, trial: Trial, length: float
 ) -> float:
@@ -85,7 +86,7 @@ def _other_work(
     return work
 
 
-@kernel
+@bare_kernel
 def _renew_forces(tables: Tables, motion: Motion, trial: Trial, length: float) -> None:
     """Write forces and their rates."""
     local = trial.local
@@ -104,7 +105,7 @@ def _renew_forces(tables: Tables, motion: Motion, trial: Trial, length: float) -
         motion.reaction[0, i] = force
 
 
-@kernel
+@bare_kernel
 def _renew_energies(
     tables: Tables, motion: Motion, trial: Trial, length: float
 ) -> None:
@@ -119,7 +120,7 @@ def _renew_energies(
         motion.powers[3] = trial.numbers[2]
 
 
-@kernel
+@bare_kernel
 def _couple(modes: Modes, motion: Motion, trial: Trial, length: float) -> None:
     """Renew the damping force of the other modes, and its rate."""
     fresh = trial.contact

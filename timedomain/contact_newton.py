@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 from timedomain.coordinates import Contacts
-from timedomain.dense import eliminate
+from timedomain.dense import copy_rows, eliminate
 from timedomain.point_law import linearise
 
 NEWTON_LIMIT = 40
@@ -75,7 +75,7 @@ def empty_local(rank: int, points: int) -> Local:
     )
 
 
-@kernel
+@bare_kernel
 def solve_contact(
     contacts: Contacts,
     answer: Answer,
@@ -108,7 +108,7 @@ def solve_contact(
     for iteration in range(1, NEWTON_LIMIT + 1):
         size, scale = _assemble(contacts, answer, local, iteration > CAREFUL)
         if size <= tolerance * scale + floor:
-            local.forces[:] = local.lines
+            copy_rows(local.lines, local.forces)
             return iteration
         change = local.change[0]
         if not eliminate(local.matrix, change):
@@ -121,7 +121,7 @@ def solve_contact(
     return -1
 
 
-@kernel
+@bare_kernel
 def _begin(
     contacts: Contacts,
     answer: Answer,
@@ -150,7 +150,7 @@ def _begin(
     _read(contacts, local)
 
 
-@kernel
+@bare_kernel
 def _displace(answer: Answer, local: Local) -> None:
     """Move the relative displacement by what belongs to a change of velocity."""
     rank = local.velocity.size
@@ -164,7 +164,7 @@ def _displace(answer: Answer, local: Local) -> None:
             local.displacement[i] += answer.slope[i, j] * change[j]
 
 
-@kernel
+@bare_kernel
 def _read(contacts: Contacts, local: Local) -> None:
     """Write displacement and velocity of the points."""
     for point in range(contacts.first.size):
@@ -178,7 +178,7 @@ def _read(contacts: Contacts, local: Local) -> None:
             local.gaps[point, axis], local.slips[point, axis] = gap, slip
 
 
-@kernel
+@bare_kernel
 def _assemble(
     contacts: Contacts, answer: Answer, local: Local, careful: bool
 ) -> tuple[float, float]:
@@ -220,7 +220,7 @@ def _assemble(
     return size, scale
 
 
-@kernel
+@bare_kernel
 def _scatter(contacts: Contacts, local: Local, point: int) -> None:
     """Add one point to Newton's matrix and right side."""
     first, width = contacts.first[point], contacts.width[point]
@@ -242,7 +242,7 @@ def _scatter(contacts: Contacts, local: Local, point: int) -> None:
             )
 
 
-@kernel
+@bare_kernel
 def _scatter_displacement(
     contacts: Contacts, answer: Answer, local: Local, point: int
 ) -> None:
@@ -260,7 +260,7 @@ def _scatter_displacement(
             local.matrix[first + i, j] += left * gap[j]
 
 
-@kernel
+@bare_kernel
 def _update(contacts: Contacts, answer: Answer, local: Local) -> None:
     """Apply a change of velocity to motion, reaction and linearised forces."""
     rank = local.velocity.size
@@ -273,7 +273,7 @@ def _update(contacts: Contacts, answer: Answer, local: Local) -> None:
     _follow(contacts, answer, local)
 
 
-@kernel
+@bare_kernel
 def _follow(contacts: Contacts, answer: Answer, local: Local) -> None:
     """Write the points' motion, and their forces along the tangents."""
     gaps, slips, forces, slopes = local.gaps, local.slips, local.forces, local.by_slip

@@ -140,6 +140,7 @@ def compact_contacts(interface: Interface) -> tuple[Contacts, Array]:
 def _part(interface: Interface, members: NDArray[np.int64]) -> Interface:
     """Return the interface of some points."""
     rows = interface.displacement.reshape(interface.count, 3, -1)[members]
-    points = ContactPoints(*(column[members] for column in interface.points))
+    columns = interface.points._asdict()
+    points = ContactPoints(**{name: each[members] for name, each in columns.items()})
     names = tuple(interface.names[each] for each in members)
     return Interface(points, rows.reshape(3 * len(members), -1), names)

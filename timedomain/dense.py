@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel, kernel
 
 
 @kernel
@@ -34,7 +34,7 @@ def solve_in_place(matrix: Array, right: Array) -> bool:
     return True
 
 
-@kernel
+@bare_kernel
 def eliminate(matrix: Array, right: Array) -> bool:
     """Solve in place like :func:`solve_in_place`, without memory of its own."""
     size = right.size
@@ -55,9 +55,9 @@ def eliminate(matrix: Array, right: Array) -> bool:
     return True
 
 
-@kernel
+@bare_kernel
 def _pivoted(matrix: Array, right: Array, k: int) -> bool:
-    """Bring the largest entry of column ``k`` to its diagonal; return if there is one."""
+    """Bring the largest entry of a column to its diagonal; return if it has one."""
     size = right.size
     pivot, largest = k, abs(matrix[k, k])
     for i in range(k + 1, size):
@@ -67,4 +67,19 @@ def _pivoted(matrix: Array, right: Array, k: int) -> bool:
         for j in range(k, size):
             matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
         right[k], right[pivot] = right[pivot], right[k]
-    return largest > 0.0
+    return bool(largest > 0.0)
+
+
+@bare_kernel
+def copy(source: Array, target: Array) -> None:
+    """Write one vector into another."""
+    for i in range(source.size):
+        target[i] = source[i]
+
+
+@bare_kernel
+def copy_rows(source: Array, target: Array) -> None:
+    """Write one matrix into another."""
+    for i in range(source.shape[0]):
+        for j in range(source.shape[1]):
+            target[i, j] = source[i, j]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import LoadHistory
@@ -42,7 +43,7 @@ RESIDUAL = 1e-2
 """of contact forces, over the tolerance of one step"""
 HOLD = 1.0
 """cycles of the load without a rough step before steps grow"""
-SAFETY = 0.1
+SAFETY = 0.05
 """error of one step over the tolerance of the whole march"""
 
 
@@ -68,7 +69,8 @@ class FastMarch:
         state = first_state(problem, history, start)
         self._stored_at_start = stored_energy(problem, state)
         modes, contacts = self._coordinates.modes, self._coordinates.contacts
-        self._tables = tuple(empty_tables(each, modes, contacts) for each in schemes)
+        first, second = (empty_tables(each, modes, contacts) for each in schemes)
+        self._tables = first, second
         self._trial = _trial(schemes, self._coordinates)
         inverse = self._coordinates.inverse
         reaction = _reaction(contacts, state.forces)
@@ -181,7 +183,9 @@ class FastMarch:
             "give a shorter time step, a larger threshold velocity or a softer contact"
         )
 
-    def _table(self, times: Array, rows: Array, counts: Array) -> TimeHistory:
+    def _table(
+        self, times: Array, rows: Array, counts: NDArray[np.int64]
+    ) -> TimeHistory:
         probes, contacts = self._problem.probes.names, self._problem.interface.names
         sizes = [len(probes), len(probes), len(contacts), 1, len(FLOWS) + len(STORES)]
         shown, moving, normal, power, energy, more = np.split(

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_power, normal_law
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 from timedomain.coordinates import Contacts, Modes
 from timedomain.motion import Motion, Trial
 from timedomain.point_law import between
 from timedomain.tables import Tables
 
 
-@kernel
+@bare_kernel
 def stage_powers(
     modes: Modes,
     contacts: Contacts,
@@ -55,7 +55,7 @@ def stage_powers(
         _mean_input(modes, motion, trial, part)
 
 
-@kernel
+@bare_kernel
 def _input_power(modes: Modes, trial: Trial, velocity: Array, stage: int) -> None:
     one, two = trial.factors[0], trial.factors[1]
     power = 0.0
@@ -64,7 +64,7 @@ def _input_power(modes: Modes, trial: Trial, velocity: Array, stage: int) -> Non
     trial.powers[stage, 0] = power
 
 
-@kernel
+@bare_kernel
 def _mean_input(modes: Modes, motion: Motion, trial: Trial, length: float) -> None:
     """Write the mean power of loads that are linear over the step.
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.jit import bare_kernel
 from microslip_mechanics.segments import Segments, load_factors
 from timedomain.contact_newton import Answer, solve_contact
 from timedomain.coordinates import Contacts, Modes
+from timedomain.dense import copy, copy_rows
 from timedomain.fast_powers import stage_powers
 from timedomain.motion import HINT, ITERATIONS, LENGTH, Control, Motion, Trial
 from timedomain.tables import Tables
@@ -16,7 +18,7 @@ EARLIER = 1.0 - SOONEST
 """loads at the end of a step are those before a jump at that time"""
 
 
-@kernel
+@bare_kernel
 def attempt(
     control: Control,
     modes: Modes,
@@ -61,7 +63,7 @@ def attempt(
     return max(1, iterations)
 
 
-@kernel
+@bare_kernel
 def _begin(
     modes: Modes,
     tables: Tables,
@@ -71,20 +73,20 @@ def _begin(
     time: float,
 ) -> None:
     """Write forces and powers at the begin of a step."""
-    trial.local.reaction[:] = motion.reaction[0]
-    trial.before[:] = motion.forces
-    trial.local.forces[:] = motion.forces
+    copy(motion.reaction[0], trial.local.reaction)
+    copy_rows(motion.forces, trial.local.forces)
     _load(modes, segments, motion, trial, 0, time, 0.0)
     if tables.mean == 0.0:
         _contact_force(modes, trial)
-        trial.force[0] -= trial.contact
-    trial.powers[0] = motion.powers
+        for j in range(trial.contact.size):
+            trial.force[0, j] -= trial.contact[j]
+    copy(motion.powers, trial.powers[0])
     one, two = trial.factors[0], trial.factors[1]
     for j in range(trial.load.size):
         trial.load[j] = one * modes.loads[0, j] + two * modes.loads[1, j]
 
 
-@kernel
+@bare_kernel
 def _guess(motion: Motion, trial: Trial, ahead: float) -> None:
     """Extrapolate the forces of the points; keep those of the stage before."""
     for point in range(motion.forces.shape[0]):
@@ -95,7 +97,7 @@ def _guess(motion: Motion, trial: Trial, ahead: float) -> None:
             )
 
 
-@kernel
+@bare_kernel
 def _answer(tables: Tables, trial: Trial, level: int, stage: int) -> Answer:
     """Return what Newton's method needs of a stage."""
     return Answer(
@@ -108,7 +110,7 @@ def _answer(tables: Tables, trial: Trial, level: int, stage: int) -> Answer:
     )
 
 
-@kernel
+@bare_kernel
 def _stiffness(tables: Tables, trial: Trial, level: int) -> float:
     """Return contact stiffness times compliance, summed over the points."""
     stage, stiff = tables.times.size - 2, 0.0
@@ -117,7 +119,7 @@ def _stiffness(tables: Tables, trial: Trial, level: int) -> float:
     return stiff
 
 
-@kernel
+@bare_kernel
 def _load(
     modes: Modes,
     segments: Segments,
@@ -136,7 +138,7 @@ def _load(
         force[j] -= motion.coupled[0, j] + part * motion.coupled[1, j]
 
 
-@kernel
+@bare_kernel
 def _predict(
     modes: Modes, tables: Tables, motion: Motion, trial: Trial, level: int, stage: int
 ) -> None:
@@ -152,15 +154,33 @@ def _predict(
         for j in range(moved.size):
             moved[j] += forced[before, 0, j] * force[j]
             moving[j] += forced[before, 1, j] * force[j]
-    trial.relative[:] = 0.0
-    for j in range(moved.size):
-        q, v = moved[j], moving[j]
-        for i in range(modes.seen.shape[1]):
-            trial.relative[0, i] += modes.seen[j, i] * q
-            trial.relative[1, i] += modes.seen[j, i] * v
+    for i in range(modes.selection.shape[0]):
+        trial.relative[0, i], trial.relative[1, i] = _seen(
+            modes.selection[i], moved, moving
+        )
 
 
-@kernel
+@bare_kernel
+def _seen(row: Array, moved: Array, moving: Array) -> tuple[float, float]:
+    """Return two inner products, each in four sums that do not wait for each other."""
+    q0 = q1 = q2 = q3 = v0 = v1 = v2 = v3 = 0.0
+    whole = row.size // 4 * 4
+    for j in range(0, whole, 4):
+        q0 += row[j] * moved[j]
+        q1 += row[j + 1] * moved[j + 1]
+        q2 += row[j + 2] * moved[j + 2]
+        q3 += row[j + 3] * moved[j + 3]
+        v0 += row[j] * moving[j]
+        v1 += row[j + 1] * moving[j + 1]
+        v2 += row[j + 2] * moving[j + 2]
+        v3 += row[j + 3] * moving[j + 3]
+    for j in range(whole, row.size):
+        q0 += row[j] * moved[j]
+        v0 += row[j] * moving[j]
+    return q0 + q1 + q2 + q3, v0 + v1 + v2 + v3
+
+
+@bare_kernel
 def _average(contacts: Contacts, motion: Motion, trial: Trial, length: float) -> None:
     """Make means over the step of the relative motion at its end."""
     for point in range(contacts.first.size):
@@ -175,7 +195,7 @@ def _average(contacts: Contacts, motion: Motion, trial: Trial, length: float) ->
         trial.relative[1, i] = (end - begin) / length
 
 
-@kernel
+@bare_kernel
 def _contact_force(modes: Modes, trial: Trial) -> None:
     """Write the modal contact force."""
     trial.contact[:] = 0.0
@@ -185,7 +205,7 @@ def _contact_force(modes: Modes, trial: Trial) -> None:
             trial.contact[j] += modes.selection[i, j] * force
 
 
-@kernel
+@bare_kernel
 def _complete(
     modes: Modes, tables: Tables, trial: Trial, level: int, stage: int
 ) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.hunt_crossley import normal_force
 from microslip_mechanics.contact.law import contact_energy, normal_law
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 from microslip_mechanics.segments import Segments, segment_of
 from timedomain.accept import accept
 from timedomain.coordinates import Contacts, Modes
@@ -44,7 +44,7 @@ SHARE = 16.0
 """error over tolerance above which half a step would not do"""
 
 
-@kernel
+@bare_kernel
 def climb(
     control: Control,
     modes: Modes,
@@ -76,7 +76,7 @@ def climb(
     return rows.shape[0], DONE
 
 
-@kernel
+@bare_kernel
 def _step(
     control: Control,
     modes: Modes,
@@ -113,7 +113,7 @@ def _step(
     return DONE
 
 
-@kernel
+@bare_kernel
 def _reject(control: Control, motion: Motion, level: int, nearly: bool) -> int:
     """Choose the next attempt: half the step, or a dissipative one."""
     counts = motion.counts
@@ -127,7 +127,7 @@ def _reject(control: Control, motion: Motion, level: int, nearly: bool) -> int:
     return FAILED if counts[LEVEL] > control.lowest else DONE
 
 
-@kernel
+@bare_kernel
 def _grow(control: Control, motion: Motion, level: int, error: float) -> None:
     """Let the next step be twice as long if none was rough for long enough."""
     counts = motion.counts
@@ -139,7 +139,7 @@ def _grow(control: Control, motion: Motion, level: int, error: float) -> None:
         counts[ROUGH] = counts[TICK]
 
 
-@kernel
+@bare_kernel
 def _level(control: Control, segments: Segments, motion: Motion) -> int:
     """Return the level of the next step: on the ladder's grid, not across a kink."""
     counts = motion.counts
@@ -155,12 +155,12 @@ def _level(control: Control, segments: Segments, motion: Motion) -> int:
     return int(level)
 
 
-@kernel
+@bare_kernel
 def _time(control: Control, tick: int) -> float:
-    return control.longest * (tick / TICKS)
+    return float(control.longest * (tick / TICKS))
 
 
-@kernel
+@bare_kernel
 def _store(modes: Modes, contacts: Contacts, motion: Motion, row: Array) -> None:
     """Write a row like :func:`timedomain.record.store`, and what errors there are."""
     probes, count = modes.probes.shape[0], contacts.first.size
@@ -184,6 +184,8 @@ def _store(modes: Modes, contacts: Contacts, motion: Motion, row: Array) -> None
         stored += contact_energy(contacts.points, point, gap)
     place += count
     row[place] = motion.powers[1]
-    row[place + 1 : place + 5] = motion.energies
+    for flow in range(motion.energies.size):
+        row[place + 1 + flow] = motion.energies[flow]
     row[place + 5], row[place + 6], row[place + 7] = kinetic, elastic, stored
-    row[place + 8 : place + 12] = motion.numbers[:4]
+    for number in range(4):
+        row[place + 8 + number] = motion.numbers[number]

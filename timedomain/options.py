@@ -48,6 +48,9 @@ class MarchOptions:
             raise ValueError(
                 f"{self.divisions} divisions of a step: give 1 to {MOST_DIVISIONS}"
             )
+        self._check_method()
+
+    def _check_method(self) -> None:
         if self.method not in METHODS:
             raise ValueError(
                 f"method {self.method!r}: give one of {', '.join(METHODS)}"

@@ -29,10 +29,10 @@ from microslip_mechanics.contact.law import (
     ContactPoints,
     normal_law,
 )
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 
 
-@kernel
+@bare_kernel
 def linearise(
     points: ContactPoints,
     point: int,
@@ -109,7 +109,7 @@ def linearise(
     by_slip[point, 2, 1], by_slip[point, 2, 2] = d21, d22 + drag
 
 
-@kernel
+@bare_kernel
 def between(law: HuntCrossley, begin: float, mean: float) -> tuple[float, float]:
     """Return what the mean spring force of a step exceeds that of its mean by.
 
@@ -127,7 +127,7 @@ def between(law: HuntCrossley, begin: float, mean: float) -> tuple[float, float]
     return more, slope
 
 
-@kernel
+@bare_kernel
 def friction_level(
     points: ContactPoints, point: int, speed: float
 ) -> tuple[float, float]:
@@ -151,7 +151,7 @@ def friction_level(
     return level, (slope * threshold - level) / speed
 
 
-@kernel
+@bare_kernel
 def _friction(
     points: ContactPoints,
     point: int,

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 from timedomain.coordinates import Modes
 from timedomain.motion import LENGTH, REFERENCE, Control, Motion, Trial
 from timedomain.tables import Tables
 
 
-@kernel
+@bare_kernel
 def step_error(
     control: Control,
     modes: Modes,
@@ -37,7 +37,7 @@ def step_error(
     return float(np.sqrt(energy / reference) / control.tolerance)
 
 
-@kernel
+@bare_kernel
 def _embedded(
     modes: Modes, tables: Tables, motion: Motion, trial: Trial, level: int
 ) -> float:
@@ -57,7 +57,7 @@ def _embedded(
     return energy
 
 
-@kernel
+@bare_kernel
 def _curvature(modes: Modes, motion: Motion, trial: Trial, length: float) -> float:
     """Return twice the energy of what a linear contact force leaves out.
 

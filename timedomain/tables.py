@@ -89,7 +89,7 @@ def fill(
 ) -> None:
     """Make the tables of a level, whose steps have the length ``step`` [s]."""
     free, forced = (
-        _exact(scheme, modes, step) if scheme.exact else _implicit(scheme, modes, step)
+        _exact(modes, step) if scheme.exact else _implicit(scheme, modes, step)
     )
     tables.free[level] = np.moveaxis(free[1:], 1, -1)
     tables.forced[level] = np.moveaxis(forced[1:], 2, -1)
@@ -132,7 +132,7 @@ def _implicit(scheme: Scheme, modes: Modes, step: float) -> tuple[Array, Array]:
     return free, forced
 
 
-def _exact(scheme: Scheme, modes: Modes, step: float) -> tuple[Array, Array]:
+def _exact(modes: Modes, step: float) -> tuple[Array, Array]:
     """Return E and Q for a force that is linear over the step, solved exactly."""
     count = modes.stiffness.size
     augmented = np.zeros((count, 4, 4))

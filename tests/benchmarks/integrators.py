@@ -3,8 +3,8 @@
 A sweep of one second through the resonance, for each model. Errors are those of the
 energy that friction takes out and of the largest amplitude, over an extrapolation of
 average acceleration, the reference method, to a step of zero. Seconds are of one
-thread's processor, warm. With ``--points`` the cost of a step is printed over the number
-of contact points, with ``--whole`` that of the scene's whole sweep.
+thread's processor, warm. With ``--points`` the cost of a step is printed over the
+number of contact points, with ``--whole`` that of the scene's whole sweep.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import dataclasses
 import os
 import sys
 import time
+from collections.abc import Callable, Iterator
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -92,7 +93,9 @@ def _extrapolated(problem: Problem) -> Array:
     return extrapolated
 
 
-def _runs(problem: Problem):
+def _runs(
+    problem: Problem,
+) -> Iterator[tuple[str, float, Callable[[], TimeHistory]]]:
     """Yield name, step and a march for each integrator."""
     for parts in PARTS:
         step = ROW / parts
@@ -137,7 +140,7 @@ def _measured(history: TimeHistory) -> Array:
     )
 
 
-def _timed(run) -> tuple[Array, float]:
+def _timed(run: Callable[[], TimeHistory]) -> tuple[Array, float]:
     """Return what a march measures and its seconds; not a number where it fails."""
     start = time.process_time()
     try:

@@ -13,6 +13,7 @@ from microslip_mechanics.time_history import TimeHistory
 from rigs import rig_problem
 from small_problems import NORMAL, from_rest, marched, mass_on_contact, sliding_block
 from timedomain.integrate import MarchOptions
+from timedomain.options import Method
 from timedomain.start import Start
 
 STEPS = (64, 128, 256, 512)
@@ -21,7 +22,9 @@ SHORT = SweptSine(
 )
 
 
-def ended(problem: Problem, options: MarchOptions, history: Dwell, start: Start):
+def ended(
+    problem: Problem, options: MarchOptions, history: Dwell, start: Start
+) -> np.ndarray:
     """Return the last displacement, velocity and friction energy."""
     marching = marched(problem, history, options, start=start, block=1.0)
     return np.array(
@@ -34,9 +37,9 @@ def ended(problem: Problem, options: MarchOptions, history: Dwell, start: Start)
 
 
 HISTORIES = {
-    "sticking": (dict(threshold=5.0), 0.8),
-    "sliding": (dict(threshold=1e-3), 0.35),
-    "sticking and sliding": (dict(threshold=0.05), 4.0),
+    "sticking": ({"threshold": 5.0}, 0.8),
+    "sliding": ({"threshold": 1e-3}, 0.35),
+    "sticking and sliding": ({"threshold": 0.05}, 4.0),
 }
 
 
@@ -148,7 +151,7 @@ def test_both_methods_agree_to_1e_7_on_a_rig_without_symmetry() -> None:
     problem = dataclasses.replace(problem, preload=problem.preload + lean)
     start, history = from_rest(problem), Dwell(2.0 * np.pi * 137.0, 0.004)
 
-    def limit(method: str, step: float) -> np.ndarray:
+    def limit(method: Method, step: float) -> np.ndarray:
         coarse, fine = (
             marched(
                 problem,

@@ -82,9 +82,7 @@ def by_multistep(problem: Problem, dwell: Dwell, template: TimeHistory) -> TimeH
     )
 
 
-def test_the_energy_balance_does_not_close_on_a_multistep_march_at_loose_tolerance() -> (
-    None
-):
+def test_the_energy_balance_does_not_close_on_a_loose_multistep_march() -> None:
     problem, frequency = light_beam()
     dwell = Dwell(frequency, 0.5)
     own = marched(problem, dwell, MarchOptions(1e-4, 1), block=1.0)

@@ -141,7 +141,7 @@ def _show(options: argparse.Namespace, data: Path, picture: Path) -> None:
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)
     save_figure(picture, result_figure(result, arguments.title(options)))
     print(energy_table(result))
-    print("\n".join(_extremes(result)))
+    print("\n".join([*_estimates(result), *_extremes(result)]))
 
 
 def watched(duration: float, name: str = "sweep") -> Watch:
@@ -164,13 +164,15 @@ def energy_table(result: TimeHistory | Envelope) -> str:
     closing = abs(result.closing_error).max()
     share = closing / max(abs(result.of("input")).max(), 1e-300)
     lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")
-    if result.energy_error.size:
-        lines += _estimates(result)
     return "\n".join(lines)
 
 
 def _estimates(result: TimeHistory | Envelope) -> list[str]:
-    """Return the estimated errors of what was marched."""
+    """Return lines of the estimated errors, as far as the result tells them."""
+    from microslip_mechanics.envelope import Envelope
+
+    if isinstance(result, Envelope) or not result.energy_error.size:
+        return []
     energy = result.energy_error[-1]
     friction = max(abs(result.of("friction")[-1]), 1e-300)
     work = result.work_difference[-1]

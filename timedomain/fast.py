@@ -191,7 +191,9 @@ class FastMarch:
         shown, moving, normal, power, energy, more = np.split(
             rows, np.cumsum(sizes), axis=1
         )
-        difference = energy[:, FLOWS.index("friction")] - more[:, OTHER_WORK]
+        friction, least = energy[:, FLOWS.index("friction")], self._tolerance()
+        difference = friction - more[:, OTHER_WORK]
+        drift = np.abs(more[:, DRIFT]) + np.abs(difference)
         return TimeHistory(
             times,
             probes,
@@ -207,10 +209,14 @@ class FastMarch:
             int(counts[ITERATIONS]),
             int(counts[REJECTED]),
             checkpoint=self._checkpoint(),
-            energy_error=np.abs(more[:, DRIFT]) + np.abs(difference),
-            peak_error=more[:, LARGEST_DRIFT] / more[:, REFERENCE],
+            energy_error=np.maximum(drift, least * np.abs(friction)),
+            peak_error=np.maximum(more[:, LARGEST_DRIFT] / more[:, REFERENCE], least),
             work_difference=difference,
         )
+
+    def _tolerance(self) -> float:
+        """Return the least relative error that an estimate tells."""
+        return self._options.tolerance or 0.0
 
     def _checkpoint(self) -> Checkpoint:
         shapes, motion = self._coordinates.shapes, self._motion

@@ -140,7 +140,7 @@ def test_a_force_constant_over_a_step_answers_with_the_wrong_sign() -> None:
         for scheme in (LINEAR_FORCE, MEAN_FORCE)
     }
     for scheme in (LINEAR_FORCE, MEAN_FORCE):
-        fill(tables[scheme.name], scheme, modes, contacts, level=0, step=6.25e-5)
+        fill(tables[scheme.name], scheme, modes, contacts, level=0, step=5e-4)
 
     constant = tables["mean force"].swing[0]
     linear = tables["linear force"].compliance[0, 0]

@@ -98,9 +98,21 @@ class FastMarch:
         self._motion.numbers[REFERENCE] = self._reference()
 
     def resume(self, end: Checkpoint) -> int:
-        """Go back to the end of a block; return the steps until there."""
-        refill(self._motion, end.memory[1:])
-        self._stored_at_start = float(end.memory[0])
+        """Go back to the end of a block; return the steps until there.
+
+        Raises
+        ------
+        ValueError
+            If that march was one of another problem or with other steps.
+        """
+        self._stored_at_start, longest = (float(each) for each in end.memory[:2])
+        refill(self._motion, end.memory[2:])
+        if longest != self._control.longest:
+            raise ValueError(
+                f"a march with steps of {longest:g} s halved cannot go on with "
+                f"steps of {self._control.longest:g} s: give the same time step, or a tolerance "
+                "if it had one"
+            )
         rows = self._motion.counts[TICK] // (self._control.stride * TICKS)
         return int(rows) * self._options.store_every
 
@@ -224,7 +236,7 @@ class FastMarch:
         return Checkpoint(
             shapes @ motion.displacement,
             shapes @ motion.velocity,
-            np.concatenate([[self._stored_at_start], *kept]),
+            np.concatenate([[self._stored_at_start, self._control.longest], *kept]),
         )
 
 

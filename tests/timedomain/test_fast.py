@@ -10,8 +10,15 @@ from convergence import observed_order
 from microslip_mechanics.excitation import Dwell, SweptSine
 from microslip_mechanics.problem import Problem
 from rigs import rig_problem
-from small_problems import NORMAL, from_rest, marched, mass_on_contact, sliding_block
-from timedomain.integrate import MarchOptions
+from small_problems import (
+    NORMAL,
+    from_rest,
+    marched,
+    mass_on_contact,
+    oscillator,
+    sliding_block,
+)
+from timedomain.integrate import MarchOptions, integrate
 from timedomain.options import Method
 from timedomain.start import Start
 
@@ -183,3 +190,21 @@ def test_both_methods_agree_to_1e_7_on_a_rig_without_symmetry() -> None:
     fast, reference = limit("fast", 5e-7), limit("reference", 5e-7)
 
     assert np.abs(fast - reference).max() < 1e-7 * np.abs(reference).max()
+
+
+@pytest.mark.kernels
+def test_a_march_goes_on_only_with_steps_of_the_same_ladder() -> None:
+    problem, dwell = oscillator(), Dwell(3.0, 1.0)
+    first = next(integrate(problem, dwell, MarchOptions(0.01, 5), block=0.5))
+    adaptive = MarchOptions(0.01, 5, tolerance=1e-3)
+
+    with pytest.raises(
+        ValueError, match=r"^a march with steps of 0\.01 s halved cannot"
+    ):
+        list(integrate(problem, dwell, adaptive, start=first.checkpoint))
+
+    rest = list(
+        integrate(problem, dwell, MarchOptions(0.01, 5), start=first.checkpoint)
+    )
+    whole = marched(problem, dwell, MarchOptions(0.01, 5))
+    np.testing.assert_array_equal(rest[-1].displacement[-1], whole.displacement[-1])

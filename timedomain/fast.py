@@ -110,8 +110,8 @@ class FastMarch:
         if longest != self._control.longest:
             raise ValueError(
                 f"a march with steps of {longest:g} s halved cannot go on with "
-                f"steps of {self._control.longest:g} s: give the same time step, or a tolerance "
-                "if it had one"
+                f"steps of {self._control.longest:g} s: give the same time step, or a "
+                "tolerance if it had one"
             )
         rows = self._motion.counts[TICK] // (self._control.stride * TICKS)
         return int(rows) * self._options.store_every

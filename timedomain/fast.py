@@ -41,7 +41,7 @@ PER_CYCLE = 12
 """least number of steps in a cycle of the load"""
 RESIDUAL = 1e-2
 """of contact forces, over the tolerance of one step"""
-HOLD = 1.0
+HOLD = 0.5
 """cycles of the load without a rough step before steps grow"""
 SAFETY = 0.05
 """error of one step over the tolerance of the whole march"""

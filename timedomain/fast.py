@@ -219,7 +219,7 @@ class FastMarch:
             self._stored_at_start,
             self._step,
             int(counts[ITERATIONS]),
-            int(counts[REJECTED]),
+            0 if self._options.tolerance else int(counts[REJECTED]),
             checkpoint=self._checkpoint(),
             energy_error=np.maximum(drift, least * np.abs(friction)),
             peak_error=np.maximum(more[:, LARGEST_DRIFT] / more[:, REFERENCE], least),

@@ -152,6 +152,9 @@ def small_history() -> TimeHistory:
         checkpoint=Checkpoint(draw.normal(size=3), draw.normal(size=3), np.ones(5)),
         frequency=draw.uniform(700.0, 900.0, times),
         level=draw.uniform(0.0, 2.0, times),
+        energy_error=draw.uniform(0.0, 1e-5, times),
+        peak_error=draw.uniform(0.0, 1e-3, times),
+        work_difference=draw.normal(size=times) * 1e-6,
     )
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_energy, contact_force
@@ -12,7 +15,7 @@ from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import Checkpoint
 from timedomain.newmark import State
-from timedomain.record import FLOWS, Meters
+from timedomain.record import FLOWS, Meters, accumulate
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +89,18 @@ def restore(state: State, meters: Meters, end: Checkpoint) -> tuple[int, float]:
         If that march had other degrees of freedom or contacts.
     """
     arrays = (state.displacement, state.velocity, *_kept(state, meters))
-    numbers = np.concatenate([end.displacement, end.velocity, end.memory[2:]])
+    refill(arrays, np.concatenate([end.displacement, end.velocity, end.memory[2:]]))
+    return int(end.memory[0]), float(end.memory[1])
+
+
+def refill(arrays: Sequence[NDArray[Any]], numbers: Array) -> None:
+    """Write numbers of a checkpoint into the arrays of a march.
+
+    Raises
+    ------
+    ValueError
+        If they are the numbers of another problem.
+    """
     if numbers.size != sum(array.size for array in arrays):
         raise ValueError(
             f"a march cannot go on from a state of {numbers.size} numbers: "
@@ -95,7 +109,6 @@ def restore(state: State, meters: Meters, end: Checkpoint) -> tuple[int, float]:
     cuts = np.cumsum([array.size for array in arrays])[:-1]
     for array, values in zip(arrays, np.split(numbers, cuts), strict=True):
         array[...] = values.reshape(array.shape)
-    return int(end.memory[0]), float(end.memory[1])
 
 
 def _kept(state: State, meters: Meters) -> tuple[Array, ...]:
@@ -115,6 +128,15 @@ def meters(problem: Problem, shapes: Array) -> Meters:
         np.zeros(len(FLOWS)),
         np.zeros(len(FLOWS)),
     )
+
+
+def powers(problem: Problem, history: LoadHistory, state: State) -> Array:
+    """Return the powers of FLOWS at time zero [W], shape (4,)."""
+    shapes = np.stack([problem.preload, problem.drive], axis=1)
+    reading = meters(problem, shapes)
+    factors = history.factors(np.zeros(1))[0]
+    accumulate(reading, problem.interface.points, state, factors, 0.0)
+    return reading.powers
 
 
 def stored_energy(problem: Problem, state: State) -> float:

@@ -61,6 +61,9 @@ HISTORY: Schema = {
     "normal_force": (("time", "contact"), "N", "normal contact force"),
     "friction_power": (("time",), "W", "power taken out by friction"),
     "energy": (("time", "energy"), "J", "energy that flowed so far, or is stored"),
+    "energy_error": (("time",), "J", "estimated error of friction's energy"),
+    "peak_error": (("time",), "1", "estimated relative error of the largest amplitude"),
+    "work_difference": (("time",), "J", "friction's power integrated less its work"),
 }
 ENVELOPE: Schema = {
     **NAMES,

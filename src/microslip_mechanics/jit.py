@@ -27,10 +27,24 @@ def kernel(function: Function) -> Function:
     may call: those of this package and those beside its own. No fast-math: results
     must not differ between machines more than rounding makes them.
     """
+    return _compiled(function, counted=True)
+
+
+def bare_kernel(function: Function) -> Function:
+    """Compile like :func:`kernel` what makes no arrays, without counting references.
+
+    Counting takes most of the time of a step that hands many arrays from kernel to
+    kernel. A kernel that makes an array does not compile so.
+    """
+    return _compiled(function, counted=False)
+
+
+def _compiled(function: Function, *, counted: bool) -> Function:
+    """Return the kernel with its disk cache."""
     options = config.__dict__
     if options["DISABLE_JIT"]:
         return function
-    dispatcher = numba.njit(error_model="numpy", nogil=True)(function)
+    dispatcher = numba.njit(error_model="numpy", nogil=True, _nrt=counted)(function)
     folder = _cache_folder(Path(function.__code__.co_filename).parent)
     if folder is None:
         return cast("Function", dispatcher)

@@ -64,6 +64,14 @@ class TimeHistory:
     """of the drive [rad/s], shape (times,), or empty if not told"""
     level: Array = field(default_factory=lambda: np.zeros(0))
     """amplitude of the drive's sine over the problem's, like ``frequency``"""
+    energy_error: Array = field(default_factory=lambda: np.zeros(0))
+    """estimated, of the energy taken out by friction so far [J], shape (times,), or
+    empty if not estimated"""
+    peak_error: Array = field(default_factory=lambda: np.zeros(0))
+    """estimated, of the largest amplitude so far, relative, like ``energy_error``"""
+    work_difference: Array = field(default_factory=lambda: np.zeros(0))
+    """friction's energy by quadrature of its power less that by mean force times
+    sliding increment [J], like ``energy_error``"""
 
     def of(self, energy: str) -> Array:
         """Return one energy over time [J], shape (times,)."""

@@ -51,7 +51,8 @@ MARCH = """
 from microslip_mechanics.excitation import Dwell
 from small_problems import marched, oscillator
 from timedomain.integrate import MarchOptions
-print(marched(oscillator(), Dwell(1.0, 1.0), MarchOptions(0.1)).of("kinetic")[-1])
+options = MarchOptions(0.1, method="reference")
+print(marched(oscillator(), Dwell(1.0, 1.0), options).of("kinetic")[-1])
 """
 PLAIN = """
 import inspect

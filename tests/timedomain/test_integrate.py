@@ -22,7 +22,7 @@ def test_a_step_takes_about_two_newton_iterations(model: str, law: str) -> None:
     history = marched(
         problem,
         Dwell(2.0 * np.pi * 135.0, 0.1),
-        MarchOptions(),
+        MarchOptions(method="reference"),
         start=from_rest(problem),
     )
 
@@ -35,7 +35,8 @@ def test_steps_that_do_not_converge_are_divided() -> None:
     problem = rig_problem(friction__mu_dynamic=10.0, model="full")
     dwell, start = Dwell(2.0 * np.pi * 135.0, 0.1), from_rest(problem)
 
-    coarse = marched(problem, dwell, MarchOptions(1e-3), start=start)
+    options = MarchOptions(1e-3, method="reference")
+    coarse = marched(problem, dwell, options, start=start)
 
     assert 0 < coarse.divided < 100
     assert np.isfinite(coarse.displacement).all()
@@ -45,7 +46,8 @@ def test_divided_steps_keep_the_energy_balance() -> None:
     problem = rig_problem(friction__threshold_velocity=1e-8, model="B")
     dwell, start = Dwell(2.0 * np.pi * 135.0, 0.004), from_rest(problem)
 
-    history = marched(problem, dwell, MarchOptions(), start=start)
+    options = MarchOptions(method="reference")
+    history = marched(problem, dwell, options, start=start)
 
     # Nearly all of 160 steps are divided; one accepted out of balance would show.
     assert history.divided > 100
@@ -54,7 +56,7 @@ def test_divided_steps_keep_the_energy_balance() -> None:
 
 def test_a_step_that_does_not_converge_in_any_parts_ends_the_march() -> None:
     problem = rig_problem(friction__threshold_velocity=1e-8, model="B")
-    options = MarchOptions(1e-3, divisions=4)
+    options = MarchOptions(1e-3, divisions=4, method="reference")
 
     text = (
         r"^the step at t = 0 s does not converge, even in 16 parts: "
@@ -83,7 +85,7 @@ def test_blocks_before_a_failure_stay_what_they_are() -> None:
             integrate(
                 problem,
                 sweep,
-                MarchOptions(1e-3, store_every=1, divisions=4),
+                MarchOptions(1e-3, store_every=1, divisions=4, method="reference"),
                 start=from_rest(problem),
                 block=1e-3,
             )
@@ -190,9 +192,14 @@ def test_a_march_does_not_write_to_its_start() -> None:
         ),
         ("store_every", (0, -1, np.nan), "store every {} steps: give at least 1"),
         (
-            "tolerance",
+            "residual",
             (0.0, -1e-9, 1.0, np.nan, np.inf),
-            "tolerance {:g}: give one between 0 and 1, such as 1e-9",
+            "residual {:g}: give one between 0 and 1, such as 1e-9",
+        ),
+        (
+            "tolerance",
+            (0.0, -1e-3, 1.0, np.nan, np.inf),
+            "tolerance {:g}: give one between 0 and 1, such as 1e-3",
         ),
         ("divisions", (0, -1, 21, np.nan), "{} divisions of a step: give 1 to 20"),
     ],

@@ -15,6 +15,7 @@ from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from small_problems import NORMAL, mass_on_contact, oscillator, sliding_block
 from timedomain.integrate import MarchOptions, integrate
+from timedomain.options import METHODS, Method
 from timedomain.start import Start
 
 pytestmark = pytest.mark.kernels
@@ -32,15 +33,27 @@ newmark.NEWTON_LIMIT = 1
 points = contact_points(stiffness=300.0, exponent=1.0, damping=0.0, friction=0)
 problem = mass_on_contact(points, direction=NORMAL, preload=3.0, drive=0.5)
 history = marched(
-    problem, Dwell(1.0, 0.1), MarchOptions(0.01), start=from_rest(problem)
+    problem,
+    Dwell(1.0, 0.1),
+    MarchOptions(0.01, method="reference"),
+    start=from_rest(problem),
 )
 print(history.iterations, history.divided)
 """
 
 
-def last(problem: Problem, steps: int, *, duration: float, start: Start) -> np.ndarray:
+def last(
+    problem: Problem,
+    steps: int,
+    *,
+    duration: float,
+    start: Start,
+    method: Method = "reference",
+) -> np.ndarray:
     """Return displacement and velocity of a single mass at the end of a free march."""
-    options = MarchOptions(duration / steps, store_every=steps, tolerance=1e-13)
+    options = MarchOptions(
+        duration / steps, store_every=steps, method=method, residual=1e-13
+    )
     (history,) = integrate(
         problem, Dwell(1.0, duration), options, start=start, block=duration
     )
@@ -48,12 +61,19 @@ def last(problem: Problem, steps: int, *, duration: float, start: Start) -> np.n
 
 
 def order(
-    problem: Problem, exact: np.ndarray, *, duration: float, start: Start
+    problem: Problem,
+    exact: np.ndarray,
+    *,
+    duration: float,
+    start: Start,
+    method: Method = "reference",
 ) -> float:
     """Return the observed order of the error at the end."""
     scale = np.abs(exact).max()
     errors = [
-        np.abs(last(problem, steps, duration=duration, start=start) - exact).max()
+        np.abs(
+            last(problem, steps, duration=duration, start=start, method=method) - exact
+        ).max()
         / scale
         for steps in STEPS
     ]
@@ -79,8 +99,9 @@ def test_free_vibration_converges_with_second_order() -> None:
     assert measured == pytest.approx(2.0, abs=0.1)
 
 
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("law", ["coulomb", "gkf"])
-def test_sticking_decays_with_second_order(law: str) -> None:
+def test_sticking_decays_with_second_order(law: str, method: Method) -> None:
     # A block below the threshold velocity: m v̇ = −µN v / V_lim, but for GKF with
     # V_str far above the speed µ = µs hardly falls.
     threshold, start, duration = 0.1, 0.08, 1.0
@@ -100,7 +121,9 @@ def test_sticking_decays_with_second_order(law: str) -> None:
     velocity = start * np.exp(-rate * duration)
     exact = np.array([(start - velocity) / rate, velocity])
 
-    measured = order(problem, exact, duration=duration, start=moving(0.0, start))
+    measured = order(
+        problem, exact, duration=duration, start=moving(0.0, start), method=method
+    )
     assert measured == pytest.approx(2.0, abs=0.1)
 
 
@@ -171,7 +194,8 @@ def test_sliding_with_falling_friction_converges_with_second_order() -> None:
     assert measured == pytest.approx(2.0, abs=0.1)
 
 
-def test_linear_contact_rebounds_with_second_order() -> None:
+@pytest.mark.parametrize("method", METHODS)
+def test_linear_contact_rebounds_with_second_order(method: Method) -> None:
     stiffness, damping, duration = 300.0, 1.5, 0.15
     points = contact_points(
         stiffness=stiffness,
@@ -192,7 +216,9 @@ def test_linear_contact_rebounds_with_second_order() -> None:
     exact = np.array([moved.real, (pole * moved).real])
     assert exact[0] > 0.0
 
-    measured = order(problem, exact, duration=end, start=moving(0.1, 0.0))
+    measured = order(
+        problem, exact, duration=end, start=moving(0.1, 0.0), method=method
+    )
     assert measured == pytest.approx(2.0, abs=0.1)
 
 
@@ -202,7 +228,8 @@ def hunt_crossley(_time: float, state: np.ndarray) -> list[float]:
     return [approach, -force / MASS]
 
 
-def test_hunt_crossley_contact_rebounds_with_second_order() -> None:
+@pytest.mark.parametrize("method", METHODS)
+def test_hunt_crossley_contact_rebounds_with_second_order(method: Method) -> None:
     points = contact_points(stiffness=3e3, damping=20.0, friction=0)
     problem = mass_on_contact(points, direction=NORMAL, mass=MASS)
     duration = 0.16
@@ -218,7 +245,9 @@ def test_hunt_crossley_contact_rebounds_with_second_order() -> None:
     assert exact[0] > 0.005  # still in contact, on its way out
     assert exact[1] < 0.0
 
-    measured = order(problem, exact, duration=duration, start=moving(0.02, 0.5))
+    measured = order(
+        problem, exact, duration=duration, start=moving(0.02, 0.5), method=method
+    )
     assert measured == pytest.approx(2.0, abs=0.1)
 
 

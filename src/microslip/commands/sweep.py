@@ -38,6 +38,14 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         metavar="FILE",
         help="go on with the march that a stopped sweep of the same scene left there",
     )
+    parser.add_argument(
+        "--tolerance",
+        type=_tolerance,
+        default=1e-3,
+        metavar="SHARE",
+        help="of dissipated energy and peak amplitude; 0 takes the scene's time step "
+        "(default: 1e-3)",
+    )
     arguments.add_output(parser, "sweep")
     parser.set_defaults(run=_run)
 
@@ -56,7 +64,14 @@ def _run(options: argparse.Namespace) -> int:
     envelope = options.envelope
     if options.resume is not None:
         recording, end, envelope = _resumed(options, scene)
-    blocks = marched(problem_of(scene), loads, scene.march, envelope=envelope, end=end)
+    blocks = marched(
+        problem_of(scene),
+        loads,
+        scene.march,
+        envelope=envelope,
+        end=end,
+        tolerance=options.tolerance or None,
+    )
     with recording:
         ending = kept(watched(loads.duration)(blocks), recording.keep)
         recording.end(ending)
@@ -64,6 +79,16 @@ def _run(options: argparse.Namespace) -> int:
     unit = "cycles" if envelope else "times"
     print(f"{recording.rows} {unit} in {data}, picture in {picture}")
     return arguments.ended(ending)
+
+
+def _tolerance(text: str) -> float:
+    """Return a tolerance, or 0 for none."""
+    value = float(text)
+    if not 0.0 <= value < 1.0:
+        raise argparse.ArgumentTypeError(
+            f"{text}: give one between 0 and 1, such as 1e-3"
+        )
+    return value
 
 
 def _places(options: argparse.Namespace) -> tuple[Path, Path]:
@@ -117,7 +142,7 @@ def _show(options: argparse.Namespace, data: Path, picture: Path) -> None:
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)
     save_figure(picture, result_figure(result, arguments.title(options)))
     print(energy_table(result))
-    print("\n".join(_extremes(result)))
+    print("\n".join([*_estimates(result), *_extremes(result)]))
 
 
 def watched(duration: float, name: str = "sweep") -> Watch:
@@ -141,6 +166,22 @@ def energy_table(result: TimeHistory | Envelope) -> str:
     share = closing / max(abs(result.of("input")).max(), 1e-300)
     lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")
     return "\n".join(lines)
+
+
+def _estimates(result: TimeHistory | Envelope) -> list[str]:
+    """Return lines of the estimated errors, as far as the result tells them."""
+    from microslip_mechanics.envelope import Envelope
+
+    if isinstance(result, Envelope) or not result.energy_error.size:
+        return []
+    energy = result.energy_error[-1]
+    friction = max(abs(result.of("friction")[-1]), 1e-300)
+    work = result.work_difference[-1]
+    return [
+        f"  {'friction, error':20s} {energy:12.2g}  ({energy / friction:.1e} of it)",
+        f"  {'quadrature - work':20s} {work:12.2g}  ({work / friction:.1e} of it)",
+        f"estimated error of the peak amplitude {result.peak_error[-1]:.1e}",
+    ]
 
 
 def _extremes(result: TimeHistory | Envelope) -> list[str]:

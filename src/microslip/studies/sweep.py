@@ -23,20 +23,22 @@ def marched(
     *,
     envelope: bool = False,
     end: Checkpoint | None = None,
+    tolerance: float | None = None,
 ) -> Iterator[TimeHistory | Envelope]:
     """Yield the march of a scene block by block, as rows or as their envelope.
 
-    ``end`` is where a stopped march of the same scene and kind goes on.
+    ``end`` is where a stopped march of the same scene and kind goes on. Steps are those
+    of the scene, or follow from a ``tolerance``.
     """
     segments, begun = loads.segments(), None
     if envelope:
         if end is not None:
             end, begun = parted(end)
-        options = MarchOptions(march.time_step, 1)
+        options = MarchOptions(march.time_step, 1, tolerance)
         blocks = integrate(problem, loads, options, start=end)
         yield from enveloped(blocks, segments, begun)
         return
-    options = MarchOptions(march.time_step, march.store_every)
+    options = MarchOptions(march.time_step, march.store_every, tolerance)
     for block in integrate(problem, loads, options, start=end):
         sine = clock(segments, block.time)
         yield replace(block, frequency=sine[:, 0], level=sine[:, 1])

@@ -1,0 +1,81 @@
+"""Powers over a step of the fast march."""
+
+from __future__ import annotations
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import contact_power, normal_law
+from microslip_mechanics.jit import bare_kernel
+from timedomain.coordinates import Contacts, Modes
+from timedomain.motion import Motion, Trial
+from timedomain.point_law import between
+from timedomain.tables import Tables
+
+
+@bare_kernel
+def stage_powers(
+    modes: Modes,
+    contacts: Contacts,
+    tables: Tables,
+    motion: Motion,
+    trial: Trial,
+    stage: int,
+    part: float,
+) -> None:
+    """Write the powers of a stage."""
+    _input_power(modes, trial, trial.velocity, stage)
+    friction, damping = 0.0, 0.0
+    local = trial.local
+    for point in range(contacts.first.size):
+        slid, damped = contact_power(
+            contacts.points,
+            point,
+            local.gaps[point],
+            local.slips[point],
+            local.forces[point],
+        )
+        friction += slid
+        damping += damped
+        if tables.mean > 0.0:
+            more = between(
+                normal_law(contacts.points, point),
+                trial.begins[point],
+                local.gaps[point, 0],
+            )
+            damping -= more[0] * local.slips[point, 0]
+    lost = 0.0
+    for j in range(trial.velocity.size):
+        v = trial.velocity[j]
+        lost += v * (modes.damping[j] * v)
+        lost += v * (motion.coupled[0, j] + part * motion.coupled[1, j])
+    trial.powers[stage, 1], trial.powers[stage, 2] = friction, damping
+    trial.powers[stage, 3] = lost
+    if tables.mean > 0.0:
+        trial.powers[1, 3] = 0.5 * (lost + motion.powers[3])
+        trial.numbers[2] = lost
+        _mean_input(modes, motion, trial, part)
+
+
+@bare_kernel
+def _input_power(modes: Modes, trial: Trial, velocity: Array, stage: int) -> None:
+    one, two = trial.factors[0], trial.factors[1]
+    power = 0.0
+    for j in range(velocity.size):
+        power += (one * modes.loads[0, j] + two * modes.loads[1, j]) * velocity[j]
+    trial.powers[stage, 0] = power
+
+
+@bare_kernel
+def _mean_input(modes: Modes, motion: Motion, trial: Trial, length: float) -> None:
+    """Write the mean power of loads that are linear over the step.
+
+    With a cubic between the modal motions of its ends it is p̄ Δq/h + Δp Δq̇/12.
+    """
+    one, two = trial.factors[0], trial.factors[1]
+    power = 0.0
+    for j in range(trial.velocity.size):
+        begin = trial.load[j]
+        end = one * modes.loads[0, j] + two * modes.loads[1, j]
+        moved = trial.displacement[j] - motion.displacement[j]
+        faster = trial.velocity[j] - motion.velocity[j]
+        power += 0.5 * (begin + end) * moved / length + (end - begin) * faster / 12.0
+    trial.powers[1, 0] = power

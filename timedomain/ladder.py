@@ -1,0 +1,191 @@
+"""The compiled march of the fast method: a ladder of steps (theory, §7)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.hunt_crossley import normal_force
+from microslip_mechanics.contact.law import contact_energy, normal_law
+from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.segments import Segments, segment_of
+from timedomain.accept import accept
+from timedomain.coordinates import Contacts, Modes
+from timedomain.fast_step import SOONEST, attempt
+from timedomain.motion import (
+    HINT,
+    LEVEL,
+    REJECTED,
+    ROUGH,
+    SAFE,
+    SAFE_STEPS,
+    STEPS,
+    TICK,
+    Control,
+    Motion,
+    Trial,
+)
+from timedomain.step_error import step_error
+from timedomain.tables import LEVELS, Tables
+
+TICKS = 2 ** (LEVELS - 1)
+"""of the longest step"""
+KINK = 12
+"""level of the steps that may cross a kink of the load"""
+DONE, FAILED = -1, -2
+SAFE_RUN = 32
+"""dissipative steps before another of the first kind is tried"""
+STIFF = 4.0
+"""largest contact stiffness times compliance of a step with linear force; alone, a
+contact coordinate is stable up to 2, and this is a sum over the points"""
+GROWTH = 0.08
+"""error over tolerance below which the next step is twice as long"""
+SHARE = 16.0
+"""error over tolerance above which half a step would not do"""
+
+
+@bare_kernel
+def climb(
+    control: Control,
+    modes: Modes,
+    contacts: Contacts,
+    tables: tuple[Tables, Tables],
+    segments: Segments,
+    motion: Motion,
+    trial: Trial,
+    rows: Array,
+    first: int,
+) -> tuple[int, int]:
+    """March row by row from row ``first`` of ``rows``.
+
+    ``tables`` are those of the method's step and those of a dissipative step.
+
+    Returns
+    -------
+    The rows done, and DONE, FAILED or the level whose tables are wanted; LEVELS is
+    added to it where they are those of the dissipative step.
+    """
+    ticks = control.stride * TICKS
+    for row in range(first, rows.shape[0]):
+        end = (motion.counts[TICK] // ticks + 1) * ticks
+        while motion.counts[TICK] < end:
+            status = _step(control, modes, contacts, tables, segments, motion, trial)
+            if status != DONE:
+                return row, status
+        _store(modes, contacts, motion, rows[row])
+    return rows.shape[0], DONE
+
+
+@bare_kernel
+def _step(
+    control: Control,
+    modes: Modes,
+    contacts: Contacts,
+    tables: tuple[Tables, Tables],
+    segments: Segments,
+    motion: Motion,
+    trial: Trial,
+) -> int:
+    """Try a step and take or reject it."""
+    counts = motion.counts
+    level = _level(control, segments, motion)
+    safe = counts[SAFE] > 0
+    table = tables[1] if safe else tables[0]
+    if table.ready[level] == 0.0:
+        return int(level + LEVELS * safe)
+    begin = _time(control, counts[TICK])
+    taken = attempt(
+        control, modes, contacts, table, segments, motion, trial, level, begin
+    )
+    stiff = not safe and table.mean == 0.0 and trial.numbers[0] > STIFF
+    length, error = control.longest / 2.0**level, np.inf
+    if taken > 0 and (control.tolerance > 0.0 or not stiff):
+        error = step_error(control, modes, table, motion, trial, level, safe)
+    if error > 1.0:
+        return _reject(control, motion, level, error <= SHARE and not stiff)
+    accept(modes, contacts, table, motion, trial, level, length)
+    counts[TICK] += TICKS >> level
+    counts[STEPS] += 1
+    if safe:
+        counts[SAFE] -= 1
+        counts[SAFE_STEPS] += 1
+    _grow(control, motion, level, error)
+    return DONE
+
+
+@bare_kernel
+def _reject(control: Control, motion: Motion, level: int, nearly: bool) -> int:
+    """Choose the next attempt: half the step, or a dissipative one."""
+    counts = motion.counts
+    counts[REJECTED] += 1
+    counts[ROUGH] = counts[TICK]
+    counts[LEVEL] = level
+    if counts[SAFE] > 0 or nearly:
+        counts[LEVEL] = level + 1
+    else:
+        counts[SAFE] = SAFE_RUN
+    return FAILED if counts[LEVEL] > control.lowest else DONE
+
+
+@bare_kernel
+def _grow(control: Control, motion: Motion, level: int, error: float) -> None:
+    """Let the next step be twice as long if none was rough for long enough."""
+    counts = motion.counts
+    counts[LEVEL] = level
+    if error > GROWTH:
+        counts[ROUGH] = counts[TICK]
+    elif counts[TICK] - counts[ROUGH] > control.hold:
+        counts[LEVEL] = max(0, level - 1)
+        counts[ROUGH] = counts[TICK]
+
+
+@bare_kernel
+def _level(control: Control, segments: Segments, motion: Motion) -> int:
+    """Return the level of the next step: on the ladder's grid, not across a kink."""
+    counts = motion.counts
+    level, tick = counts[LEVEL], counts[TICK]
+    while tick % (TICKS >> level) != 0:
+        level += 1
+    begin, length = _time(control, tick), control.longest / 2.0**level
+    counts[HINT] = segment_of(segments, begin + SOONEST * length, counts[HINT])
+    place = counts[HINT] + 1
+    if place < segments.begin.size:
+        while level < KINK and begin + length > segments.begin[place] + 0.01 * length:
+            level, length = level + 1, 0.5 * length
+    return int(level)
+
+
+@bare_kernel
+def _time(control: Control, tick: int) -> float:
+    return float(control.longest * (tick / TICKS))
+
+
+@bare_kernel
+def _store(modes: Modes, contacts: Contacts, motion: Motion, row: Array) -> None:
+    """Write a row like :func:`timedomain.record.store`, and what errors there are."""
+    probes, count = modes.probes.shape[0], contacts.first.size
+    row[:] = 0.0
+    kinetic, elastic, stored = 0.0, 0.0, 0.0
+    for j in range(motion.velocity.size):
+        q, v = motion.displacement[j], motion.velocity[j]
+        for probe in range(probes):
+            row[probe] += modes.probes[probe, j] * q
+            row[probes + probe] += modes.probes[probe, j] * v
+        kinetic += 0.5 * v * v
+        elastic += 0.5 * modes.stiffness[j] * q * q
+    place = 2 * probes
+    for point in range(count):
+        first, gap = contacts.first[point], 0.0
+        for i in range(contacts.width[point]):
+            gap += contacts.basis[point, 0, i] * motion.relative[0, first + i]
+        motion.gaps[point, 0] = gap
+        law = normal_law(contacts.points, point)
+        row[place + point], _, _ = normal_force(law, gap, motion.slips[point, 0])
+        stored += contact_energy(contacts.points, point, gap)
+    place += count
+    row[place] = motion.powers[1]
+    for flow in range(motion.energies.size):
+        row[place + 1 + flow] = motion.energies[flow]
+    row[place + 5], row[place + 6], row[place + 7] = kinetic, elastic, stored
+    for number in range(4):
+        row[place + 8 + number] = motion.numbers[number]

@@ -1,0 +1,95 @@
+"""What the fast march keeps from step to step, and what it is told."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from microslip_mechanics.arrays import Array
+from timedomain.contact_newton import Local
+
+TICK, LEVEL, HINT, STEPS, REJECTED, ITERATIONS, SAFE, SAFE_STEPS, ROUGH = range(9)
+REFERENCE, DRIFT, LARGEST_DRIFT, OTHER_WORK, LENGTH = range(5)
+
+
+class Control(NamedTuple):
+    """What a march is told."""
+
+    longest: float
+    """longest step [s]"""
+    stride: int
+    """longest steps per stored row"""
+    tolerance: float
+    """of a step's error, relative; 0 holds the longest step"""
+    newton: float
+    """relative tolerance of contact forces"""
+    floor: float
+    """absolute one [N]"""
+    lowest: int
+    """level of the shortest steps"""
+    hold: int
+    """ticks without a rough step before steps grow"""
+
+
+class Motion(NamedTuple):
+    """What one step hands to the next; written in place."""
+
+    displacement: Array
+    """q, shape (modes,)"""
+    velocity: Array
+    """shape (modes,)"""
+    coupled: Array
+    """damping force of the other modes, and its rate, shape (2, modes)"""
+    gaps: Array
+    """of the points [m], shape (points, 3)"""
+    slips: Array
+    """[m/s], shape (points, 3)"""
+    forces: Array
+    """[N], at the end of the last step or its mean, shape (points, 3)"""
+    rates: Array
+    """[N/s], shape (points, 3)"""
+    reaction: Array
+    """φ [N] and its rate over the last step, shape (2, rank)"""
+    relative: Array
+    """y and ẏ, shape (2, rank)"""
+    powers: Array
+    """of FLOWS [W], shape (4,)"""
+    energies: Array
+    """of FLOWS so far [J], shape (4,)"""
+    numbers: Array
+    """reference energy, drift of energy by the errors of steps, its largest size,
+    friction's discrete work [J]; length of the last step [s]"""
+    counts: NDArray[np.int64]
+    """tick, level, segment, steps, rejected steps, iterations, dissipative steps to go
+    and so far, tick of the last step too rough for a longer one"""
+
+
+class Trial(NamedTuple):
+    """A step that is being tried; workspace."""
+
+    local: Local
+    displacement: Array
+    velocity: Array
+    force: Array
+    """modal forces of the stages, shape (stages + 1, modes)"""
+    contact: Array
+    """modal contact force, shape (modes,)"""
+    relative: Array
+    """y and ẏ without the stage's contact force, shape (2, rank)"""
+    powers: Array
+    """of the stages, shape (stages + 1, 4)"""
+    factors: Array
+    """shape (2,)"""
+    before: Array
+    """forces of the last stage but one, shape (points, 3)"""
+    curvature: Array
+    """second derivative of φ, shape (rank,)"""
+    numbers: Array
+    """contact stiffness times compliance, drift of energy, structural power at the end
+    of a step with mean force; shape (3,)"""
+    load: Array
+    """modal forces of the loads at the begin, shape (modes,)"""
+    begins: Array
+    """penetrations at the begin, shape (points,)"""

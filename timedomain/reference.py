@@ -1,0 +1,166 @@
+"""The reference march: average acceleration with a fixed step (theory, eqs. 21–25)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.newmark import Operators, march
+from timedomain.options import IntegrationError, MarchOptions
+from timedomain.record import FLOWS, STORES, accumulate, row_length, store
+from timedomain.start import (
+    Start,
+    checkpoint,
+    first_state,
+    meters,
+    restore,
+    stored_energy,
+)
+
+
+class ReferenceMarch:
+    """A march by average acceleration under way: operators, state and meters."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        history: LoadHistory,
+        options: MarchOptions,
+        steps: int,
+        start: Start,
+    ) -> None:
+        self._problem, self._history = problem, history
+        self._options, self._steps = options, steps
+        self._step = history.duration / steps
+        self._shapes = np.stack([problem.preload, problem.drive], axis=1)
+        self._operators = _operators(problem, self._shapes, self._step)
+        self._state = first_state(problem, history, start)
+        self._meters = meters(problem, self._shapes)
+        self._stored_at_start = stored_energy(problem, self._state)
+        # the powers at time zero, for the first trapezoid
+        self._measure(history.factors(np.zeros(1))[0], 0.0)
+
+    def resume(self, end: Checkpoint) -> int:
+        """Go back to the end of a block; return the steps until there."""
+        steps, self._stored_at_start = restore(self._state, self._meters, end)
+        return steps
+
+    def block(self, first: int, count: int) -> TimeHistory:
+        """March ``count`` steps from step ``first``; divide those that fail."""
+        stride, points = self._options.store_every, self._problem.interface.points
+        probes = len(self._problem.probes.names)
+        rows = np.empty((count // stride, row_length(probes, len(points.load))))
+        times = self._times(first + np.arange(1.0, count + 1.0))
+        factors = self._history.factors(times)
+        done, iterations, divided = 0, 0, 0
+        while True:
+            done, taken = march(
+                self._operators,
+                points,
+                self._state,
+                self._meters,
+                factors,
+                rows,
+                done,
+                self._options.residual,
+            )
+            iterations += taken
+            if done == count:
+                break
+            iterations += self._divide(first + done)
+            divided, done = divided + 1, done + 1
+            if done % stride == 0:
+                store(self._meters, points, self._state, rows[done // stride - 1])
+        end = checkpoint(
+            self._state, self._meters, first + count, self._stored_at_start
+        )
+        return self._table(times[stride - 1 :: stride], rows, iterations, divided, end)
+
+    def _divide(self, step: int) -> int:
+        """Take step number ``step`` in parts; return Newton's iterations."""
+        points = self._problem.interface.points
+        nothing = np.empty((1, row_length(len(self._meters.probes), len(points.load))))
+        before = [array.copy() for array in (*self._state, *self._meters)]
+        for halvings in range(1, self._options.divisions + 1):
+            parts = 2**halvings
+            times = self._times(step + np.arange(1.0, parts + 1.0) / parts)
+            operators = _operators(self._problem, self._shapes, self._step / parts)
+            done, iterations = march(
+                operators,
+                points,
+                self._state,
+                self._meters,
+                self._history.factors(times),
+                nothing,
+                0,
+                self._options.residual,
+            )
+            if done == parts:
+                return iterations
+            for array, old in zip((*self._state, *self._meters), before, strict=True):
+                array[:] = old
+        raise IntegrationError(
+            f"the step at t = {step * self._step:.6g} s does not converge, even "
+            f"in {parts} parts: "
+            "give a shorter time step, a larger threshold velocity or a softer contact"
+        )
+
+    def _times(self, steps: Array) -> Array:
+        """Return the times after so many steps; the last is exactly the duration."""
+        return self._history.duration * (steps / self._steps)
+
+    def _measure(self, factors: Array, step: float) -> None:
+        points = self._problem.interface.points
+        accumulate(self._meters, points, self._state, factors, step)
+
+    def _table(
+        self,
+        times: Array,
+        rows: Array,
+        iterations: int,
+        divided: int,
+        end: Checkpoint,
+    ) -> TimeHistory:
+        probes, contacts = self._problem.probes.names, self._problem.interface.names
+        cuts = np.cumsum([len(probes), len(probes), len(contacts), 1])
+        shown, moving, normal, power, energy = np.split(rows, cuts, axis=1)
+        return TimeHistory(
+            times,
+            probes,
+            shown,
+            moving,
+            contacts,
+            normal,
+            power[:, 0],
+            (*FLOWS, *STORES),
+            energy,
+            self._stored_at_start,
+            self._step,
+            iterations,
+            divided,
+            checkpoint=end,
+        )
+
+
+def _operators(problem: Problem, shapes: Array, step: float) -> Operators:
+    """Return the matrices of average acceleration (theory, eqs. 22–23)."""
+    structure = problem.structure.dense
+    basis, selection = problem.interface.relative_motion()
+    half = 0.5 * step
+    effective = (
+        structure.mass + half * structure.damping + half**2 * structure.stiffness
+    )
+    inverse = np.linalg.inv(effective)
+    contact = inverse @ selection.T
+    return Operators(
+        step,
+        -inverse @ np.hstack([structure.stiffness, structure.damping]),
+        inverse @ shapes,
+        contact,
+        selection @ contact,
+        selection,
+        basis,
+    )

@@ -164,7 +164,15 @@ def by_newmark(case: Case, step: float) -> March:
     """March by microslip's average acceleration, its step at most this [s]."""
     interval = case.times[1] - case.times[0]
     stride = int(np.ceil(interval / step - 1e-9))
-    return by_microslip(case, MarchOptions(interval / stride, store_every=stride))
+    options = MarchOptions(interval / stride, store_every=stride, method="reference")
+    return by_microslip(case, options)
+
+
+def by_fast(case: Case, tolerance: float) -> March:
+    """March by microslip's method with error control."""
+    interval = case.times[1] - case.times[0]
+    options = MarchOptions(interval, store_every=1, tolerance=tolerance)
+    return by_microslip(case, options)
 
 
 def by_microslip(case: Case, options: MarchOptions) -> March:
@@ -204,8 +212,10 @@ def tolerances(
 SHARES = (1.0, 1e-3)
 """absolute tolerance, of a state of order one, over the relative one"""
 STEPS = tuple((1e-4 / 2.0**halvings,) for halvings in range(9))
+TOLERANCES = tuple((10.0**-power,) for power in np.arange(1.5, 8.5, 0.5))
 METHODS = {
     "microslip Newmark": Method(by_newmark, STEPS),
+    "microslip fast": Method(by_fast, TOLERANCES),
     "scipy Radau": Method(
         functools.partial(by_scipy, method="Radau"),
         tolerances(1e-2, 1e-6, each_decade=1),

@@ -6,14 +6,13 @@ import functools
 import hashlib
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numba
 from numba.core import config
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from typing import Any
 
 Function = TypeVar("Function", bound="Callable[..., Any]")
 
@@ -44,7 +43,8 @@ def _compiled(function: Function, *, counted: bool) -> Function:
     options = config.__dict__
     if options["DISABLE_JIT"]:
         return function
-    dispatcher = numba.njit(error_model="numpy", nogil=True, _nrt=counted)(function)
+    choices: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": counted}
+    dispatcher = numba.njit(**choices)(function)
     folder = _cache_folder(Path(function.__code__.co_filename).parent)
     if folder is None:
         return cast("Function", dispatcher)

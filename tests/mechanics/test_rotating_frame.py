@@ -75,7 +75,7 @@ def gyroscopic(frame: RotatingFrame, *, coriolis: bool = True) -> Array:
         ]
     )
     weight = scipy.linalg.block_diag(np.eye(count), structure.mass)
-    found = np.imag(scipy.linalg.eigvals(system, weight))
+    found: Array = np.imag(scipy.linalg.eigvals(system, weight))
     return np.sort(found[found > 0.0])
 
 

@@ -1,0 +1,1 @@
+"""Damping of a structure from few numbers."""

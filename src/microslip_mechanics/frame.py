@@ -79,7 +79,7 @@ class Frame:
         free = self.free()
         names = tuple(f"{n.name}.{motion}" for n in self.nodes for motion in n.free)
         mass, damping, stiffness = (
-            matrix[np.ix_(free, free)] for matrix in self._matrices()
+            matrix[np.ix_(free, free)] for matrix in self.matrices()
         )
         return Structure(mass, damping, stiffness, names)
 
@@ -123,7 +123,7 @@ class Frame:
             for motion in node.free
         ]
 
-    def _matrices(self) -> tuple[Array, Array, Array]:
+    def matrices(self) -> tuple[Array, Array, Array]:
         """Return M, C, K over all six motions of all nodes."""
         size = 6 * len(self.nodes)
         mass, damping, stiffness = (np.zeros((size, size)) for _ in range(3))

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.sparse.linalg import aslinearoperator
 
 from microslip_mechanics.arrays import Matrix
-from microslip_mechanics.damping.rayleigh import Rayleigh
 from microslip_mechanics.natural_modes import natural_modes
+from microslip_mechanics.rayleigh import Rayleigh
 from microslip_mechanics.structure import Structure
 
 

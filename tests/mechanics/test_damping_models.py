@@ -8,10 +8,10 @@ import pytest
 import scipy.linalg
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.damping.hysteretic import Hysteretic
-from microslip_mechanics.damping.modal import ModalDamping
-from microslip_mechanics.damping.rayleigh import Rayleigh
+from microslip_mechanics.hysteretic import Hysteretic
+from microslip_mechanics.modal_damping import ModalDamping
 from microslip_mechanics.natural_modes import natural_modes
+from microslip_mechanics.rayleigh import Rayleigh
 from microslip_mechanics.reduction import reduced
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array, Matrix
-from microslip_mechanics.damping.modal import ModalDamping
+from microslip_mechanics.modal_damping import ModalDamping
 from microslip_mechanics.structure import Structure
 
 

@@ -1,1 +1,0 @@
-"""Damping of a structure from few numbers."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.extended import extended_product
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structure import Structure
 from microslip_mechanics.stuck import StuckModes, StuckStructure, stuck_structure
@@ -177,10 +178,12 @@ def projected(
     names
         Of the coordinates.
     """
-    mass, damping, stiffness = (
+    mass, damping = (
         _symmetric(shapes.T @ (matrix @ shapes))
-        for matrix in (structure.mass, structure.damping, structure.stiffness)
+        for matrix in (structure.mass, structure.damping)
     )
+    forces = extended_product(structure.stiffness, shapes)
+    stiffness = _symmetric(shapes.T @ forces)
     stiffness[rank:, :rank] = stiffness[:rank, rank:] = 0.0
     return Structure(mass, damping, stiffness, names)
 

@@ -10,6 +10,7 @@ import scipy.sparse
 from scipy.sparse.linalg import LinearOperator, aslinearoperator, eigsh
 
 from microslip_mechanics.arrays import Array, Matrix
+from microslip_mechanics.extended import extended_product
 from microslip_mechanics.factors import Factors, factors, indefinite_factors
 from microslip_mechanics.structure import Structure
 
@@ -144,8 +145,10 @@ def stuck_structure(structure: Structure, selection: Array) -> StuckStructure:
         raise ValueError(
             "the structure can move freely while all contacts stick: clamp it somewhere"
         )
-    held = free.T @ (structure.stiffness @ direct)
-    static = direct - free @ found.solve(held)
+    static = direct
+    for _ in range(2):  # once more, for what rounding leaves
+        held = free.T @ extended_product(structure.stiffness, static)
+        static = static - free @ found.solve(held)
     return StuckStructure(static, free, mass, damping, stiffness, found)
 
 

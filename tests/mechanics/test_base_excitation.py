@@ -26,7 +26,9 @@ def clamped(root: tuple[str, ...] = ()) -> Frame:
     places = np.array([[0.0, 0, 0], [0.2, 0.1, 0.0], [0.3, 0.1, 0.2]])
     nodes = tuple(
         Node(name, place, free)
-        for name, place, free in zip("abc", places, (root, MOTIONS, MOTIONS))
+        for name, place, free in zip(
+            "abc", places, (root, MOTIONS, MOTIONS), strict=True
+        )
     )
     beams = (
         Beam("a", "b", SECTION, np.array([-0.1, 0.2, 0.0]), 40.0, 1e-5),
@@ -72,8 +74,8 @@ def test_ground_springs_and_damping_by_mass_move_with_the_ground() -> None:
 def test_a_mass_on_a_moving_support_has_the_textbook_transmissibility() -> None:
     mass, damping, stiffness, frequency = 2.0, 7.0, 300.0, 17.0
     structure = Structure(
-        *(np.array([[v]]) for v in (mass, damping, stiffness)), ("x",)
-    )  # type: ignore[arg-type,call-arg]
+        np.array([[mass]]), np.array([[damping]]), np.array([[stiffness]]), ("x",)
+    )
 
     load = base_excitation(structure, np.ones(1)).by_displacement(1.0, frequency)
 

@@ -15,7 +15,9 @@ def extended_product(matrix: Matrix, columns: Array) -> Array:
     cancel: by N⁴ among N elements along a beam. Where the platform has no longer
     numbers than float64, these are used.
     """
-    if not scipy.sparse.issparse(matrix):
-        return np.asarray(matrix @ columns)
-    long = scipy.sparse.csr_array(matrix, dtype=np.longdouble)
-    return np.asarray(long @ columns.astype(np.longdouble)).astype(float)
+    if scipy.sparse.issparse(matrix):
+        operator: Matrix = matrix
+        long = operator.tocsr().astype(np.longdouble)
+        summed = long @ columns.astype(np.longdouble)
+        return np.asarray(summed, dtype=float)
+    return np.asarray(matrix @ columns)

@@ -20,8 +20,8 @@ def read_matlab(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         If there is none, or the file is of another kind; files of version 7.3 are.
     """
     try:
-        with path.open("rb") as stream:
-            found = scipy.io.loadmat(stream)
+        with path.open("rb"):  # says why a file cannot be read
+            found = scipy.io.loadmat(str(path), appendmat=False)
     except NotImplementedError:
         raise MatrixFileError(
             path, "is of MATLAB's version 7.3: save it with save(file, vars, '-v7')"

@@ -46,6 +46,8 @@ class CondensedStructure:
     """modal coordinate per load, shape (poles, dofs)"""
     coupled: NDArray[np.int64]
     """poles that y excites"""
+    gyroscopic: bool = False
+    """whether S(s) differs from its transpose"""
 
     def restricted(
         self, kept: NDArray[np.int64], force: ComplexArray
@@ -74,6 +76,7 @@ class CondensedStructure:
             self.modes[:, used],
             self.participation[used],
             np.flatnonzero(reach[used] > 1e-10),
+            self.gyroscopic,
         )
 
     def dynamic_stiffness(
@@ -106,6 +109,7 @@ class CondensedStructure:
             self.inertial_back[:, self.coupled],
             variable,
             wanted,
+            self.gyroscopic,
         )
 
     def load(
@@ -150,6 +154,7 @@ def _stiffness(
     inertial_back: ComplexArray,
     variable: ComplexArray,
     wanted: NDArray[np.bool_],
+    gyroscopic: bool,
 ) -> tuple[ComplexArray, ComplexArray]:
     """Return S(s) and dS/ds of the coordinates wanted (theory, eqs. 15–16)."""
     orders, (rank, count) = variable.size, viscous.shape
@@ -166,7 +171,7 @@ def _stiffness(
                 slow, fast = viscous[b, p], inertial[b, p]
                 into[p] = (slow + s * fast) * s * pole[p]
                 turn[p] = (slow + 2.0 * s * fast) * pole[p] - into[p] * pole[p]
-            for a in range(b + 1):
+            for a in range(rank if gyroscopic else b + 1):
                 if not wanted[order, a]:
                     continue
                 total, slope = 0.0j, 0.0j
@@ -179,8 +184,9 @@ def _stiffness(
                     stiffness[a, b] + s * (damping[a, b] + s * mass[a, b]) - (s * total)
                 )
                 slope = damping[a, b] + 2.0 * s * mass[a, b] - slope
-                value[order, a, b] = value[order, b, a] = total
-                change[order, a, b] = change[order, b, a] = slope
+                value[order, a, b], change[order, a, b] = total, slope
+                if not gyroscopic:
+                    value[order, b, a], change[order, b, a] = total, slope
     return value, change
 
 
@@ -208,12 +214,13 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
         poles,
         forcing @ viscous,
         forcing @ inertial,
-        viscous.T @ shapes,
+        static.T @ structure.damping @ free @ shapes,
         inertial.T @ shapes,
         static,
         free @ shapes,
         forcing @ free.T,
         np.arange(poles.size),
+        structure.gyroscopic,
     )
 
 

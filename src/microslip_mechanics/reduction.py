@@ -92,9 +92,14 @@ def reduced(problem: Problem, highest: float) -> Reduction:
     Raises
     ------
     ValueError
-        If the structure can move freely while all contacts stick, or has too many
-        modes.
+        If the structure can move freely while all contacts stick, has too many modes,
+        or is gyroscopic.
     """
+    if problem.structure.gyroscopic:
+        raise ValueError(
+            "a sparse structure with Coriolis terms: reduce it first "
+            "(microslip_mechanics.reduced_structure.craig_bampton)"
+        )
     basis, selection = problem.interface.relative_motion()
     stuck = stuck_structure(problem.structure, selection)
     modes = stuck.modes(MARGIN * highest)
@@ -179,13 +184,16 @@ def projected(
         Of the coordinates.
     """
     mass, damping = (
-        _symmetric(shapes.T @ (matrix @ shapes))
-        for matrix in (structure.mass, structure.damping)
+        shapes.T @ (matrix @ shapes) for matrix in (structure.mass, structure.damping)
     )
+    if not structure.gyroscopic:
+        damping = _symmetric(damping)
     forces = extended_product(structure.stiffness, shapes)
     stiffness = _symmetric(shapes.T @ forces)
     stiffness[rank:, :rank] = stiffness[:rank, rank:] = 0.0
-    return Structure(mass, damping, stiffness, names)
+    return Structure(
+        _symmetric(mass), damping, stiffness, names, structure.gyroscopic
+    )
 
 
 def _symmetric(matrix: Array) -> Array:

@@ -27,15 +27,16 @@ class RotatingFrame:
     rotation: Rotation
 
     def structure(self) -> Structure:
-        """Return the structure with stiffening and softening, without Coriolis forces.
+        """Return the structure with stiffening, softening and Coriolis terms.
 
         The tension of the beams is that under the centrifugal load where contacts
-        carry nothing. What Coriolis forces change is to be seen from
-        :meth:`coriolis`; they vanish for motions along the axis of rotation.
+        carry nothing; static bending adds nothing to it.
         """
-        still = self.frame.structure()
-        stiffness = still.stiffness + self._part().softening + self._stiffening(still)
-        return replace(still, stiffness=stiffness)
+        still, part = self.frame.structure(), self._part()
+        stiffness = still.stiffness + part.softening + self._stiffening(still)
+        turning = bool(part.coriolis.any())
+        damping = still.damping + part.coriolis
+        return replace(still, damping=damping, stiffness=stiffness, gyroscopic=turning)
 
     def load(self) -> Array:
         """Return the centrifugal load on the free motions [N, N m], shape (dofs,)."""

@@ -25,11 +25,13 @@ class Structure:
     mass: Matrix
     """M [kg], symmetric and positive definite"""
     damping: Matrix
-    """C [N s/m], symmetric"""
+    """C [N s/m], symmetric; and Coriolis terms, skew-symmetric, if it is gyroscopic"""
     stiffness: Matrix
     """K [N/m], symmetric; may be singular where contact alone holds a body"""
     names: tuple[str, ...]
     """one name for each degree of freedom"""
+    gyroscopic: bool = False
+    """whether the damping has a skew-symmetric part"""
 
     def __post_init__(self) -> None:
         """Check shapes, finiteness, symmetry and that no motion is massless."""
@@ -46,6 +48,8 @@ class Structure:
                 matrix = matrix.tocsc()
             if not np.all(np.isfinite(matrix.data if self.sparse else matrix)):
                 raise ValueError(f"{name} holds a value that is not finite")
+            if self.gyroscopic and name == "damping":
+                continue
             if abs(matrix - matrix.T).max() > 1e-9 * abs(matrix).max():
                 raise ValueError(
                     f"{name} is not symmetric: only symmetric is supported"

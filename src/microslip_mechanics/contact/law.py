@@ -106,6 +106,11 @@ def contact_table(laws: Sequence[PointLaw]) -> ContactPoints:
     )
 
 
+def repeated_points(points: ContactPoints, times: int) -> ContactPoints:
+    """Return the table with all its points so many times, one after the other."""
+    return ContactPoints(*(np.tile(column, times) for column in tuple(points)))
+
+
 @kernel
 def contact_force(
     points: ContactPoints,

@@ -226,10 +226,19 @@ def _stiffness(
                     stiffness[a, b] + s * (damping[a, b] + s * mass[a, b]) - (s * total)
                 )
                 slope = damping[a, b] + 2.0 * s * mass[a, b] - slope
-                value[order, a, b], change[order, a, b] = total, slope
-                if not gyroscopic:
-                    value[order, b, a], change[order, b, a] = total, slope
+                _enter(value[order], a, b, total, gyroscopic)
+                _enter(change[order], a, b, slope, gyroscopic)
     return value, change
+
+
+@kernel
+def _enter(
+    matrix: ComplexArray, row: int, column: int, value: complex, gyroscopic: bool
+) -> None:
+    """Write an entry; and its mirror image unless that is an entry of its own."""
+    matrix[row, column] = value
+    if not gyroscopic:
+        matrix[column, row] = value
 
 
 def condense(problem: Problem, selection: Array) -> CondensedStructure:

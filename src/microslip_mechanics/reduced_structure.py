@@ -126,9 +126,7 @@ def _sparse(structure: Structure) -> Structure:
     mass, damping, stiffness = (
         scipy.sparse.csc_array(getattr(structure, name)) for name in MATRICES
     )
-    return Structure(
-        mass, damping, stiffness, structure.names, structure.gyroscopic
-    )
+    return Structure(mass, damping, stiffness, structure.names, structure.gyroscopic)
 
 
 def _condensed(structure: Structure, seen: Array, frequency: float) -> Array:

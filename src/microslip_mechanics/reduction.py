@@ -191,9 +191,7 @@ def projected(
     forces = extended_product(structure.stiffness, shapes)
     stiffness = _symmetric(shapes.T @ forces)
     stiffness[rank:, :rank] = stiffness[:rank, rank:] = 0.0
-    return Structure(
-        _symmetric(mass), damping, stiffness, names, structure.gyroscopic
-    )
+    return Structure(_symmetric(mass), damping, stiffness, names, structure.gyroscopic)
 
 
 def _symmetric(matrix: Array) -> Array:

@@ -1,19 +1,27 @@
 """Craig–Bampton and modal reduction: limits, convergence, and the measured error."""
 
+import dataclasses
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 import scipy.linalg
+import scipy.sparse
 from numpy.typing import NDArray
 
+from hbm.poles import poles
+from microslip_mechanics.beam import RectangularSection
+from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node
 from microslip_mechanics.reduced_structure import (
     ReducedStructure,
     craig_bampton,
     modal_truncation,
 )
+from microslip_mechanics.reduction import reduced
+from microslip_mechanics.rotating_frame import RotatingFrame
+from microslip_mechanics.rotation import Rotation
 from microslip_mechanics.selection import selected
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structure import MATRICES, Structure
 from small_problems import cantilever
 from sparse_problems import dense, net
 
@@ -136,3 +144,50 @@ def test_an_error_at_a_natural_frequency_is_refused() -> None:
     assert exact == pytest.approx(np.sqrt(4e6 / 50.0))
     with pytest.raises(ValueError, match="is a natural frequency of the structure"):
         found.error(exact)
+
+
+def rotating_shaft() -> Structure:
+    """Return a beam in axes that turn about it, with Coriolis terms."""
+    square = RectangularSection(0.01, 0.01, 2.1e11, 0.3, 7800.0)
+    nodes = tuple(
+        Node(f"{k}", np.array([0.1 * k, 0.0, 0.0]), MOTIONS if k else ())
+        for k in range(6)
+    )
+    beams = tuple(
+        Beam(f"{k}", f"{k + 1}", square, np.array([0.0, 0.0, 1.0]), 3.0)
+        for k in range(5)
+    )
+    spin = Rotation(40.0, np.array([1.0, 0.0, 0.0]), np.zeros(3))
+    return RotatingFrame(Frame(nodes, beams), spin).structure()
+
+
+def test_coriolis_terms_stay_in_a_reduced_structure() -> None:
+    structure = rotating_shaft()
+    interface = selected(structure.names, ["5"])
+
+    found = craig_bampton(structure, interface, 5e4).structure
+
+    assert found.gyroscopic
+    assert np.abs(found.damping - found.damping.T).max() > 1.0
+    exact, kept = (
+        np.sort(np.abs(poles(each).values))[:6] for each in (structure, found)
+    )
+    np.testing.assert_allclose(kept, exact, rtol=1e-6)
+
+
+def test_a_sparse_structure_with_coriolis_terms_is_to_be_reduced_first() -> None:
+    shaft, problem = rotating_shaft(), cantilever(elements=5)
+    mass, damping, stiffness = (
+        scipy.sparse.csc_array(getattr(shaft, name)) for name in MATRICES
+    )
+    turning = Structure(mass, damping, stiffness, shaft.names, gyroscopic=True)
+
+    with pytest.raises(ValueError, match="Coriolis terms: reduce it first"):
+        reduced(dataclasses.replace(problem, structure=turning), 1e3)
+
+
+def test_a_skew_part_must_be_meant() -> None:
+    shaft = rotating_shaft()
+
+    with pytest.raises(ValueError, match="^damping is not symmetric"):
+        Structure(shaft.mass, shaft.damping, shaft.stiffness, shaft.names)

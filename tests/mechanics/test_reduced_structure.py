@@ -165,14 +165,14 @@ def test_coriolis_terms_stay_in_a_reduced_structure() -> None:
     structure = rotating_shaft()
     interface = selected(structure.names, ["5"])
 
-    found = craig_bampton(structure, interface, 5e4).structure
+    found = craig_bampton(structure, interface, 1e9).structure
 
     assert found.gyroscopic
     assert np.abs(found.damping - found.damping.T).max() > 1.0
     exact, kept = (
         np.sort(np.abs(poles(each).values))[:6] for each in (structure, found)
     )
-    np.testing.assert_allclose(kept, exact, rtol=1e-6)
+    np.testing.assert_allclose(kept, exact, rtol=1e-8)
 
 
 def test_a_sparse_structure_with_coriolis_terms_is_to_be_reduced_first() -> None:
@@ -189,5 +189,5 @@ def test_a_sparse_structure_with_coriolis_terms_is_to_be_reduced_first() -> None
 def test_a_skew_part_must_be_meant() -> None:
     shaft = rotating_shaft()
 
-    with pytest.raises(ValueError, match="^damping is not symmetric"):
+    with pytest.raises(ValueError, match=r"^damping is not symmetric"):
         Structure(shaft.mass, shaft.damping, shaft.stiffness, shaft.names)

@@ -1,4 +1,4 @@
-"""A rigid body in rotating axes."""
+"""A rigid body in rotating axes (theory §9)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A frame that rotates: centrifugal load, stiffening, softening, Coriolis matrix."""
+"""A frame that rotates: load, stiffening, softening, Coriolis (theory §9)."""
 
 from __future__ import annotations
 

@@ -346,7 +346,7 @@ def test_objects_in_an_archive_are_not_unpickled(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arrays", "message"),
     [
-        ({"A": MASS, "B": MASS}, "holds no variable K but A, B: write a.npz:NAME"),
+        ({"A": MASS, "B": MASS}, "holds no matrix K but A, B: write a.npz:NAME"),
         ({"K": MASS[0]}, "K has 1 axes of float64: give a matrix of real numbers"),
         ({"K": 1j * MASS}, "K has 2 axes of complex128: give a matrix of real numbers"),
         (

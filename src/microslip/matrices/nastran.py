@@ -12,6 +12,7 @@ import scipy.sparse
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix, dof_name
 from microslip.matrices.text_table import text_of
+from microslip.matrices.variable import chosen
 
 SYMMETRIC, REAL = (1, 6), (1, 2)
 """values of IFO for square and symmetric matrices, of TIN for real ones"""
@@ -30,15 +31,7 @@ def read_nastran(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         If there is none, it is not real and square, or a line is malformed.
     """
     lines = text_of(path).splitlines()
-    there = _headers(path, lines)
-    name = next((each for each in wanted if each in there), None)
-    if name is None:
-        listed = ", ".join(there) or "nothing"
-        raise MatrixFileError(
-            path,
-            f"holds no matrix {' or '.join(wanted)} but {listed}: "
-            f"write {path.name}:NAME",
-        )
+    name = chosen(path, _headers(path, lines), wanted)
     entries = list(_entries(path, lines, name))
     if not entries:
         raise MatrixFileError(

@@ -1,4 +1,4 @@
-"""A beam element in rotating axes, and the stiffness that its tension gives it (theory §9)."""
+"""A beam element in rotating axes; the stiffness by its tension (theory §9)."""
 
 from __future__ import annotations
 

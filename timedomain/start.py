@@ -10,6 +10,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_energy, contact_force
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.time_history import Checkpoint
 from timedomain.newmark import State
 from timedomain.record import FLOWS, Meters
 
@@ -64,6 +65,42 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
         moved,
         moving,
     )
+
+
+def checkpoint(state: State, meters: Meters, steps: int, stored: float) -> Checkpoint:
+    """Return where a march stands after so many steps.
+
+    ``stored`` is the energy [J] that was stored at its start.
+    """
+    kept = [array.ravel() for array in _kept(state, meters)]
+    memory = np.concatenate([[steps, stored], *kept])
+    return Checkpoint(state.displacement.copy(), state.velocity.copy(), memory)
+
+
+def restore(state: State, meters: Meters, end: Checkpoint) -> tuple[int, float]:
+    """Put state and meters to where a march stood; return its steps and ``stored``.
+
+    Raises
+    ------
+    ValueError
+        If that march had other degrees of freedom or contacts.
+    """
+    arrays = (state.displacement, state.velocity, *_kept(state, meters))
+    numbers = np.concatenate([end.displacement, end.velocity, end.memory[2:]])
+    if numbers.size != sum(array.size for array in arrays):
+        raise ValueError(
+            f"a march cannot go on from a state of {numbers.size} numbers: "
+            "it must be one of the same problem"
+        )
+    cuts = np.cumsum([array.size for array in arrays])[:-1]
+    for array, values in zip(arrays, np.split(numbers, cuts), strict=True):
+        array[...] = values.reshape(array.shape)
+    return int(end.memory[0]), float(end.memory[1])
+
+
+def _kept(state: State, meters: Meters) -> tuple[Array, ...]:
+    """Return what a step takes over from the one before, besides the motion."""
+    return (*state[2:], meters.powers, meters.energies)
 
 
 def meters(problem: Problem, shapes: Array) -> Meters:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
+from microslip.force_file import Force, read_force
 from microslip.quantity import Quantity, SceneError, quantity
 from microslip.scenes.two_blades.tables import TwoBlades
 
@@ -28,6 +29,14 @@ class Sweep:
     duration: float = quantity("s", positive=True)
     lowest: float = quantity("Hz", positive=True)
     highest: float = quantity("Hz", positive=True)
+    kind: typing.Literal["exponential", "linear", "stepped"] = quantity(
+        default="exponential"
+    )
+    direction: typing.Literal["up", "down", "up-down"] = quantity(default="up")
+    levels: tuple[float, ...] = quantity(positive=True, highest=1e6, default=(1.0,))
+    steps: int | None = quantity(lowest=2, highest=10**5, optional=True)
+    periods: int | None = quantity(lowest=1, highest=10**7, optional=True)
+    force_file: str | None = quantity(optional=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +68,8 @@ class Scene:
     march: March
     text: str
     """the TOML that made it, overrides included"""
+    force: Force | None = None
+    """that the sweep's ``force_file`` holds"""
 
 
 def built_in_text(name: str) -> str:
@@ -94,7 +105,16 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
     for override in overrides:
         _apply(document, override)
         text += f"\n# --set {override}"
-    return _scene(source, document, text)
+    scene = _scene(source, document, text)
+    return scene if scene.sweep.force_file is None else _with_force(path, scene)
+
+
+def _with_force(path: Path, scene: Scene) -> Scene:
+    """Return a scene with the force of its file, sought beside the scene file."""
+    folder = path.parent if path.is_file() else Path()
+    force = read_force(folder / str(scene.sweep.force_file))
+    text = f"{scene.text}\n# force file {force.digest}"
+    return dataclasses.replace(scene, force=force, text=text)
 
 
 def _read(path: Path) -> str:
@@ -173,7 +193,7 @@ def _table(
     for name, field in fields.items():
         if name in values:
             made[name] = _value(source, place, field, hints[name], values[name])
-        elif not _optional(hints[name]):
+        elif field.default is dataclasses.MISSING:
             what = (
                 f"{place}{name}" if "quantity" in field.metadata else f"table [{name}]"
             )
@@ -205,12 +225,23 @@ def _scalar(
     hint: typing.Any,  # noqa: ANN401  (a type annotation)
     value: object,
 ) -> object:
-    """Return a choice, a switch, a whole number or a quantity in SI units."""
+    """Return a choice, a list, a text or a number."""
     if typing.get_origin(hint) is typing.Literal:
         choices = typing.get_args(hint)
         if value not in choices:
             raise ValueError(f"is unknown: give one of {', '.join(choices)}")
         return value
+    if typing.get_origin(hint) is tuple:
+        return _several(kind, value)
+    if hint is str:
+        if not isinstance(value, str) or not value:
+            raise ValueError("is not a text: give one in quotes")
+        return value
+    return _number(kind, hint, value)
+
+
+def _number(kind: Quantity, hint: type, value: object) -> object:
+    """Return a switch, a whole number or a quantity in SI units."""
     if hint is bool:
         if not isinstance(value, bool):
             raise ValueError("is not a switch: give true or false")
@@ -221,6 +252,14 @@ def _scalar(
             raise ValueError("is not a whole number: give one")
         return int(number)
     return number
+
+
+def _several(kind: Quantity, value: object) -> tuple[float, ...]:
+    """Return one number or a list of them as a tuple."""
+    several = value if isinstance(value, list) else [value]
+    if not several:
+        raise ValueError("is empty: give at least one number")
+    return tuple(kind.read(each) for each in several)
 
 
 def _shown(value: object) -> str:
@@ -257,6 +296,7 @@ def _check(source: str, scene: Scene) -> None:
                 f"{source}: [{name}] lowest = {table.lowest:g} Hz, highest = "
                 f"{table.highest:g} Hz: give lowest < highest"
             )
+    _check_kind(source, sweep)
     if curve.samples is not None and curve.harmonics is None:
         raise SceneError(
             f"{source}: [curve] samples = {curve.samples}: they follow from the "
@@ -273,4 +313,25 @@ def _check(source: str, scene: Scene) -> None:
             f"{source}: [contact] angle_excited + angle_follower = "
             f"{contact.angle_excited + contact.angle_follower:g} rad: the faces must "
             "form a wedge that the preload pushes into: give a positive sum"
+        )
+
+
+def _check_kind(source: str, sweep: Sweep) -> None:
+    """Check that a sweep has the keys of its kind, and those alone."""
+    steps = {"steps": sweep.steps, "periods": sweep.periods}
+    for name, value in steps.items():
+        if sweep.kind == "stepped" and value is None:
+            raise SceneError(
+                f'{source}: [sweep] {name} is missing: kind = "stepped" needs it'
+            )
+        if sweep.kind != "stepped" and value is not None:
+            raise SceneError(
+                f"{source}: [sweep] {name} = {value}: only for "
+                'kind = "stepped": leave it out'
+            )
+    plain = (sweep.kind, sweep.direction, sweep.levels) == ("exponential", "up", (1.0,))
+    if sweep.force_file is not None and not plain:
+        raise SceneError(
+            f'{source}: [sweep] force_file = "{sweep.force_file}": the force takes the '
+            "place of the sine: leave kind, direction and levels out"
         )

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis, Transform, derivative
+from hbm.memory import FrictionMemory
 from hbm.sampling import Forces, hat, sample
 from hbm.symmetry import Symmetry, symmetry
 from microslip_mechanics.arrays import Array
@@ -18,6 +19,7 @@ from microslip_mechanics.contact.law import (
     contact_power,
     tangent_pattern,
 )
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.jit import kernel
 
 
@@ -71,7 +73,9 @@ class AlternatingFrequencyTime:
         self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
         self._offset = np.zeros(rows) if offset is None else offset
         self._entries = _entries(points)
-        self._symmetry = symmetry(basis, self._entries, odd)
+        recalls = bool(remembers(points).any())
+        self._memory = FrictionMemory(basis, fourier) if recalls else None
+        self._symmetry = symmetry(basis, self._entries, None if recalls else odd)
         samples = fourier.samples
         self._seen = samples // 2 + 1 if self._symmetry.signs.size else samples
         self._displacement = Transform(rank, samples)
@@ -94,8 +98,12 @@ class AlternatingFrequencyTime:
         self, points: ContactPoints, offset: Array
     ) -> AlternatingFrequencyTime:
         """Return the same for other values of the contacts; both share buffers."""
-        kinds = (points.friction, points.constant_load)
-        known = (self._points.friction, self._points.constant_load)
+        kinds = (points.normal, points.friction, points.constant_load)
+        known = (
+            self._points.normal,
+            self._points.friction,
+            self._points.constant_load,
+        )
         if not all(map(np.array_equal, kinds, known)):
             raise ValueError("the contacts are of another kind: plan for them anew")
         other = copy.copy(self)
@@ -135,6 +143,14 @@ class AlternatingFrequencyTime:
             self._extra,
             self.tangents,
         )
+        if self._memory is not None:
+            self._memory.add(
+                self._points,
+                self._moved,
+                frequency,
+                self._regular.force,
+                self._regular.change,
+            )
         force = self._analysed(self._regular.force)
         change = self._analysed(self._regular.change)
         if eventful:
@@ -161,6 +177,15 @@ class AlternatingFrequencyTime:
         rank = self._basis.shape[1]
         mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, len(kept))
         return mixed[0], mixed[1]
+
+    def remembered(self, frequency: float) -> Array | None:
+        """Return ∂force/∂y of the last call by what the contacts remember.
+
+        Shape ``(2H + 1, rank, 2H + 1, rank)``; None if no contact remembers.
+        """
+        if self._memory is None:
+            return None
+        return self._memory.jacobian(self._points, self._moved, frequency)
 
     @property
     def samples(self) -> int:

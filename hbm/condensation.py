@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import scipy.linalg
@@ -11,6 +12,43 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
+
+
+class Condensed(Protocol):
+    """A structure as the relative coordinates y of its contacts see it."""
+
+    @property
+    def stiffness(self) -> Array:
+        """Static stiffness of mean motions [N/m], shape (rank, rank)."""
+
+    @property
+    def mass(self) -> Array:
+        """Mass that goes with it [kg], shape (rank, rank)."""
+
+    @property
+    def static(self) -> Array:
+        """T: static motion from y, shape (dofs, rank)."""
+
+    def restricted(self, kept: NDArray[np.int64], force: ComplexArray) -> Condensed:
+        """Return the structure seen by some coordinates, the others held still."""
+
+    def possible(self, orders: int) -> NDArray[np.bool_]:
+        """Return which coordinates can move in orders 0, 1, …, (orders, rank)."""
+
+    def dynamic_stiffness(
+        self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
+    ) -> tuple[ComplexArray, ComplexArray]:
+        """Return S(s) and dS/ds, each (orders, rank, rank)."""
+
+    def load(
+        self, variable: ComplexArray, force: ComplexArray
+    ) -> tuple[ComplexArray, ComplexArray]:
+        """Return the load that reaches y and its derivative by s, (orders, rank)."""
+
+    def motion(
+        self, variable: ComplexArray, relative: ComplexArray, force: ComplexArray
+    ) -> ComplexArray:
+        """Return u from y and the loads, shape (orders, dofs)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +84,8 @@ class CondensedStructure:
     """modal coordinate per load, shape (poles, dofs)"""
     coupled: NDArray[np.int64]
     """poles that y excites"""
+    gyroscopic: bool = False
+    """whether S(s) differs from its transpose"""
 
     def restricted(
         self, kept: NDArray[np.int64], force: ComplexArray
@@ -74,7 +114,12 @@ class CondensedStructure:
             self.modes[:, used],
             self.participation[used],
             np.flatnonzero(reach[used] > 1e-10),
+            self.gyroscopic,
         )
+
+    def possible(self, orders: int) -> NDArray[np.bool_]:
+        """Return which coordinates can move in orders 0, 1, …: all, (orders, rank)."""
+        return np.ones((orders, len(self.stiffness)), dtype=bool)
 
     def dynamic_stiffness(
         self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
@@ -106,6 +151,7 @@ class CondensedStructure:
             self.inertial_back[:, self.coupled],
             variable,
             wanted,
+            self.gyroscopic,
         )
 
     def load(
@@ -150,6 +196,7 @@ def _stiffness(
     inertial_back: ComplexArray,
     variable: ComplexArray,
     wanted: NDArray[np.bool_],
+    gyroscopic: bool,
 ) -> tuple[ComplexArray, ComplexArray]:
     """Return S(s) and dS/ds of the coordinates wanted (theory, eqs. 15–16)."""
     orders, (rank, count) = variable.size, viscous.shape
@@ -166,7 +213,7 @@ def _stiffness(
                 slow, fast = viscous[b, p], inertial[b, p]
                 into[p] = (slow + s * fast) * s * pole[p]
                 turn[p] = (slow + 2.0 * s * fast) * pole[p] - into[p] * pole[p]
-            for a in range(b + 1):
+            for a in range(rank if gyroscopic else b + 1):
                 if not wanted[order, a]:
                     continue
                 total, slope = 0.0j, 0.0j
@@ -179,9 +226,19 @@ def _stiffness(
                     stiffness[a, b] + s * (damping[a, b] + s * mass[a, b]) - (s * total)
                 )
                 slope = damping[a, b] + 2.0 * s * mass[a, b] - slope
-                value[order, a, b] = value[order, b, a] = total
-                change[order, a, b] = change[order, b, a] = slope
+                _enter(value[order], a, b, total, gyroscopic)
+                _enter(change[order], a, b, slope, gyroscopic)
     return value, change
+
+
+@kernel
+def _enter(
+    matrix: ComplexArray, row: int, column: int, value: complex, gyroscopic: bool
+) -> None:
+    """Write an entry; and its mirror image unless that is an entry of its own."""
+    matrix[row, column] = value
+    if not gyroscopic:
+        matrix[column, row] = value
 
 
 def condense(problem: Problem, selection: Array) -> CondensedStructure:
@@ -208,12 +265,13 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
         poles,
         forcing @ viscous,
         forcing @ inertial,
-        viscous.T @ shapes,
+        static.T @ structure.damping @ free @ shapes,
         inertial.T @ shapes,
         static,
         free @ shapes,
         forcing @ free.T,
         np.arange(poles.size),
+        structure.gyroscopic,
     )
 
 

@@ -13,8 +13,7 @@ import numpy as np
 from hbm.aft import AlternatingFrequencyTime
 from hbm.symmetry import mirror
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.hunt_crossley import normal_force
-from microslip_mechanics.contact.law import FRICTIONLESS, ContactPoints, normal_law
+from microslip_mechanics.contact.law import ContactPoints, edge, normal_response, rubs
 from microslip_mechanics.jit import kernel
 
 HALVINGS = 40
@@ -86,7 +85,7 @@ def events(points: ContactPoints, path: Path) -> Array:
         for cell in range(cells):
             after = _regime(points, point, path, cell + 1.0, work)
             turn = 0.0
-            if points.friction[point] != FRICTIONLESS:
+            if rubs(points, point):
                 turn = _slowest(path, point, cell, work)
             left = float(cell)
             if turn > 0.0:
@@ -115,11 +114,11 @@ def _regime(
     moved, moving = work
     place(path, point, at, moved, moving)
     regime = 0
-    if moved[0] > 0.0:
-        force, _, _ = normal_force(normal_law(points, point), moved[0], moving[0])
+    if moved[0] > edge(points, point):
+        force, _, _ = normal_response(points, point, moved[0], moving[0])
         regime = TOUCHES + (PUSHES if force > 0.0 else 0)
-    rubs = regime >= PUSHES or points.constant_load[point]
-    if points.friction[point] != FRICTIONLESS and rubs:
+    loaded = regime >= PUSHES or points.constant_load[point]
+    if loaded and rubs(points, point):
         square = moving[1] * moving[1] + moving[2] * moving[2]
         if square > points.threshold[point] * points.threshold[point]:
             regime += SLIDES

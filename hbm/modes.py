@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from hbm.active import moving, symmetric
 from hbm.adaptive import AdaptiveBalance
+from hbm.condensation import condense
 from hbm.continuation import ContinuationError
 from hbm.fourier import FourierBasis, derivative
 from hbm.free_motion import free_motion
@@ -185,7 +186,7 @@ def _resolution(
     return ModalResolution(
         loaded.restricted(kept, odd),
         active[:, kept],
-        free_motion(whole.condensed, kept, mass, linear.pole, size),
+        free_motion(condense(problem, whole.selection), kept, mass, linear.pole, size),
         Reference(linear.pole, row / size, linear.frequency**2 * size),
         linear,
     )

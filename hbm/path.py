@@ -64,7 +64,10 @@ class AlongFrequency:
 
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
-        return extended(self.active, harmonics)
+        possible = self.problem.condensed.possible(harmonics + 1)
+        rows = np.vstack([possible[:1], possible[1:].repeat(2, axis=0)])
+        active: NDArray[np.bool_] = extended(self.active, harmonics) & rows
+        return active
 
     def balance(self, fourier: FourierBasis) -> HarmonicBalance:
         """Return harmonic balance at one resolution."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.condensation import CondensedStructure, condense
+from hbm.condensation import Condensed, condense
 from hbm.fourier import FourierBasis
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import ContactPoints
@@ -27,7 +27,7 @@ class RelativeProblem:
     """map from the structure to y, shape (rank, dofs)"""
     offset: Array
     """constant displacement of the points besides y [m], shape (3 points,)"""
-    condensed: CondensedStructure
+    condensed: Condensed
     force: ComplexArray
     """preload and −i drive: the loads of orders 0 and 1 [N], shape (2, dofs)"""
     gauge: Array
@@ -88,6 +88,7 @@ def relative_problem(
 
     ``known`` is one of the same structure and contact geometry, if there is one.
     """
+    condensed: Condensed
     if known is None:
         basis, selection = problem.interface.relative_motion()
         condensed = condense(problem, selection)
@@ -106,10 +107,10 @@ def relative_problem(
         selection @ rest.displacement,
         np.zeros(problem.structure.dofs),
     )
-    return replace(made, gauge=_free_positions(made))
+    return replace(made, gauge=held_mean_positions(made))
 
 
-def _free_positions(problem: RelativeProblem) -> Array:
+def held_mean_positions(problem: RelativeProblem) -> Array:
     """Return a stiffness along mean motions that nothing holds, else zero.
 
     Without a rope, say, the mean position of the friction element is arbitrary;

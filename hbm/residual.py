@@ -112,6 +112,11 @@ class HarmonicBalance:
             frequency,
             self._terms,
         )
+        remembered = self.contact.remembered(frequency)
+        if remembered is not None:
+            places = self._terms.unknowns
+            size = self.fourier.coefficients * self.rank
+            jacobian += remembered.reshape(size, size)[np.ix_(places, places)]
         slope = (to_real(change) + by_frequency).ravel()[self._terms.unknowns]
         return jacobian, slope
 

@@ -17,7 +17,7 @@ from hbm.refinement import Samples, Work, refine
 from hbm.symmetry import Symmetry, mirror
 from hbm.transitions import EVENTS, faded, locate, passes
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import FRICTIONLESS, ContactPoints, contact_force
+from microslip_mechanics.contact.law import ContactPoints, contact_force, edge, rubs
 from microslip_mechanics.jit import kernel
 
 
@@ -86,11 +86,19 @@ def sample(
     for point in range(points.load.size):
         row, threshold = 3 * point, points.threshold[point]
         wide = faded(points, point)
-        rubs = points.friction[point] != FRICTIONLESS
+        touch, slides = edge(points, point), rubs(points, point)
         for place in range(seen):
             after = place + 1 if place + 1 < displacement.shape[1] else 0
             if not passes(
-                displacement, velocity, row, place, after, rubs, threshold, wide
+                displacement,
+                velocity,
+                row,
+                place,
+                after,
+                touch,
+                slides,
+                threshold,
+                wide,
             ):
                 continue
             found = locate(points, point, displacement, velocity, place, after, events)

@@ -11,9 +11,10 @@ import math
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
-    FRICTIONLESS,
     GENERAL_KINETIC,
     ContactPoints,
+    edge,
+    rubs,
 )
 from microslip_mechanics.jit import kernel
 
@@ -39,7 +40,8 @@ def passes(
     row: int,
     place: int,
     after: int,
-    rubs: bool,
+    touch: float,
+    slides: bool,
     threshold: float,
     wide: float,
 ) -> bool:
@@ -47,9 +49,9 @@ def passes(
 
     It keeps the many cells without events cheap; :func:`locate` is for the others.
     """
-    if (displacement[row, place] > 0.0) != (displacement[row, after] > 0.0):
+    if (displacement[row, place] > touch) != (displacement[row, after] > touch):
         return True
-    if not rubs:
+    if not slides:
         return False
     one, two = velocity[row + 1, place], velocity[row + 2, place]
     next_one, next_two = velocity[row + 1, after], velocity[row + 2, after]
@@ -106,10 +108,11 @@ def locate(
         is written where there are none.
     """
     row = 3 * point
-    before, behind = displacement[row, place], displacement[row, after]
+    touch = edge(points, point)
+    before, behind = displacement[row, place] - touch, displacement[row, after] - touch
     pressed = before > 0.0 or behind > 0.0 or points.constant_load[point]
     found = 0
-    if pressed and points.friction[point] != FRICTIONLESS:
+    if pressed and rubs(points, point):
         one, two = velocity[row + 1, place], velocity[row + 2, place]
         by_one, by_two = velocity[row + 1, after] - one, velocity[row + 2, after] - two
         threshold, wide = points.threshold[point], faded(points, point)

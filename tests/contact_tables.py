@@ -11,6 +11,7 @@ from microslip_mechanics.contact.law import (
     COULOMB,
     FRICTIONLESS,
     GENERAL_KINETIC,
+    ONE_SIDED,
     ContactPoints,
 )
 
@@ -25,7 +26,12 @@ Motion = tuple[Array, Array]
 Region = Callable[[ContactPoints, np.random.Generator], Motion]
 """draws one motion for each point of a table"""
 
-TYPES = {"clamped": bool, "friction": np.int64, "constant_load": bool}
+TYPES = {
+    "normal": np.int64,
+    "clamped": bool,
+    "friction": np.int64,
+    "constant_load": bool,
+}
 
 
 def contact_points(count: int = 1, **columns: ArrayLike) -> ContactPoints:
@@ -35,6 +41,8 @@ def contact_points(count: int = 1, **columns: ArrayLike) -> ContactPoints:
     law has something to do: µs > µd, viscous friction, normal damping.
     """
     values: dict[str, ArrayLike] = {
+        "normal": ONE_SIDED,
+        "gap": 0.0,
         "stiffness": 3.0,
         "exponent": 2.0,
         "damping": 0.8,
@@ -49,6 +57,7 @@ def contact_points(count: int = 1, **columns: ArrayLike) -> ContactPoints:
         "threshold": 0.1,
         "constant_load": False,
         "load": 1.7,
+        "tangential": 5.0,
     }
     values |= columns
     return ContactPoints(

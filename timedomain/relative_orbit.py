@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import FRICTIONLESS, ContactPoints, contact_force
+from microslip_mechanics.contact.law import ContactPoints, contact_force, edge, rubs
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -167,9 +167,9 @@ def _regimes(
         for point in range(displacement.shape[1]):
             gap, slip = displacement[phase, point], velocity[phase, point]
             contact_force(points, point, gap, slip, force, stiff, viscous)
-            touches, pushes = gap[0] > 0.0, force[0] > 0.0
-            rubs = points.friction[point] != FRICTIONLESS and (
-                points.constant_load[point] or pushes
-            )
-            slides = rubs and np.hypot(slip[1], slip[2]) > points.threshold[point]
+            touches, pushes = gap[0] > edge(points, point), force[0] > 0.0
+            loaded = points.constant_load[point] or pushes
+            slides = (loaded and rubs(points, point)) and np.hypot(
+                slip[1], slip[2]
+            ) > points.threshold[point]
             found[phase, point] = 1 * touches + 2 * pushes + 4 * slides

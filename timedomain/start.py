@@ -11,11 +11,17 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_energy, contact_force
+from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.time_history import Checkpoint
 from timedomain.newmark import State
 from timedomain.record import FLOWS, Meters, accumulate
+
+LOOP = 4096
+"""samples of a period in which contacts that remember settle"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,12 +32,37 @@ class Start:
     """[m], shape (dofs,)"""
     velocity: Array
     """[m/s], shape (dofs,)"""
+    traction: Array | None = None
+    """of friction that remembers [N], shape (points, 2); none if left out"""
 
 
 def at_rest(problem: Problem) -> Start:
     """Return the unloaded structure at rest."""
     still = np.zeros(problem.structure.dofs)
     return Start(still, still)
+
+
+def on_orbit(problem: Problem, response: PeriodicResponse) -> Start:
+    """Return the motion of a periodic response at phase 0, with what contacts remember.
+
+    Their tractions are those of the steady loop along the response.
+    """
+    displacement, velocity = response.at(np.zeros(1))
+    points, rows = problem.interface.points, problem.interface.displacement
+    tractions = np.zeros((problem.interface.count, 2))
+    recalls = np.flatnonzero(remembers(points)).tolist()
+    if recalls:
+        phase = 2.0 * np.pi * np.arange(LOOP) / LOOP
+        moved, moving = (part @ rows.T for part in response.at(phase))
+        still = Waves(np.zeros((LOOP, 0)), np.zeros((LOOP, 0)))
+        for point in recalls:
+            own = slice(3 * point, 3 * point + 3)
+            loop, _ = steady_loop(
+                points, point, moved[:, own].T.copy(), moving[:, own].T.copy(), still,
+                response.frequency, np.zeros(3, dtype=bool), np.zeros((2, 3, 0, 0)),
+            )  # fmt: skip
+            tractions[point] = loop[:, 0]
+    return Start(displacement[0], velocity[0], tractions)
 
 
 def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
@@ -41,6 +72,8 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
     moved = (interface.displacement @ start.displacement).reshape(-1, 3)
     moving = (interface.displacement @ start.velocity).reshape(-1, 3)
     forces, unused = np.zeros_like(moved), np.zeros((2, 3, 3))
+    past = np.zeros((interface.count, 2, 2))
+    past[:, 0] = moved[:, 1:]
     for point in range(interface.count):
         contact_force(
             interface.points,
@@ -51,6 +84,9 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
             unused[0],
             unused[1],
         )
+    if start.traction is not None:
+        past[:, 1] = start.traction
+        forces[:, 1:] += start.traction
     factors = history.factors(np.zeros(1))[0]
     unbalanced = (
         factors[0] * problem.preload
@@ -67,6 +103,8 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
         forces,
         moved,
         moving,
+        past,
+        past.copy(),
     )
 
 

@@ -7,8 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.hunt_crossley import normal_force
-from microslip_mechanics.contact.law import ContactPoints, contact_energy, normal_law
+from microslip_mechanics.contact.law import (
+    ContactPoints,
+    contact_energy,
+    normal_response,
+)
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
@@ -54,12 +57,12 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
         reduction = reduced(problem, 0.0)
         small = static_equilibrium(reduction.problem, tolerance=tolerance)
         return replace(small, displacement=reduction.shapes @ small.displacement)
-    load = np.abs(problem.preload).max(initial=0.0)
     state = np.zeros(problem.structure.dofs)
-    if load == 0.0:
-        return StaticState(state, np.zeros(problem.interface.count), 0.0, 0)
-    pseudo_time = 1e-5
     energy, forces, gradient, hessian = _potential(problem, state)
+    load = max(np.abs(problem.preload).max(initial=0.0), np.abs(gradient).max())
+    if load == 0.0:
+        return StaticState(state, forces, 0.0, 0)
+    pseudo_time = 1e-5
     for iteration in range(1, 400):
         matrix = problem.structure.mass / pseudo_time**2 + hessian
         step = np.linalg.solve(matrix, -gradient)
@@ -109,7 +112,8 @@ def _normal_springs(
     force = np.zeros(penetration.size)
     stiffness = np.zeros(penetration.size)
     for point in range(penetration.size):
-        law = normal_law(points, point)
-        force[point], stiffness[point], _ = normal_force(law, penetration[point], 0.0)
+        force[point], stiffness[point], _ = normal_response(
+            points, point, penetration[point], 0.0
+        )
         energy[point] = contact_energy(points, point, penetration[point])
     return energy, force, stiffness

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from hbm.condensation import condense
 from hbm.fourier import FourierBasis
 from hbm.free_motion import free_motion
 from hbm.linear_modes import linear_modes
@@ -23,10 +24,11 @@ def balance_and_point(random: np.random.Generator) -> tuple[ModalBalance, np.nda
     )
     relative = relative_problem(problem, static_equilibrium(problem))
     linear = linear_modes(problem, relative, 800.0, 900.0)[0]
+    condensed = condense(problem, relative.selection)
     mass, kept = problem.structure.mass, np.arange(relative.rank)
     row = linear.shape.conj() @ mass
     size = float((row @ linear.shape).real)
-    free = free_motion(relative.condensed, kept, mass, linear.pole, size)
+    free = free_motion(condensed, kept, mass, linear.pole, size)
     reference = Reference(linear.pole, row / size, linear.frequency**2 * size)
     active = np.ones((FOURIER.coefficients, relative.rank), dtype=bool)
     balance = ModalBalance(relative, free, reference, FOURIER, active)

@@ -21,9 +21,10 @@ print(power(2.0, 3.0), sum(power.stats.cache_hits.values()))
 ENERGY = """
 import numpy as np
 from microslip_mechanics.contact.law import ContactPoints, contact_energy
-flags = {"clamped": bool, "friction": np.int64, "constant_load": bool}
+flags = dict(normal=np.int64, clamped=bool, friction=np.int64, constant_load=bool)
 types = [flags.get(name, float) for name in ContactPoints._fields]
 points = ContactPoints(*(np.ones(1, type) for type in types))
+points.normal[0], points.gap[0] = 0, 0.0
 print(contact_energy(points, 0, 2.0))
 """
 LENDER = """

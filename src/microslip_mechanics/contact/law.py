@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -15,42 +18,97 @@ from microslip_mechanics.contact.hunt_crossley import (
     normal_force,
     spring_force,
 )
+from microslip_mechanics.contact.power_spring import (
+    PowerSpring,
+    power_energy,
+    power_force,
+)
+from microslip_mechanics.contact.tanh_coulomb import tanh_coefficients
 from microslip_mechanics.jit import kernel
 
-FRICTIONLESS, COULOMB, GENERAL_KINETIC = 0, 1, 2
+ONE_SIDED, TWO_SIDED = 0, 1
+"""kinds of normal law: Hunt and Crossley's, and a spring that also pulls"""
+FRICTIONLESS, COULOMB, GENERAL_KINETIC, TANH, ELASTIC, BRISTLE = 0, 1, 2, 3, 4, 5
+"""kinds of friction; those from ELASTIC on remember where they were"""
 
 
 class ContactPoints(NamedTuple):
     """Parameters of all contact points; each array has shape (points,)."""
 
+    normal: NDArray[np.int64]
+    """ONE_SIDED or TWO_SIDED"""
+    gap: Array
+    """displacement at which the faces touch [m]; negative where they are pressed"""
     stiffness: Array
     """K [N/m^pK]"""
     exponent: Array
     """pK"""
     damping: Array
-    """C [N s/m^(pD+1)]"""
+    """C: ONE_SIDED [N s/m^(pD+1)], TWO_SIDED [N (s/m)^(pD+1)]"""
     damping_exponent: Array
-    """pD"""
+    """pD: of penetration if ONE_SIDED, of the speed if TWO_SIDED"""
     clamped: NDArray[np.bool_]
     """whether a pulling normal force is set to zero"""
     friction: NDArray[np.int64]
-    """FRICTIONLESS, COULOMB or GENERAL_KINETIC"""
+    """FRICTIONLESS, COULOMB, GENERAL_KINETIC, TANH, ELASTIC or BRISTLE"""
     dynamic: Array
     """µd"""
     static: Array
-    """µs (GKF)"""
+    """µs (GKF, bristles)"""
     stribeck: Array
-    """V_str [m/s] (GKF)"""
+    """V_str [m/s] (GKF, bristles)"""
     stribeck_exponent: Array
-    """γ (GKF)"""
+    """γ (GKF, bristles)"""
     viscous: Array
-    """f_d [N s/m] (GKF)"""
+    """f_d [N s/m] (GKF, bristles)"""
     threshold: Array
     """V_lim [m/s]"""
     constant_load: NDArray[np.bool_]
     """whether friction uses ``load`` instead of the computed normal force"""
     load: Array
     """constant normal load of friction [N]"""
+    tangential: Array
+    """k_t [N/m] (ELASTIC, BRISTLE)"""
+
+
+@dataclass(frozen=True, slots=True)
+class PointLaw:
+    """One row of the table; what is left out does nothing."""
+
+    normal: int = ONE_SIDED
+    gap: float = 0.0
+    stiffness: float = 0.0
+    exponent: float = 1.0
+    damping: float = 0.0
+    damping_exponent: float = 0.0
+    clamped: bool = False
+    friction: int = FRICTIONLESS
+    dynamic: float = 0.0
+    static: float = 0.0
+    stribeck: float = 1.0
+    stribeck_exponent: float = 1.0
+    viscous: float = 0.0
+    threshold: float = 1.0
+    constant_load: bool = False
+    load: float = 0.0
+    tangential: float = 0.0
+
+
+def contact_table(laws: Sequence[PointLaw]) -> ContactPoints:
+    """Return the table of points with the given laws."""
+    types = {"normal": np.int64, "friction": np.int64, "clamped": bool}
+    types["constant_load"] = bool
+    return ContactPoints(
+        *(
+            np.array([getattr(law, name) for law in laws], types.get(name, float))
+            for name in ContactPoints._fields
+        )
+    )
+
+
+def repeated_points(points: ContactPoints, times: int) -> ContactPoints:
+    """Return the table with all its points so many times, one after the other."""
+    return ContactPoints(*(np.tile(column, times) for column in tuple(points)))
 
 
 @kernel
@@ -73,7 +131,8 @@ def contact_force(
         Relative displacement [m] and velocity [m/s]: normal (positive in penetration)
         and two tangents, shape ``(3,)``.
     force
-        Written: the force [N] that resists them, shape ``(3,)``.
+        Written: the force [N] that resists them, shape ``(3,)``; without the traction
+        of what remembers (:mod:`~microslip_mechanics.contact.memory`).
     by_displacement, by_velocity
         Written: ∂force/∂displacement [N/m], ∂force/∂velocity [N s/m], shape ``(3, 3)``.
 
@@ -81,14 +140,19 @@ def contact_force(
     ----------
     Theory page, eqs. (7)–(10).
     """
-    normal, stiff, viscous = normal_force(
-        normal_law(points, point), displacement[0], velocity[0]
+    normal, stiff, viscous = normal_response(
+        points, point, displacement[0], velocity[0]
     )
     force[:] = 0.0
     by_displacement[:] = 0.0
     by_velocity[:] = 0.0
     force[0], by_displacement[0, 0], by_velocity[0, 0] = normal, stiff, viscous
     if points.friction[point] == FRICTIONLESS:
+        return
+    if points.friction[point] >= ELASTIC:
+        for axis in range(1, 3):
+            force[axis] = points.viscous[point] * velocity[axis]
+            by_velocity[axis, axis] = points.viscous[point]
         return
     load = points.load[point]
     if not points.constant_load[point]:
@@ -110,6 +174,20 @@ def contact_force(
 
 
 @kernel
+def rubs(points: ContactPoints, point: int) -> bool:
+    """Return whether friction turns around within a threshold of the velocity."""
+    return bool(FRICTIONLESS < points.friction[point] < ELASTIC)
+
+
+@kernel
+def edge(points: ContactPoints, point: int) -> float:
+    """Return the displacement [m] at which contact begins; −∞ if there is none."""
+    if points.normal[point] == TWO_SIDED and points.friction[point] == FRICTIONLESS:
+        return -math.inf
+    return float(points.gap[point])
+
+
+@kernel
 def contact_power(
     points: ContactPoints,
     point: int,
@@ -121,21 +199,59 @@ def contact_power(
 
     ``force`` is what :func:`contact_force` wrote for the same motion.
     """
-    spring = spring_force(normal_law(points, point), displacement[0])
+    spring = _spring(points, point, displacement[0])
     friction = force[1] * velocity[1] + force[2] * velocity[2]
     return friction, (force[0] - spring) * velocity[0]
 
 
 @kernel
 def contact_energy(points: ContactPoints, point: int, penetration: float) -> float:
-    """Return the elastic energy [J] stored in the normal spring of one point."""
-    spring = spring_force(normal_law(points, point), penetration)
-    return float(spring * penetration / (points.exponent[point] + 1.0))
+    """Return the elastic energy [J] stored in the normal spring of one point.
+
+    ``penetration`` is the relative displacement along the normal [m].
+    """
+    depth = penetration - points.gap[point]
+    if points.normal[point] == TWO_SIDED:
+        return power_energy(power_law(points, point), depth)
+    spring = spring_force(normal_law(points, point), depth)
+    return float(spring * depth / (points.exponent[point] + 1.0))
+
+
+@kernel
+def normal_response(
+    points: ContactPoints, point: int, displacement: float, velocity: float
+) -> tuple[float, float, float]:
+    """Return normal force [N] and its derivatives by displacement and by velocity."""
+    depth = displacement - points.gap[point]
+    if points.normal[point] == TWO_SIDED:
+        return power_force(power_law(points, point), depth, velocity)
+    return normal_force(normal_law(points, point), depth, velocity)
+
+
+@kernel
+def _spring(points: ContactPoints, point: int, displacement: float) -> float:
+    """Return the elastic part of the normal force [N]."""
+    depth = displacement - points.gap[point]
+    if points.normal[point] == TWO_SIDED:
+        force, _, _ = power_force(power_law(points, point), depth, 0.0)
+        return force
+    return spring_force(normal_law(points, point), depth)
+
+
+@kernel
+def power_law(points: ContactPoints, point: int) -> PowerSpring:
+    """Return the two-sided law of one row of the table."""
+    return PowerSpring(
+        points.stiffness[point],
+        points.exponent[point],
+        points.damping[point],
+        points.damping_exponent[point],
+    )
 
 
 @kernel
 def normal_law(points: ContactPoints, point: int) -> HuntCrossley:
-    """Return the normal law of one row of the table."""
+    """Return the one-sided law of one row of the table."""
     return HuntCrossley(
         points.stiffness[point],
         points.exponent[point],
@@ -152,6 +268,9 @@ def _friction(
     if points.friction[point] == COULOMB:
         coulomb = Coulomb(points.dynamic[point], points.threshold[point])
         return coulomb_coefficients(coulomb, first, second)
+    if points.friction[point] == TANH:
+        smooth = Coulomb(points.dynamic[point], points.threshold[point])
+        return tanh_coefficients(smooth, first, second)
     gkf = GKF(
         points.dynamic[point],
         points.static[point],
@@ -173,8 +292,12 @@ def tangent_pattern(
         Shape ``(3, 3)``: what the solvers need not carry for this point's laws.
     """
     by_displacement, by_velocity = np.zeros((2, 3, 3), dtype=bool)
-    by_displacement[0, 0] = by_velocity[0, 0] = True
-    if points.friction[point] != FRICTIONLESS:
+    by_displacement[0, 0] = points.stiffness[point] != 0.0
+    by_velocity[0, 0] = points.damping[point] != 0.0
+    by_displacement[0, 0] |= by_velocity[0, 0] and points.normal[point] == ONE_SIDED
+    if points.friction[point] >= ELASTIC:
+        by_velocity[1, 1] = by_velocity[2, 2] = points.viscous[point] != 0.0
+    elif points.friction[point] != FRICTIONLESS:
         by_velocity[1:, 1:] = True
         if not points.constant_load[point]:
             by_displacement[1:, 0] = by_velocity[1:, 0] = True

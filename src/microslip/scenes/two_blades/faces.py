@@ -15,7 +15,8 @@ from microslip_mechanics.contact.law import (
     COULOMB,
     FRICTIONLESS,
     GENERAL_KINETIC,
-    ContactPoints,
+    PointLaw,
+    contact_table,
 )
 from microslip_mechanics.frame import Frame
 
@@ -41,7 +42,7 @@ class Face:
 
 def interface(rig: TwoBlades, frame: Frame) -> Interface:
     """Return the contact points of both faces."""
-    rows, names, columns = [], [], []
+    rows, names, laws = [], [], []
     for face in faces(rig):
         places = _points(face, 4 if rig.model == "full" else 1)
         for number, place in enumerate(places, start=1):
@@ -49,9 +50,8 @@ def interface(rig: TwoBlades, frame: Frame) -> Interface:
             end = frame.motion(layout.tip(rig, face.blade), place)
             rows.append(face.axes @ (element - end))
             names.append(f"{face.name}{number}")
-            columns.append(_parameters(rig, face, len(places)))
-    table = ContactPoints(*(np.array(column) for column in zip(*columns, strict=True)))
-    return Interface(table, np.vstack(rows), tuple(names))
+            laws.append(_law(rig, face, len(places)))
+    return Interface(contact_table(laws), np.vstack(rows), tuple(names))
 
 
 def faces(rig: TwoBlades) -> tuple[Face, Face]:
@@ -95,25 +95,25 @@ def _points(face: Face, count: int) -> list[Array]:
     ]
 
 
-def _parameters(rig: TwoBlades, face: Face, count: int) -> tuple[object, ...]:
-    """Return one row of the contact table, in the order of its fields."""
+def _law(rig: TwoBlades, face: Face, count: int) -> PointLaw:
+    """Return the law of one of ``count`` points of a face."""
     contact, friction = rig.contact, rig.friction
     stiffness = face.width * face.depth / contact.sigma**contact.exponent / count
     share = rig.friction_element.mass / count
     damping = math.sqrt(contact.exponent * stiffness * share)
-    return (
-        stiffness,
-        contact.exponent,
-        2.0 * contact.damping_ratio * damping,
-        contact.damping_exponent,
-        contact.clamped,
-        KINDS[friction.law],
-        friction.mu_dynamic,
-        friction.mu_static,
-        friction.stribeck_velocity,
-        friction.stribeck_exponent,
-        friction.viscous,
-        friction.threshold_velocity,
-        rig.model == "A",
-        face.static_load / count if rig.model == "A" else 0.0,
+    return PointLaw(
+        stiffness=stiffness,
+        exponent=contact.exponent,
+        damping=2.0 * contact.damping_ratio * damping,
+        damping_exponent=contact.damping_exponent,
+        clamped=contact.clamped,
+        friction=KINDS[friction.law],
+        dynamic=friction.mu_dynamic,
+        static=friction.mu_static,
+        stribeck=friction.stribeck_velocity,
+        stribeck_exponent=friction.stribeck_exponent,
+        viscous=friction.viscous,
+        threshold=friction.threshold_velocity,
+        constant_load=rig.model == "A",
+        load=face.static_load / count if rig.model == "A" else 0.0,
     )

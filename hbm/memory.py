@@ -1,0 +1,98 @@
+"""Friction that remembers, marched to its steady loop over one period (theory §6).
+
+The loop begins with the traction that a stuck slider in the middle of its motion has,
+k_t (w − w̄) with the mean w̄ over the period: where nothing slides that is the rule
+which fixes the slider's free position, and no mean force is carried. Periods are
+marched until the traction returns to itself; its derivatives go along, by the 2H + 1
+coefficients of each direction in which the point itself moves.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.fourier import FourierBasis
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.steady_loop import Waves, steady_loop
+
+
+class FrictionMemory:
+    """Tractions of the points that remember, and their derivatives."""
+
+    def __init__(self, basis: Array, fourier: FourierBasis) -> None:
+        """Plan for ``basis``, the map from y to the points, ``(3 points, rank)``."""
+        self._basis = basis
+        phase = 2.0 * np.pi * np.arange(fourier.samples) / fourier.samples
+        orders = np.arange(1, fourier.harmonics + 1)
+        angles = np.multiply.outer(phase, orders)
+        value = np.ones((fourier.samples, fourier.coefficients))
+        value[:, 1::2], value[:, 2::2] = np.cos(angles), np.sin(angles)
+        slope = np.zeros_like(value)
+        slope[:, 1::2], slope[:, 2::2] = (
+            -orders * value[:, 2::2],
+            orders * value[:, 1::2],
+        )
+        self._waves = Waves(value, slope)
+        self._analysis = value.T * (2.0 / fourier.samples)
+        self._analysis[0] /= 2.0
+
+    def add(
+        self,
+        points: ContactPoints,
+        moved: tuple[Array, Array],
+        frequency: float,
+        force: Array,
+        change: Array,
+    ) -> None:
+        """Add tractions and (∂traction/∂ω) ω to rows of shape (3 points, samples).
+
+        ``moved`` are displacement and velocity of the points at all samples.
+        """
+        none = np.zeros((2, 3, 0, 0))
+        for point in np.flatnonzero(remembers(points)).tolist():
+            rows = slice(3 * point, 3 * point + 3)
+            made, by_frequency = steady_loop(
+                points, point, moved[0][rows], moved[1][rows], self._waves, frequency,
+                self._axes(point), none,
+            )  # fmt: skip
+            force[3 * point + 1 : 3 * point + 3] += made
+            change[3 * point + 1 : 3 * point + 3] += by_frequency
+
+    def jacobian(
+        self, points: ContactPoints, moved: tuple[Array, Array], frequency: float
+    ) -> Array:
+        """Return ∂traction/∂y, shape (2H + 1, rank, 2H + 1, rank)."""
+        count, rank = self._waves.value.shape[1], self._basis.shape[1]
+        result = np.zeros((count, rank, count, rank))
+        gradient = np.empty((2, 3, *self._waves.value.shape))
+        for point in np.flatnonzero(remembers(points)).tolist():
+            rows, axes = slice(3 * point, 3 * point + 3), self._axes(point)
+            steady_loop(
+                points, point, moved[0][rows], moved[1][rows], self._waves, frequency,
+                axes, gradient,
+            )  # fmt: skip
+            self._gather(point, axes, gradient, result)
+        return result
+
+    def _axes(self, point: int) -> NDArray[np.bool_]:
+        """Return along which directions a point moves, shape (3,)."""
+        rows = self._basis[3 * point : 3 * point + 3]
+        moves: NDArray[np.bool_] = (rows != 0.0).any(axis=1)
+        return moves
+
+    def _gather(
+        self, point: int, axes: NDArray[np.bool_], gradient: Array, result: Array
+    ) -> None:
+        """Add the derivatives of one point, brought to y."""
+        rows = self._basis[3 * point : 3 * point + 3]
+        for row in (1, 2):
+            for column in range(3):
+                if not (axes[row] and axes[column]):
+                    continue
+                block = self._analysis @ gradient[row - 1, column]
+                for a in np.flatnonzero(rows[row]):
+                    for b in np.flatnonzero(rows[column]):
+                        result[:, a, :, b] += rows[row, a] * rows[column, b] * block

@@ -1,0 +1,1 @@
+"""Mass, damping and stiffness from files of other programs."""

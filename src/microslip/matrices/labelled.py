@@ -1,0 +1,83 @@
+"""A sparse symmetric matrix over named degrees of freedom."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse
+
+from microslip_mechanics.arrays import Matrix
+
+DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
+"""degrees of freedom 1 to 6 of a node in Abaqus and CalculiX"""
+
+
+@dataclass(frozen=True, slots=True)
+class LabelledMatrix:
+    """What a file holds; a matrix of which one half is given is completed."""
+
+    matrix: Matrix
+    """of scipy.sparse, shape (dofs, dofs)"""
+    names: tuple[str, ...]
+    """of the degrees of freedom; empty if the file has none"""
+
+    def __post_init__(self) -> None:
+        """Check the shape; complete a symmetric matrix.
+
+        Raises
+        ------
+        ValueError
+            If it is not square, or has other names than rows.
+        """
+        rows, columns = self.matrix.shape
+        if rows != columns:
+            raise ValueError(
+                f"the matrix has {rows} rows and {columns} columns: give a square one"
+            )
+        if self.names and len(self.names) != rows:
+            raise ValueError(
+                f"{len(self.names)} names, but {rows} rows: give one name for each row"
+            )
+        object.__setattr__(self, "matrix", completed(self.matrix))
+
+    def ordered(self, names: Sequence[str]) -> LabelledMatrix:
+        """Return the matrix over other names in their order; rows not there are zero.
+
+        Raises
+        ------
+        ValueError
+            If a row's name is not among them.
+        """
+        place = {name: index for index, name in enumerate(names)}
+        for name in self.names:
+            if name not in place:
+                raise ValueError(
+                    f"degree of freedom {name} is not one of the stiffness: "
+                    "export both matrices from the same model"
+                )
+        where = np.array([place[name] for name in self.names], dtype=int)
+        entries = scipy.sparse.coo_array(self.matrix)
+        rows, columns = entries.coords
+        matrix = scipy.sparse.csc_array(
+            (entries.data, (where[rows], where[columns])), shape=(len(names),) * 2
+        )
+        return LabelledMatrix(matrix, tuple(names))
+
+
+def completed(matrix: Matrix) -> Matrix:
+    """Return a matrix as it is; with its other half where only one half is given."""
+    whole = scipy.sparse.csc_array(matrix, dtype=float)
+    whole.sum_duplicates()
+    upper, lower = scipy.sparse.triu(whole, 1), scipy.sparse.tril(whole, -1)
+    if upper.count_nonzero() and lower.count_nonzero():
+        return whole
+    return scipy.sparse.csc_array(whole + (upper + lower).T)
+
+
+def dof_name(node: int, direction: int) -> str:
+    """Return the name of a node's degree of freedom, such as ``12.z``."""
+    if direction <= len(DIRECTIONS):
+        return f"{node}.{DIRECTIONS[direction - 1]}"
+    return f"{node}.{direction}"

@@ -1,0 +1,38 @@
+"""MATLAB files up to version 7."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import scipy.io
+
+from microslip.matrices.error import MatrixFileError
+from microslip.matrices.labelled import LabelledMatrix
+from microslip.matrices.variable import matrix_of
+
+
+def read_matlab(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
+    """Read the first variable of ``wanted`` that is there, dense or sparse.
+
+    Raises
+    ------
+    MatrixFileError
+        If there is none, or the file is of another kind; files of version 7.3 are.
+    """
+    try:
+        with path.open("rb"):  # says why a file cannot be read
+            found = scipy.io.loadmat(str(path), appendmat=False)
+    except NotImplementedError:
+        raise MatrixFileError(
+            path, "is of MATLAB's version 7.3: save it with save(file, vars, '-v7')"
+        ) from None
+    except OSError as error:
+        raise MatrixFileError(
+            path, f"cannot be read ({error.strerror}): check the name"
+        ) from None
+    except (ValueError, TypeError, EOFError) as error:
+        raise MatrixFileError(
+            path, f"is no sound MATLAB file ({error}): save it again with '-v7'"
+        ) from None
+    there = {name: value for name, value in found.items() if name[:2] != "__"}
+    return LabelledMatrix(matrix_of(path, there, wanted), ())

@@ -1,0 +1,54 @@
+"""Archives of numpy: dense matrices by name, or one sparse matrix of scipy."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy.sparse
+
+from microslip.matrices.error import MatrixFileError
+from microslip.matrices.labelled import LabelledMatrix
+from microslip.matrices.variable import matrix_of
+
+SPARSE = {"format", "shape", "data"}
+"""arrays that :func:`scipy.sparse.save_npz` always writes"""
+
+
+def read_npz(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
+    """Read the first array of ``wanted`` that is there; ``names`` are its rows' names.
+
+    A file of :func:`scipy.sparse.save_npz` holds one matrix, without a name.
+
+    Raises
+    ------
+    MatrixFileError
+        If there is none, or the file is not such an archive.
+    """
+    there = _arrays(path)
+    if there.keys() >= SPARSE:
+        return LabelledMatrix(scipy.sparse.csc_array(scipy.sparse.load_npz(path)), ())
+    names = tuple(str(name) for name in np.ravel(there.pop("names", ())))
+    matrix = matrix_of(path, there, wanted)
+    try:
+        return LabelledMatrix(matrix, names)
+    except ValueError as error:
+        raise MatrixFileError(path, str(error)) from None
+
+
+def _arrays(path: Path) -> dict[str, Any]:
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            if not isinstance(archive, np.lib.npyio.NpzFile):
+                raise MatrixFileError(path, "holds one array: use numpy.savez")
+            return dict(archive)
+    except FileNotFoundError:
+        raise MatrixFileError(
+            path, "cannot be read (No such file or directory): check the name"
+        ) from None
+    except (ValueError, zipfile.BadZipFile, EOFError, OSError) as error:
+        raise MatrixFileError(
+            path, f"is no sound archive of numbers ({error}): use numpy.savez"
+        ) from None

@@ -1,0 +1,125 @@
+"""Friction that depends on where the contact was before: one call for all such laws."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.bristle import Bristles, bristle_traction
+from microslip_mechanics.contact.elastic import ElasticFriction, elastic_traction
+from microslip_mechanics.contact.law import (
+    BRISTLE,
+    ELASTIC,
+    ContactPoints,
+    normal_response,
+)
+from microslip_mechanics.jit import kernel
+
+MEMORIES = (ELASTIC, BRISTLE)
+"""kinds of friction that remember"""
+
+
+def remembers(points: ContactPoints) -> NDArray[np.bool_]:
+    """Return which points have friction that depends on where they were, (points,)."""
+    return np.isin(points.friction, MEMORIES)
+
+
+@kernel
+def traction(
+    points: ContactPoints,
+    point: int,
+    slide: Array,
+    velocity: Array,
+    load: float,
+    old: Array,
+    new: Array,
+    by: Array,
+) -> None:
+    """Write the traction of one point after a small slide, and its derivatives.
+
+    Parameters
+    ----------
+    points, point
+        The table and the row in it.
+    slide, velocity
+        Increment of the sliding displacement [m], and velocity [m/s] at its end, each
+        of shape ``(2,)``.
+    load
+        Normal load [N] at its end.
+    old, new
+        Traction before, and written: after it [N], each of shape ``(2,)``.
+    by
+        Written: derivatives of both components by slide (2), velocity (2), load (1) and
+        old traction (2), shape ``(2, 7)``.
+    """
+    if points.friction[point] == ELASTIC:
+        elastic = ElasticFriction(points.tangential[point], points.dynamic[point])
+        elastic_traction(elastic, slide, load, old, new, by)
+        return
+    bristles = Bristles(
+        points.tangential[point],
+        points.dynamic[point],
+        points.static[point],
+        points.stribeck[point],
+        points.stribeck_exponent[point],
+    )
+    bristle_traction(bristles, slide, velocity, load, old, new, by)
+
+
+@kernel
+def friction_load(
+    points: ContactPoints, point: int, displacement: float, velocity: float
+) -> tuple[float, float, float]:
+    """Return the normal load of friction and its derivatives.
+
+    ``displacement`` and ``velocity`` are those along the normal; the load is zero or
+    less out of contact.
+    """
+    if points.constant_load[point]:
+        return points.load[point], 0.0, 0.0
+    return normal_response(points, point, displacement, velocity)
+
+
+@kernel
+def add_traction(
+    points: ContactPoints,
+    point: int,
+    displacement: Array,
+    velocity: Array,
+    past: Array,
+    fresh: Array,
+    force: Array,
+    by_displacement: Array,
+    by_velocity: Array,
+) -> None:
+    """Add what a point remembers to the force and tangents of its other laws.
+
+    Parameters
+    ----------
+    points, point
+        The table and the row in it.
+    displacement, velocity
+        Relative displacement [m] and velocity [m/s], each of shape ``(3,)``.
+    past
+        Where it was along both tangents [m], and its traction there [N], ``(2, 2)``.
+    fresh
+        Written: the same for now.
+    force, by_displacement, by_velocity
+        As :func:`~microslip_mechanics.contact.law.contact_force` wrote them; added to.
+    """
+    slide, by = np.empty(2), np.empty((2, 7))
+    for axis in range(2):
+        fresh[0, axis] = displacement[axis + 1]
+        slide[axis] = displacement[axis + 1] - past[0, axis]
+    load, by_depth, by_approach = friction_load(
+        points, point, displacement[0], velocity[0]
+    )
+    traction(points, point, slide, velocity[1:], load, past[1], fresh[1], by)
+    for row in range(2):
+        force[row + 1] += fresh[1, row]
+        by_displacement[row + 1, 0] += by[row, 4] * by_depth
+        by_velocity[row + 1, 0] += by[row, 4] * by_approach
+        for column in range(2):
+            by_displacement[row + 1, column + 1] += by[row, column]
+            by_velocity[row + 1, column + 1] += by[row, column + 2]

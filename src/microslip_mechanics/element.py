@@ -1,0 +1,126 @@
+"""Elements: a law between named degrees of freedom, and the contacts they make."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.contact.law import PointLaw, contact_table
+from microslip_mechanics.forms import Pair, relative
+from microslip_mechanics.laws.row import Direction, Law, Row
+
+KEYS = ("between", "normal", "tangents", "rotations")
+"""by which an element says in what directions its law acts"""
+
+
+@dataclass(frozen=True)
+class Element:
+    """A law and where it acts; each direction is a pair of ends.
+
+    An end is a degree of freedom, a table of factors of several, or ``"ground"``, which
+    must be written. The law sees the motion of the first end relative to the second.
+    """
+
+    law: Law
+    between: Pair | None = None
+    """of laws along one direction"""
+    normal: Pair | None = None
+    """of contacts: positive in penetration"""
+    tangents: Sequence[Pair] = ()
+    """of friction: one or two"""
+    rotations: Sequence[Pair] = ()
+    """of area contacts: one or two"""
+    name: str = ""
+
+    def directions(self) -> dict[str, Sequence[Pair]]:
+        """Return the pairs that are given, by key."""
+        given: dict[str, Sequence[Pair]] = {}
+        if self.between is not None:
+            given["between"] = (self.between,)
+        if self.normal is not None:
+            given["normal"] = (self.normal,)
+        for key in KEYS[2:]:
+            if getattr(self, key):
+                given[key] = getattr(self, key)
+        return given
+
+
+def interface_of(elements: Sequence[Element], names: tuple[str, ...]) -> Interface:
+    """Return the contacts of elements; ``names`` are those of the degrees of freedom.
+
+    Raises
+    ------
+    ValueError
+        With the element, its key and a remedy.
+    """
+    laws: list[PointLaw] = []
+    lines: list[Array] = []
+    points: list[str] = []
+    for place, (element, name) in enumerate(
+        zip(elements, _named(elements), strict=True)
+    ):
+        if name in points:
+            raise ValueError(
+                f"two elements are named {name}: name element {place + 1} differently"
+            )
+        rows, directions = _resolved(element, name, names)
+        for number, row in enumerate(rows, start=1):
+            laws.append(row.point)
+            lines.extend(_lines(row, directions, len(names)))
+            points.append(name if len(rows) == 1 else f"{name}-{number}")
+    shown = np.array(lines).reshape(-1, len(names))
+    return Interface(contact_table(laws), shown, tuple(points))
+
+
+def _named(elements: Sequence[Element]) -> list[str]:
+    """Return a name of each element."""
+    return [each.name or f"element-{n}" for n, each in enumerate(elements, start=1)]
+
+
+def _resolved(
+    element: Element, name: str, names: tuple[str, ...]
+) -> tuple[tuple[Row, ...], dict[Direction, Array]]:
+    """Return an element's rows and its directions over the degrees of freedom."""
+    given = element.directions()
+    counts = {key: len(pairs) for key, pairs in given.items()}
+    for key in KEYS:
+        _check_count(element, name, key, counts.get(key, 0))
+    directions = {
+        (key, place): relative(pair, names, f"element {name}: {_numbered(key, place)}")
+        for key, pairs in given.items()
+        for place, pair in enumerate(pairs)
+    }
+    return element.law.rows(counts), directions
+
+
+def _numbered(key: str, place: int) -> str:
+    return f"{key}[{place}]" if key in KEYS[2:] else key
+
+
+def _check_count(element: Element, name: str, key: str, count: int) -> None:
+    """Check that the law takes so many directions of a key."""
+    kind = type(element.law).__name__
+    if key not in element.law.takes:
+        if count:
+            takes = ", ".join(element.law.takes)
+            raise ValueError(
+                f"element {name}: {key} is nothing that {kind} takes here: give {takes}"
+            )
+        return
+    least, most = element.law.takes[key]
+    if not least <= count <= most:
+        wanted = f"{least}" if least == most else f"{least} or {most}"
+        raise ValueError(
+            f"element {name}: {key} has {count} directions: {kind} needs {wanted}, "
+            'each with two ends; the ground is written as "ground"'
+        )
+
+
+def _lines(row: Row, directions: dict[Direction, Array], dofs: int) -> list[Array]:
+    """Return the three rows of a point: normal and two tangents."""
+    uses = (row.normal, *row.tangents, None, None)[:3]
+    return [np.zeros(dofs) if use is None else directions[use] for use in uses]

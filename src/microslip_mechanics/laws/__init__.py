@@ -1,0 +1,1 @@
+"""Laws of elements, one to a file, and the catalogue of them."""

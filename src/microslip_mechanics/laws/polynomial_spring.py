@@ -1,0 +1,76 @@
+"""Springs whose force is a sum of powers of the displacement."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from microslip_mechanics.contact.law import TWO_SIDED, PointLaw
+from microslip_mechanics.laws.row import ALONG, BETWEEN, Counts, Row, along
+from microslip_mechanics.quantity import check_quantities, quantity
+
+
+@dataclass(frozen=True)
+class PolynomialSpring:
+    """F = Σ k_p w^p, with w the relative displacement; it pulls and pushes.
+
+    An odd or fractional power takes the sign of w, an even one is the same both ways.
+    """
+
+    coefficients: Mapping[float, float]
+    """k_p [N/m^p] for each power p ≥ 1, such as {1: 100, 3: 2e6}"""
+
+    def __post_init__(self) -> None:
+        """Check powers and coefficients."""
+        if not self.coefficients:
+            raise ValueError(
+                "polynomial-spring: coefficients are empty: give some, such as {3: 2e6}"
+            )
+        for power, value in self.coefficients.items():
+            if not 1.0 <= power <= 20.0:
+                raise ValueError(
+                    f"polynomial-spring: power {power:g}: give 1 to 20; a constant "
+                    "force is a preload"
+                )
+            if not math.isfinite(value):
+                raise ValueError(
+                    f"polynomial-spring: coefficient {value} of power {power:g} is not "
+                    "finite: give a finite number"
+                )
+
+    @property
+    def takes(self) -> Counts:
+        """One direction."""
+        return ALONG
+
+    def rows(self, given: dict[str, int]) -> tuple[Row, ...]:  # noqa: ARG002
+        """Return one row for each power."""
+        return tuple(
+            Row(
+                PointLaw(normal=TWO_SIDED, stiffness=float(k), exponent=float(power)),
+                normal=BETWEEN,
+            )
+            for power, k in self.coefficients.items()
+        )
+
+
+@dataclass(frozen=True)
+class CubicSpring:
+    """F = k₃ w³, that of Duffing's oscillator."""
+
+    cubic: float = quantity("N/m^3")
+    """k₃ [N/m³]; negative softens"""
+
+    def __post_init__(self) -> None:
+        """Check the number."""
+        check_quantities(self, "cubic-spring")
+
+    @property
+    def takes(self) -> Counts:
+        """One direction."""
+        return ALONG
+
+    def rows(self, given: dict[str, int]) -> tuple[Row, ...]:  # noqa: ARG002
+        """Return the one row."""
+        return along(PointLaw(normal=TWO_SIDED, stiffness=self.cubic, exponent=3.0))

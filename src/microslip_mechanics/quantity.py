@@ -1,0 +1,136 @@
+"""Quantities: fields with a unit and a range, read from numbers and from texts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import MISSING, dataclass, field, fields
+from typing import Any
+
+UNITS = {
+    "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "µm": 1e-6},
+    "kg": {"kg": 1.0, "g": 1e-3},
+    "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6},
+    "Hz": {"Hz": 1.0, "kHz": 1e3},
+    "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3},
+    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3},
+    "Pa": {"Pa": 1.0, "MPa": 1e6, "GPa": 1e9},
+    "kg/m^3": {"kg/m^3": 1.0, "g/cm^3": 1e3},
+    "kg m^2": {"kg m^2": 1.0, "kg mm^2": 1e-6, "g mm^2": 1e-9},
+    "rad": {"rad": 1.0, "deg": math.pi / 180.0},
+    "m/s": {"m/s": 1.0, "mm/s": 1e-3},
+    "1/s": {"1/s": 1.0},
+    "N s/m": {"N s/m": 1.0},
+    "N s^2/m^2": {"N s^2/m^2": 1.0},
+    "N/m^3": {"N/m^3": 1.0, "N/mm^3": 1e9},
+    "N/m^p": {"N/m^p": 1.0},
+    "N s/m^(q+1)": {"N s/m^(q+1)": 1.0},
+    "": {"": 1.0},
+}
+"""for each SI unit, the units that may be written and their size in it"""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """What a number may be."""
+
+    unit: str
+    """SI unit, a key of UNITS"""
+    lowest: float
+    highest: float
+    positive: bool
+    """whether the lower bound itself is excluded"""
+
+    def read(self, value: object) -> float:
+        """Return the value in SI units; raise ValueError with cause and remedy."""
+        number = self._number(value)
+        inside = self.lowest <= number <= self.highest
+        if not inside or (self.positive and number == self.lowest):
+            raise ValueError(f"is out of range: {self._range()}")
+        return number
+
+    def _number(self, value: object) -> float:
+        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+            raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+                f"is not a number: give one{self._unit_hint()}"
+            )
+        if isinstance(value, str):
+            return self._with_unit(value)
+        try:
+            number = float(value)
+        except OverflowError:
+            raise ValueError(f"is out of range: {self._range()}") from None
+        if not math.isfinite(number):
+            raise ValueError("is not finite: give a finite number")
+        return number
+
+    def _with_unit(self, text: str) -> float:
+        first, _, unit = text.strip().partition(" ")
+        try:
+            number = float(first)
+        except ValueError:
+            raise ValueError(f"is not a number: give one{self._unit_hint()}") from None
+        if unit.strip() not in UNITS[self.unit]:
+            raise ValueError(f"has the wrong unit: give a number{self._unit_hint()}")
+        if not math.isfinite(number):
+            raise ValueError("is not finite: give a finite number")
+        return number * UNITS[self.unit][unit.strip()]
+
+    def _unit_hint(self) -> str:
+        known = [f'"{unit}"' for unit in UNITS[self.unit] if unit.isascii() and unit]
+        if not known:
+            return ", without a unit"
+        return f" in {self.unit}, or a text with one of the units {', '.join(known)}"
+
+    def _range(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        if self.positive and math.isinf(self.highest):
+            return f"it must be above {self.lowest:g}{unit}"
+        if math.isinf(self.highest):
+            return f"it must be at least {self.lowest:g}{unit}"
+        edge = (
+            f"above {self.lowest:g}" if self.positive else f"at least {self.lowest:g}"
+        )
+        return f"it must be {edge} and at most {self.highest:g}{unit}"
+
+
+def quantity(
+    unit: str = "",
+    *,
+    lowest: float = -math.inf,
+    highest: float = math.inf,
+    positive: bool = False,
+    optional: bool = False,
+    default: Any = MISSING,  # noqa: ANN401  (of the field's own type)
+) -> Any:  # noqa: ANN401  (a dataclass field, like dataclasses.field)
+    """Declare a number with its SI unit and its range.
+
+    ``positive`` sets the lower bound to zero and excludes the bound itself;
+    ``optional`` makes None of a number that is left out, ``default`` a value.
+    """
+    low = max(lowest, 0.0) if positive else lowest
+    metadata = {"quantity": Quantity(unit, low, highest, positive)}
+    if optional:
+        return field(default=None, metadata=metadata)
+    return field(default=default, metadata=metadata)
+
+
+def check_quantities(made: Any, name: str) -> None:  # noqa: ANN401  (a dataclass)
+    """Check the numbers of a dataclass that was made in Python.
+
+    Raises
+    ------
+    ValueError
+        With ``name``, the field, its value and what it may be.
+    """
+    for each in fields(made):
+        kind, value = each.metadata.get("quantity"), getattr(made, each.name)
+        if kind is None or isinstance(value, bool) or value is each.default:
+            continue
+        if isinstance(value, str):
+            raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+                f"{name}: {each.name} = {value!r} is a text: give a number in SI units"
+            )
+        try:
+            kind.read(value)
+        except ValueError as error:
+            raise ValueError(f"{name}: {each.name} = {value}: {error}") from None

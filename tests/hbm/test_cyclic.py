@@ -1,0 +1,127 @@
+"""One sector of a bladed disk against the whole disk."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.linalg
+
+from hbm.cyclic import cyclic_response
+from hbm.fourier import to_complex, to_real
+from hbm.options import CurveOptions
+from hbm.solve import periodic_response
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.contact.law import COULOMB, ELASTIC, PointLaw, contact_table
+from microslip_mechanics.cyclic import Coupling, CyclicProblem
+from microslip_mechanics.problem import Probes
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.structure import Structure
+
+JENKINS = PointLaw(
+    friction=ELASTIC, dynamic=1.0, tangential=40.0, constant_load=True, load=0.3
+)
+COULOMB_LAW = PointLaw(
+    friction=COULOMB, dynamic=0.3, threshold=0.05, constant_load=True, load=1.0
+)
+HARMONICS = 5
+
+
+def bladed_disk(sectors: int, engine_order: int, law: PointLaw) -> CyclicProblem:
+    """Return sectors of disk, root, middle and tip whose tips rub on each other."""
+    springs, disk = (400.0, 300.0, 200.0), 150.0
+    stiffness = np.diag([100.0 + 2.0 * disk, 0.0, 0.0, 0.0])
+    for place, spring in enumerate(springs):
+        pair = slice(place, place + 2)
+        stiffness[pair, pair] += spring * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    tie = np.zeros((4, 4))
+    tie[0, 0] = -disk
+    own, following = np.zeros((2, 3, 4))
+    own[1, 3], following[1, 3] = 1.0, -1.0
+    return CyclicProblem(
+        sectors,
+        engine_order,
+        Structure(
+            np.diag([4.0, 1.0, 0.5, 0.3]),
+            1e-3 * stiffness,
+            stiffness,
+            ("disk", "root", "middle", "tip"),
+        ),
+        Coupling(np.zeros((4, 4)), 1e-3 * tie, tie),
+        Interface(contact_table([law]), own, ("tip",)),
+        following,
+        np.zeros(4),
+        np.array([0.0, 0.0, 0.0, 0.5]),
+        Probes(("tip",), np.eye(4)[3:]),
+    )
+
+
+def first_frequency(problem: CyclicProblem) -> float:
+    squares = scipy.linalg.eigh(
+        problem.wave("stiffness", problem.lead),
+        problem.wave("mass", problem.lead),
+        eigvals_only=True,
+    )
+    return float(np.sqrt(squares[0]))
+
+
+def around(problem: CyclicProblem, response: PeriodicResponse) -> Array:
+    """Return the coefficients of the disk when each sector leads the one before."""
+    waves = to_complex(response.coefficients)
+    orders = np.arange(len(waves))[:, None]
+    turns = [np.exp(1j * problem.lead * j * orders) for j in range(problem.sectors)]
+    return to_real(np.hstack([waves * turn for turn in turns]))
+
+
+@pytest.mark.parametrize(
+    ("sectors", "engine_order", "law"),
+    [(6, 2, JENKINS), (5, 2, JENKINS), (6, 1, COULOMB_LAW), (4, 2, JENKINS)],
+    ids=["jenkins", "odd number", "coulomb", "standing wave"],
+)
+def test_sector_moves_like_the_disk(
+    sectors: int, engine_order: int, law: PointLaw
+) -> None:
+    problem = bladed_disk(sectors, engine_order, law)
+    samples = 40 * sectors  # the sectors' samples then fall on each other
+    middle = first_frequency(problem)
+    options = CurveOptions(
+        0.8 * middle,
+        1.3 * middle,
+        harmonics=HARMONICS,
+        samples=samples,
+        tolerance=1e-11,
+    )
+    disk = problem.disk()
+    curve = list(cyclic_response(problem, options))
+    largest = max(np.hypot(*point.coefficients[1:3, 3]) for point in curve)
+    assert largest > 3.0 * np.hypot(*curve[0].coefficients[1:3, 3])  # there is a peak
+    for point in curve[3::12]:
+        whole = around(problem, point)
+        guess = replace(point, coefficients=0.98 * whole)
+        solved = periodic_response(
+            disk,
+            static_equilibrium(disk),
+            guess,
+            harmonics=HARMONICS,
+            samples=samples,
+            tolerance=1e-11,
+        )
+        assert solved.coefficients == pytest.approx(
+            whole, abs=1e-9 * np.abs(whole).max()
+        )
+
+
+def test_mistuning_breaks_the_symmetry() -> None:
+    problem = bladed_disk(4, 1, COULOMB_LAW)
+    tuned, mistuned = problem.disk(), problem.disk(np.array([0.02, -0.01, 0.0, 0.01]))
+    change = mistuned.structure.stiffness - tuned.structure.stiffness
+    assert change[0, 0] == pytest.approx(0.02 * problem.sector.stiffness[0, 0])
+    assert np.abs(change[8:12]).max() == 0.0
+
+
+def test_coupling_of_the_wrong_shape_is_refused() -> None:
+    problem = bladed_disk(4, 1, COULOMB_LAW)
+    wrong = Coupling(np.zeros((3, 3)), *2 * (np.zeros((4, 4)),))
+    with pytest.raises(ValueError, match=r"coupling\.mass has shape \(3, 3\)"):
+        replace(problem, coupling=wrong)

@@ -1,0 +1,138 @@
+"""Friction that remembers, in harmonic balance: loops with closed forms, tangents."""
+
+import numpy as np
+import pytest
+
+from hbm.aft import AlternatingFrequencyTime
+from hbm.fourier import FourierBasis
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import (
+    BRISTLE,
+    ELASTIC,
+    PointLaw,
+    contact_table,
+)
+
+STIFFNESS, LIMIT, FREQUENCY = 40.0, 0.3, 7.0
+JENKINS = PointLaw(
+    friction=ELASTIC,
+    dynamic=1.0,
+    tangential=STIFFNESS,
+    constant_load=True,
+    load=LIMIT,
+)
+TANGENT = np.eye(3)[:, 1:2]
+EVERY = np.eye(3)
+
+
+def contact(
+    law: PointLaw, basis: Array, *, harmonics: int = 5, samples: int = 1024
+) -> AlternatingFrequencyTime:
+    return AlternatingFrequencyTime(
+        contact_table([law]), basis, FourierBasis(harmonics, samples)
+    )
+
+
+def sine(amplitude: float, mean: float = 0.0) -> Array:
+    coefficients = np.zeros((11, 1))
+    coefficients[0], coefficients[2] = mean, amplitude
+    return coefficients
+
+
+@pytest.mark.parametrize("times", [1.2, 2.0, 5.0, 40.0])
+def test_loop_of_jenkins_has_its_closed_form(times: float) -> None:
+    # energy per period 4 µN (A − µN/k), Jenkins 1962
+    amplitude = times * LIMIT / STIFFNESS
+    cycle = contact(JENKINS, TANGENT).cycle(sine(amplitude), FREQUENCY)
+    area = 4.0 * LIMIT * (amplitude - LIMIT / STIFFNESS)
+    assert cycle.friction == pytest.approx(area, rel=2e-4)
+
+
+@pytest.mark.parametrize("times", [1.2, 2.0, 5.0, 40.0])
+def test_first_harmonic_of_jenkins_is_that_of_the_describing_function(
+    times: float,
+) -> None:
+    amplitude = times * LIMIT / STIFFNESS
+    force, _ = contact(JENKINS, TANGENT)(sine(amplitude), FREQUENCY)
+    turn = np.arccos(1.0 - 2.0 / times)
+    in_phase = STIFFNESS * amplitude / np.pi * (turn - 0.5 * np.sin(2.0 * turn))
+    out_of_phase = 4.0 * LIMIT / np.pi * (1.0 - 1.0 / times)
+    assert force[2, 0] == pytest.approx(in_phase, rel=1e-4)
+    assert force[1, 0] == pytest.approx(out_of_phase, rel=1e-4)
+
+
+def test_stuck_slider_is_a_spring_that_carries_no_mean_force() -> None:
+    force, _ = contact(JENKINS, TANGENT)(sine(0.9 * LIMIT / STIFFNESS, 3.0), FREQUENCY)
+    expected = np.zeros(11)
+    expected[2] = 0.9 * LIMIT
+    assert force[:, 0] == pytest.approx(expected, abs=1e-12)
+
+
+def test_separated_contact_has_no_traction_and_sticks_when_it_closes() -> None:
+    law = PointLaw(
+        stiffness=100.0, friction=ELASTIC, dynamic=10.0, tangential=STIFFNESS
+    )
+    points = contact(law, EVERY[:, :2])
+    coefficients = np.zeros((11, 2))
+    coefficients[2, 0] = 1.0  # pressed in the first half of the period
+    coefficients[1, 1] = 1.0
+    points(coefficients, FREQUENCY)
+    points.cycle(coefficients, FREQUENCY)
+    traction = points._regular.force[1]
+    phase = 2.0 * np.pi * np.arange(1024) / 1024
+    closed = STIFFNESS * (np.cos(phase) - np.cos(phase[1]))
+    assert traction[512:] == pytest.approx(np.zeros(512), abs=1e-12)
+    # the slip limit is far away but near both ends
+    assert traction[50:450] == pytest.approx(closed[50:450], rel=0.02)
+
+
+def test_loop_of_dahl_has_its_closed_form() -> None:
+    law = PointLaw(
+        friction=BRISTLE,
+        dynamic=1.0,
+        static=1.0,
+        tangential=STIFFNESS,
+        constant_load=True,
+        load=LIMIT,
+    )
+    amplitude = 60.0 * LIMIT / STIFFNESS
+    cycle = contact(law, TANGENT, samples=16384).cycle(sine(amplitude), FREQUENCY)
+    # after a turn T = µN (1 − 2 exp(−k w/µN)), by 2 (µN)²/k less work than rigid
+    area = 4.0 * LIMIT * amplitude - 2.0 * 2.0 * LIMIT**2 / STIFFNESS
+    assert cycle.friction == pytest.approx(area, rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", [ELASTIC, BRISTLE], ids=["elastic", "bristles"])
+@pytest.mark.parametrize("constant", [True, False], ids=["constant load", "variable"])
+def test_tangents_agree_with_differences(kind: int, constant: bool) -> None:
+    law = PointLaw(
+        stiffness=5.0,
+        gap=-0.8,
+        friction=kind,
+        dynamic=0.4,
+        static=0.4 if kind == ELASTIC else 0.7,
+        stribeck=0.5,
+        tangential=8.0,
+        constant_load=constant,
+        load=0.9,
+    )
+    points = contact(law, EVERY, harmonics=3, samples=256)
+    random = np.random.default_rng(4)
+    coefficients = 0.25 * random.normal(size=(7, 3))
+    force, change = points(coefficients, FREQUENCY)
+    remembered = points.remembered(FREQUENCY)
+    assert remembered is not None
+    assert np.abs(force[:, 1:]).max() > 0.05
+    step = 1e-7
+    for place in ((0, 0), (3, 1), (6, 2)):
+        moved = np.zeros_like(coefficients)
+        moved[place] = step
+        forward, _ = points(coefficients + moved, FREQUENCY)
+        backward, _ = points(coefficients - moved, FREQUENCY)
+        slope = (forward - backward)[:, 1:] / (2.0 * step)
+        known = remembered[:, 1:, *place]
+        assert known == pytest.approx(slope, abs=2e-5 * np.abs(slope).max())
+    faster, _ = points(coefficients, FREQUENCY * (1.0 + 1e-7))
+    slower, _ = points(coefficients, FREQUENCY * (1.0 - 1e-7))
+    by_frequency = (faster - slower) / (2e-7 * FREQUENCY)
+    assert change == pytest.approx(by_frequency, abs=1e-5 * np.abs(by_frequency).max())

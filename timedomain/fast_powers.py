@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_power, normal_law
+from microslip_mechanics.contact.law import contact_power
 from microslip_mechanics.jit import bare_kernel
 from timedomain.coordinates import Contacts, Modes
 from timedomain.motion import Motion, Trial
@@ -37,7 +37,8 @@ def stage_powers(
         damping += damped
         if tables.mean > 0.0:
             more = between(
-                normal_law(contacts.points, point),
+                contacts.points,
+                point,
                 trial.begins[point],
                 local.gaps[point, 0],
             )

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
@@ -36,7 +37,8 @@ def integrate(
     history
         Factors of preload and drive over time.
     options
-        Method, step or tolerance, and what is stored.
+        Method, step or tolerance, and what is stored. Contacts that remember are marched
+        by the reference method with ``time_step``, and without an estimated error.
     start
         Initial displacement and velocity; all at rest and without load if left out.
         From the checkpoint of a block of the same march, the rest of it is yielded.
@@ -59,6 +61,8 @@ def integrate(
     begin = (
         at_rest(problem) if start is None or isinstance(start, Checkpoint) else start
     )
+    if remembers(problem.interface.points).any():
+        options = replace(options, method="reference", tolerance=None)
     method = FastMarch if options.method == "fast" else ReferenceMarch
     marching = method(problem, history, options, rows * stride, begin)
     done = marching.resume(start) // stride if isinstance(start, Checkpoint) else 0

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.hunt_crossley import normal_force
-from microslip_mechanics.contact.law import contact_energy, normal_law
+from microslip_mechanics.contact.law import contact_energy, normal_response
 from microslip_mechanics.jit import bare_kernel
 from microslip_mechanics.segments import Segments, segment_of
 from timedomain.accept import accept
@@ -179,8 +178,9 @@ def _store(modes: Modes, contacts: Contacts, motion: Motion, row: Array) -> None
         for i in range(contacts.width[point]):
             gap += contacts.basis[point, 0, i] * motion.relative[0, first + i]
         motion.gaps[point, 0] = gap
-        law = normal_law(contacts.points, point)
-        row[place + point], _, _ = normal_force(law, gap, motion.slips[point, 0])
+        row[place + point], _, _ = normal_response(
+            contacts.points, point, gap, motion.slips[point, 0]
+        )
         stored += contact_energy(contacts.points, point, gap)
     place += count
     row[place] = motion.powers[1]

@@ -17,17 +17,15 @@ import math
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.gkf import GKF, gkf_coefficients
-from microslip_mechanics.contact.hunt_crossley import (
-    HuntCrossley,
-    normal_force,
-    spring_force,
-)
 from microslip_mechanics.contact.law import (
     COULOMB,
     FRICTIONLESS,
     GENERAL_KINETIC,
+    ONE_SIDED,
+    TANH,
     ContactPoints,
-    normal_law,
+    normal_response,
+    spring_response,
 )
 from microslip_mechanics.jit import bare_kernel
 
@@ -72,13 +70,13 @@ def linearise(
         velocity, (points, 3, 3).
     """
     depth, approach = gaps[point, 0], slips[point, 0]
-    law = normal_law(points, point)
-    normal, stiff, viscous = normal_force(law, depth, approach)
-    if careful and depth > 0.0:
-        stiff = law.exponent * spring_force(law, depth) / depth
-        stiff += max(0.0, viscous * approach / depth)
+    normal, stiff, viscous = normal_response(points, point, depth, approach)
+    inside = depth - points.gap[point]
+    if careful and points.normal[point] == ONE_SIDED and inside > 0.0:
+        _, stiff = spring_response(points, point, depth)
+        stiff += max(0.0, viscous * approach / inside)
     if begins.size > 0:
-        more, stiffer = between(law, begins[point], depth)
+        more, stiffer = between(points, point, begins[point], depth)
         normal, stiff = normal + more, stiff + stiffer
     lines[point, 0], by_gap[point, 0], by_slip[point, 0, 0] = normal, stiff, viscous
     load = normal
@@ -110,21 +108,33 @@ def linearise(
 
 
 @bare_kernel
-def between(law: HuntCrossley, begin: float, mean: float) -> tuple[float, float]:
+def between(
+    points: ContactPoints, point: int, begin: float, mean: float
+) -> tuple[float, float]:
     """Return what the mean spring force of a step exceeds that of its mean by.
 
     By Simpson's rule over the penetration, which keeps the spring's energy where the
     force is a cubic; with the derivative by the mean penetration.
     """
-    end = 2.0 * mean - begin
-    middle, last = spring_force(law, mean), spring_force(law, end)
-    more = (spring_force(law, begin) + last - 2.0 * middle) / 6.0
-    slope = 0.0
-    if last > 0.0:
-        slope += law.exponent * last / end / 3.0
-    if middle > 0.0:
-        slope -= law.exponent * middle / mean / 3.0
-    return more, slope
+    first, _ = spring_response(points, point, begin)
+    middle, rises = spring_response(points, point, mean)
+    last, rise = spring_response(points, point, 2.0 * mean - begin)
+    return (first + last - 2.0 * middle) / 6.0, (rise - rises) / 3.0
+
+
+@bare_kernel
+def _smooth_level(
+    coefficient: float, share: float, threshold: float
+) -> tuple[float, float]:
+    """Return the level of smooth friction at a share of the threshold; its slope."""
+    if share < 1e-4:
+        return coefficient, 0.0
+    value = math.tanh(share)
+    steep = 1.0 - value * value
+    if share > 1.0:
+        return coefficient * value, coefficient * steep / threshold
+    level = value / share
+    return coefficient * level, coefficient * (steep - level) / share / threshold
 
 
 @bare_kernel
@@ -135,6 +145,8 @@ def friction_level(
     threshold = points.threshold[point]
     if points.friction[point] == COULOMB:
         return points.dynamic[point], 0.0
+    if points.friction[point] == TANH:
+        return _smooth_level(points.dynamic[point], speed / threshold, threshold)
     law = GKF(
         points.dynamic[point],
         points.static[point],

@@ -65,7 +65,7 @@ def masses(law: PointLaw, seen: Array, drive: Array) -> Problem:
         (DAHL, np.eye(3)[:, 1:2], np.array([0.35])),
         (LUGRE, np.eye(3)[:, 1:2], np.array([0.35])),
         (SHOE, np.eye(3)[:, [1, 0]], np.array([0.3, 0.6])),
-        (SHOE, np.eye(3)[:, [1, 2, 0]], np.array([0.3, 0.3j, 0.9]).real + 0.0),
+        (SHOE, np.eye(3)[:, [1, 2, 0]], np.array([0.3, 0.1, 0.9])),
     ],
     ids=["jenkins", "dahl", "lugre", "lifting shoe", "lifting shoe, two tangents"],
 )

@@ -199,7 +199,7 @@ def contact_power(
 
     ``force`` is what :func:`contact_force` wrote for the same motion.
     """
-    spring = _spring(points, point, displacement[0])
+    spring, _ = spring_response(points, point, displacement[0])
     friction = force[1] * velocity[1] + force[2] * velocity[2]
     return friction, (force[0] - spring) * velocity[0]
 
@@ -229,13 +229,16 @@ def normal_response(
 
 
 @kernel
-def _spring(points: ContactPoints, point: int, displacement: float) -> float:
-    """Return the elastic part of the normal force [N]."""
+def spring_response(
+    points: ContactPoints, point: int, displacement: float
+) -> tuple[float, float]:
+    """Return the elastic part of the normal force [N] and its derivative [N/m]."""
     depth = displacement - points.gap[point]
     if points.normal[point] == TWO_SIDED:
-        force, _, _ = power_force(power_law(points, point), depth, 0.0)
-        return force
-    return spring_force(normal_law(points, point), depth)
+        pull, slope, _ = power_force(power_law(points, point), depth, 0.0)
+        return pull, slope
+    force = spring_force(normal_law(points, point), depth)
+    return force, points.exponent[point] * force / depth if force > 0.0 else 0.0
 
 
 @kernel

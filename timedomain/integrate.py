@@ -82,12 +82,17 @@ def integrate(
     Raises
     ------
     ValueError
-        If the block has no length or the structure is sparse.
+        If the block has no length, the structure is sparse, or forces have phases.
     IntegrationError
         If a step does not converge even when it is divided; what was yielded stays.
     """
     if not 0.0 < block < math.inf:
         raise ValueError(f"block of {block:g} s: give a positive finite length")
+    if not problem.in_phase:
+        raise ValueError(
+            "the forces have different phases: a march knows one sine for all of "
+            "them; give them one phase, or use harmonic balance alone"
+        )
     steps = max(1, int(np.ceil(history.duration / options.time_step - 1e-9)))
     stride = min(options.store_every, steps)
     rows = -(-steps // stride)

@@ -64,7 +64,7 @@ def check_dissipates(damping: Matrix, names: tuple[str, ...]) -> None:
         return
     if scipy.sparse.issparse(damping):
         shift = ROUNDING * size * scipy.sparse.eye_array(len(names), format="csc")
-        found = indefinite_factors(scipy.sparse.csc_array(damping) + shift)
+        found = indefinite_factors(damping.tocsc() + shift)
         gains = found is not None and bool((found.pivots < 0.0).any())
         where = "some motion"
     else:

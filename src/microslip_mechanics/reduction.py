@@ -101,7 +101,12 @@ def reduced(problem: Problem, highest: float) -> Reduction:
         stuck.free.T @ (matrix @ stuck.static)
         for matrix in (problem.structure.mass, problem.structure.damping)
     )
-    loads = stuck.free.T @ np.stack([problem.preload, problem.drive], axis=1)
+    drive = (
+        [problem.drive.real]
+        if problem.in_phase
+        else [problem.drive.real, problem.drive.imag]
+    )
+    loads = stuck.free.T @ np.stack([problem.preload, *drive], axis=1)
     residual, energy = _residual(stuck, modes, np.hstack([loads, inertia, friction]))
     shapes = np.hstack([stuck.static, stuck.free @ np.hstack([modes.shapes, residual])])
     damping = stuck.loss(modes) if 0.0 < modes.next < np.inf else 0.0

@@ -11,7 +11,7 @@ import numpy as np
 import scipy.sparse
 from numpy.typing import ArrayLike
 
-from microslip_mechanics.arrays import Array, Matrix
+from microslip_mechanics.arrays import Array, ComplexArray, Matrix
 from microslip_mechanics.damping import check_dissipates, modal, rayleigh
 from microslip_mechanics.element import Element, interface_of
 from microslip_mechanics.forms import Form, Pair, form, place_of, relative
@@ -166,8 +166,10 @@ def _damping(
 
 
 def _loads(
-    given: Mapping[str, float | complex], names: tuple[str, ...], what: str
-) -> Array:
+    given: Mapping[str, float] | Mapping[str, complex],
+    names: tuple[str, ...],
+    what: str,
+) -> ComplexArray:
     """Return loads over the degrees of freedom."""
     loads = np.zeros(len(names), dtype=complex)
     for name, force in given.items():
@@ -178,7 +180,7 @@ def _loads(
     return loads
 
 
-def _driven(given: Drive, names: tuple[str, ...]) -> Array:
+def _driven(given: Drive, names: tuple[str, ...]) -> Array | ComplexArray:
     """Return the drive: real if everything is driven in phase with the sine."""
     waves = {}
     for name, wave in given.items():

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc, sweep
+from microslip.commands.columns import SHOWN, headed, titled
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,10 +20,6 @@ if TYPE_CHECKING:
 
 SLOWEST = 1000.0
 """times the length of the scene's sweep"""
-ORBITS = """\
-steady state: march started on the orbit that harmonic balance found
-frequency  amplitude [mm]   deviation [%]                   distance from orbit  drift
-     [Hz]  excited blade     excited  follower   element       first      last"""
 SWEEPS = """\
 swept sine beside the curve's prediction for an infinitely slow one
   slower   energy of friction [J]  predicted [J]  difference  envelope  closing error"""
@@ -93,8 +90,8 @@ def _run(options: argparse.Namespace) -> int:
     problem = problem_of(scene)
     if not problem.drive.any():
         raise SceneError(
-            f"{options.scene}: [excitation] force = 0: nothing vibrates, so there is "
-            "nothing to verify: give a force"
+            f"{options.scene}: no force drives it: nothing vibrates, so there is "
+            "nothing to verify: give a force in [excitation] or [drive]"
         )
     curve, swept = scene.curve, scene.sweep
     covered = curve.lowest <= swept.lowest and swept.highest <= curve.highest
@@ -115,7 +112,7 @@ def _run(options: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         return arguments.ended("interrupted")
     finally:
-        _report(orbits, sweeps)
+        _report(problem.probes.names, orbits, sweeps)
     _draw(options, traced, orbits, sweeps, picture)
     print(f"picture in {picture}")
     return _verdict(options, orbits, sweeps)
@@ -165,16 +162,26 @@ def _sweeps(
         )
 
 
-def _report(orbits: list[Agreement], sweeps: list[SweepAgreement]) -> None:
+def _report(
+    probes: tuple[str, ...], orbits: list[Agreement], sweeps: list[SweepAgreement]
+) -> None:
     """Print what was found."""
     from microslip.studies.verify import rate_of
 
     if orbits:
-        print(ORBITS)
+        heads = headed(probes).replace(" ", "", 1)
+        print("steady state: march started on the orbit that harmonic balance found")
+        print(
+            f"frequency  amplitude [mm]   {titled('deviation [%]', probes)} distance "
+            "from orbit  drift"
+        )
+        print(f"     [Hz]  {probes[0]:>13s}  {heads}       first      last")
     for orbit in orbits:
         print(
             f"{orbit.frequency / math.tau:9.4f}  {1e3 * orbit.predicted[0]:13.6f}  "
-            + " ".join(f"{100.0 * deviation:9.4f}" for deviation in orbit.deviation[:3])
+            + " ".join(
+                f"{100.0 * deviation:9.4f}" for deviation in orbit.deviation[:SHOWN]
+            )
             + f"  {orbit.first_distance:10.1e}{orbit.last_distance:10.1e}"
             f"{orbit.drift:9.1e}"
             f"{'  unstable: need not stay' if orbit.unstable > 0 else ''}"
@@ -225,8 +232,8 @@ def _draw(
 
 
 def _deviation(each: Agreement) -> float:
-    """Return the largest deviation among blades and friction element."""
-    return float(each.deviation[:3].max())
+    """Return the largest deviation among the probes of the table."""
+    return float(each.deviation[:SHOWN].max())
 
 
 def _verdict(

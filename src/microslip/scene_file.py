@@ -20,6 +20,8 @@ KINDS = ("two-blades", "system")
 SYSTEMS = ("duffing", "jenkins", "gap", "chain", "friction-beam", "tip-damper")
 BUILT_IN = ("two-blades", *SYSTEMS)
 """names of built-in scenes"""
+NESTED = (["element"], ["drive"], ["structure"])
+"""tables of a system with tables in them"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +122,7 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
     """Put one ``table.key=value`` into the document."""
     name, equals, text = override.partition("=")
     *tables, key = name.strip().split(".")
-    deepest = 2 if tables[:1] in (["element"], ["drive"]) else 1
+    deepest = 2 if tables[:1] in NESTED else 1
     if not equals or not key or len(tables) > deepest or not all(tables):
         raise SceneError(
             f"--set {override}: give table.key=value, such as contact.sigma=3e-7"

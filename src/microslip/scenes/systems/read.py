@@ -7,14 +7,15 @@ from typing import Any
 
 from microslip.quantity import Quantity, SceneError
 from microslip.scene_file import meant, read_table, shown
-from microslip.scenes.systems.rig import Losses, Matrices, System, Wave
+from microslip.scenes.systems.rig import Matrices, Numbers, System, Wave
 from microslip_mechanics.element import KEYS
 from microslip_mechanics.laws.catalogue import LAWS
 
 TABLES = ("structure", "element", "drive", "preload", "probes")
 MATRICES = ("mass", "stiffness", "damping")
-LOSSES = ("damping_ratio", "mass_damping", "stiffness_damping")
+NUMBERS = ("beam", "damping_ratio", "mass_damping", "stiffness_damping")
 FORCE = Quantity("N", float("-inf"), float("inf"), positive=False)
+MASS = Quantity("kg", 0.0, float("inf"), positive=True)
 
 
 def read_system(source: str, document: dict[str, Any], known: list[str]) -> System:
@@ -45,15 +46,21 @@ def read_system(source: str, document: dict[str, Any], known: list[str]) -> Syst
                 f"{source}: two elements are named {name}: give each its own name"
             )
         laws[name], ends[name] = law, given
-    matrices, losses = _structure(source, _table(source, document, "structure"))
+    structure = _table(source, document, "structure")
     return System(
         source,
-        matrices,
-        losses,
+        _matrices(source, structure),
+        read_table(
+            source,
+            "[structure] ",
+            Numbers,
+            {key: structure[key] for key in NUMBERS if key in structure},
+        ),
+        _masses(source, structure),
         laws,
         ends,
         _drive(source, _table(source, document, "drive")),
-        _preload(source, document),
+        _numbers(source, "preload", document.get("preload", {}), FORCE),
         document.get("probes"),
     )
 
@@ -67,16 +74,25 @@ def _table(source: str, document: dict[str, Any], name: str) -> dict[str, Any]:
     return dict(document[name])
 
 
-def _structure(source: str, values: dict[str, Any]) -> tuple[Matrices, Losses]:
-    """Return the matrices as they stand there, and the damping given by numbers."""
-    for key in ("mass", "stiffness"):
-        if key not in values:
-            raise SceneError(f"{source}: [structure] {key} is missing: add it")
+def _matrices(source: str, values: dict[str, Any]) -> Matrices:
+    """Return the matrices as they stand there."""
+    known = (*MATRICES, *NUMBERS, "names", "masses")
     for key in values:
-        if key not in (*MATRICES, *LOSSES, "names"):
+        if key not in known:
             raise SceneError(
                 f"{source}: [structure] {key}{shown(values[key])} is unknown"
-                f"{meant(key, [*MATRICES, *LOSSES, 'names'])}"
+                f"{meant(key, known)}"
+            )
+    both = [key for key in (*MATRICES, "names") if key in values and "beam" in values]
+    if both:
+        raise SceneError(
+            f"{source}: [structure] {both[0]} and beam: give matrices or a beam, one "
+            "of the two"
+        )
+    for key in () if "beam" in values else MATRICES[:2]:
+        if key not in values:
+            raise SceneError(
+                f"{source}: [structure] {key} is missing: add it, or a [structure.beam]"
             )
     names = values.get("names")
     if names is not None and not _texts(names):
@@ -84,11 +100,17 @@ def _structure(source: str, values: dict[str, Any]) -> tuple[Matrices, Losses]:
             f"{source}: [structure] names{shown(names)}: give a list of texts"
         )
     rows = [_rows(source, key, values.get(key)) for key in MATRICES]
-    losses = {key: values[key] for key in LOSSES if key in values}
-    return (
-        Matrices(*rows, None if names is None else tuple(names), Path(source).parent),
-        read_table(source, "[structure] ", Losses, losses),
-    )
+    return Matrices(*rows, None if names is None else tuple(names), Path(source).parent)
+
+
+def _masses(source: str, values: dict[str, Any]) -> dict[str, float]:
+    """Return the point masses beside a beam."""
+    if "masses" in values and "beam" not in values:
+        raise SceneError(
+            f"{source}: [structure] masses belong to a beam: add a [structure.beam], "
+            "or put them into the mass matrix"
+        )
+    return _numbers(source, "structure.masses", values.get("masses", {}), MASS)
 
 
 def _rows(source: str, key: str, given: object) -> Any:  # noqa: ANN401  (text or rows)
@@ -144,19 +166,21 @@ def _drive(source: str, values: dict[str, Any]) -> dict[str, Wave]:
     }
 
 
-def _preload(source: str, document: dict[str, Any]) -> dict[str, float]:
-    """Return the static forces."""
-    if "preload" not in document:
-        return {}
-    loads = {}
-    for name, value in _table(source, document, "preload").items():
+def _numbers(
+    source: str, table: str, values: object, kind: Quantity
+) -> dict[str, float]:
+    """Return a table of numbers of one kind."""
+    if not isinstance(values, dict):
+        raise SceneError(f"{source}: [{table}] must be a table, not {values!r}")
+    found = {}
+    for name, value in values.items():
         try:
-            loads[name] = FORCE.read(value)
+            found[name] = kind.read(value)
         except ValueError as error:
             raise SceneError(
-                f"{source}: [preload] {name}{shown(value)}: {error}"
+                f"{source}: [{table}] {name}{shown(value)}: {error}"
             ) from None
-    return loads
+    return found
 
 
 def _texts(values: object) -> bool:

@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 from microslip.matrices.read import MatrixFiles, read_structure
 from microslip.matrices.source import MatrixSource
 from microslip.quantity import SceneError, quantity
+from microslip.scenes.systems.cantilever import Cantilever, assembled
 from microslip_mechanics.element import Element
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.forms import Form, Pair
@@ -24,9 +25,11 @@ SMALL = 400
 
 
 @dataclass(frozen=True, slots=True)
-class Losses:
-    """Damping of the structure by numbers; all of it may be left out."""
+class Numbers:
+    """What the structure has beside matrices; all of it may be left out."""
 
+    beam: Cantilever | None = None
+    """in place of matrices"""
     damping_ratio: float | None = quantity(lowest=0.0, highest=0.999, optional=True)
     mass_damping: float | None = quantity("1/s", lowest=0.0, optional=True)
     stiffness_damping: float | None = quantity("s", lowest=0.0, optional=True)
@@ -43,8 +46,9 @@ class Losses:
 class Matrices:
     """Matrices of the structure, inline or as names of files."""
 
-    mass: Rows
-    stiffness: Rows
+    mass: Rows | None
+    """none where a beam takes their place"""
+    stiffness: Rows | None
     damping: Rows | None
     names: tuple[str, ...] | None
     folder: Path
@@ -66,7 +70,9 @@ class System:
     source: str
     """the scene, for messages"""
     matrices: Matrices
-    structure: Losses
+    structure: Numbers
+    masses: Mapping[str, float]
+    """beside a beam [kg], by name"""
     element: Mapping[str, Law]
     """by name"""
     ends: Mapping[str, Mapping[str, Any]]
@@ -104,6 +110,9 @@ def problem(rig: System) -> Problem:
 def _matrices(rig: System) -> dict[str, Any]:
     """Return the matrices, and the names if there are any."""
     given = rig.matrices
+    if rig.structure.beam is not None:
+        made = assembled(rig.structure.beam, rig.masses)
+        return {"mass": made.mass, "stiffness": made.stiffness, "names": made.names}
     files = {
         name: MatrixSource.of(value, given.folder)
         for name in ("mass", "stiffness", "damping")
@@ -120,8 +129,8 @@ def _matrices(rig: System) -> dict[str, Any]:
         raise ValueError(
             "[structure] some matrices are files, others not: give all of them alike"
         )
-    made = read_structure(MatrixFiles(**files))
-    matrices = {name: getattr(made, name) for name in files}
-    if made.dofs <= SMALL:
+    read = read_structure(MatrixFiles(**files))
+    matrices = {name: getattr(read, name) for name in files}
+    if read.dofs <= SMALL:
         matrices = {name: matrix.toarray() for name, matrix in matrices.items()}
-    return {**matrices, "names": given.names or made.names}
+    return {**matrices, "names": given.names or read.names}

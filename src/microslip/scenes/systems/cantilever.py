@@ -54,8 +54,7 @@ def assembled(beam: Cantilever, masses: Mapping[str, float]) -> Structure:
     )
     across = np.array([0.0, 0.0, 1.0])
     beams = [
-        Beam(start, end, section, across)
-        for start, end in itertools.pairwise(names)
+        Beam(start, end, section, across) for start, end in itertools.pairwise(names)
     ]
     moving = ("uz",) if beam.plane else MOTIONS[:3]
     nodes += [Node(name, np.zeros(3), moving) for name in masses]

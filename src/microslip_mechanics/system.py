@@ -98,6 +98,11 @@ def _matrix(given: Matrix, what: str) -> Matrix:
         raise ValueError(
             f"{what} has shape {matrix.shape}: give a square matrix, or its diagonal"
         )
+    if not np.isfinite(matrix).all():
+        row, column = np.argwhere(~np.isfinite(matrix))[0] + 1
+        raise ValueError(
+            f"{what} holds a value that is not finite, in row {row}, column {column}"
+        )
     return matrix
 
 

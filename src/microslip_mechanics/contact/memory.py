@@ -79,3 +79,47 @@ def friction_load(
     if points.constant_load[point]:
         return points.load[point], 0.0, 0.0
     return normal_response(points, point, displacement, velocity)
+
+
+@kernel
+def add_traction(
+    points: ContactPoints,
+    point: int,
+    displacement: Array,
+    velocity: Array,
+    past: Array,
+    fresh: Array,
+    force: Array,
+    by_displacement: Array,
+    by_velocity: Array,
+) -> None:
+    """Add what a point remembers to the force and tangents of its other laws.
+
+    Parameters
+    ----------
+    points, point
+        The table and the row in it.
+    displacement, velocity
+        Relative displacement [m] and velocity [m/s], each of shape ``(3,)``.
+    past
+        Where it was along both tangents [m], and its traction there [N], ``(2, 2)``.
+    fresh
+        Written: the same for now.
+    force, by_displacement, by_velocity
+        As :func:`~microslip_mechanics.contact.law.contact_force` wrote them; added to.
+    """
+    slide, by = np.empty(2), np.empty((2, 7))
+    for axis in range(2):
+        fresh[0, axis] = displacement[axis + 1]
+        slide[axis] = displacement[axis + 1] - past[0, axis]
+    load, by_depth, by_approach = friction_load(
+        points, point, displacement[0], velocity[0]
+    )
+    traction(points, point, slide, velocity[1:], load, past[1], fresh[1], by)
+    for row in range(2):
+        force[row + 1] += fresh[1, row]
+        by_displacement[row + 1, 0] += by[row, 4] * by_depth
+        by_velocity[row + 1, 0] += by[row, 4] * by_approach
+        for column in range(2):
+            by_displacement[row + 1, column + 1] += by[row, column]
+            by_velocity[row + 1, column + 1] += by[row, column + 2]

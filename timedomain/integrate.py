@@ -120,7 +120,7 @@ class _March:
         self._problem, self._history = problem, history
         self._options, self._steps = options, steps
         self._step = history.duration / steps
-        self._shapes = np.stack([problem.preload, problem.drive], axis=1)
+        self._shapes = np.stack([problem.preload, problem.drive.real], axis=1)
         self._operators = _operators(problem, self._shapes, self._step)
         self._state = first_state(problem, history, start)
         self._meters = meters(problem, self._shapes)

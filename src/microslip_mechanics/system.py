@@ -83,7 +83,8 @@ def system(
 
 def _matrix(given: Matrix, what: str) -> Matrix:
     """Return a square matrix, of floating point numbers."""
-    if scipy.sparse.issparse(given):
+    sparse = bool(scipy.sparse.issparse(given))
+    if sparse:
         return scipy.sparse.csc_array(given, dtype=float)
     try:
         matrix = np.array(given, dtype=float)

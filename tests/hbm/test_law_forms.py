@@ -96,7 +96,7 @@ def backbone(law: Iwan, motion: float) -> float:
     chi, least = law.chi, min(motion, law.largest_slip)
     below = law.density * least ** (chi + 2.0) / (chi + 2.0)
     above = law.stiffness - law.density * least ** (chi + 1.0) / (chi + 1.0)
-    return below + above * least
+    return float(below + above * least)
 
 
 def loss(law: Iwan, amplitude: float) -> float:

@@ -41,7 +41,10 @@ def test_elements_see_the_first_end_relative_to_the_second() -> None:
 
 def test_contact_has_normal_and_tangents_where_it_says() -> None:
     law = ElasticFriction(stiffness=3.0, mu=0.2, normal_stiffness=9.0)
-    places = {"normal": ("x1", "ground"), "tangents": [("x2", "ground")]}
+    places: dict[str, Any] = {
+        "normal": ("x1", "ground"),
+        "tangents": [("x2", "ground")],
+    }
 
     problem = made(elements=[Element(law, **places, name="face")])
 

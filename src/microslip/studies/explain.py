@@ -144,7 +144,7 @@ def _unknowns(problem: Problem, scene: Scene) -> list[Pruned]:
 
 
 def _unlocked(scene: Scene) -> int:
-    return 2 * 6 * scene.rig.blade.elements + 6
+    return 2 * 6 * int(scene.rig.blade.elements) + 6
 
 
 def _roped(scene: Scene) -> bool:

@@ -58,9 +58,8 @@ class Iwan:
         """R [N/m^(χ+2)]."""
         chi = self.chi
         shape = self.beta + (chi + 1.0) / (chi + 2.0)
-        return (
-            self.slip_force * (chi + 1.0) / (self.largest_slip ** (chi + 2.0) * shape)
-        )
+        power = float(self.largest_slip ** (chi + 2.0))
+        return self.slip_force * (chi + 1.0) / (power * shape)
 
     @property
     def edges(self) -> Array:

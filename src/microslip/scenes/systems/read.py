@@ -99,8 +99,14 @@ def _matrices(source: str, values: dict[str, Any]) -> Matrices:
         raise SceneError(
             f"{source}: [structure] names{shown(names)}: give a list of texts"
         )
-    rows = [_rows(source, key, values.get(key)) for key in MATRICES]
-    return Matrices(*rows, None if names is None else tuple(names), Path(source).parent)
+    mass, stiffness, damping = (_rows(source, key, values.get(key)) for key in MATRICES)
+    return Matrices(
+        mass,
+        stiffness,
+        damping,
+        None if names is None else tuple(names),
+        Path(source).parent,
+    )
 
 
 def _masses(source: str, values: dict[str, Any]) -> dict[str, float]:

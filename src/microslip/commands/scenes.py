@@ -19,7 +19,7 @@ systems of any matrices and elements (scene = "system"):
   gap            a mass that meets a stop behind a gap
   chain          three masses with sliders, cubic springs and a stop (NLvib, example 07)
   friction-beam  a cantilever with dry friction at its tip
-  tip-damper     a blade with a damper pressed to its tip, contact in three dimensions
+  tip-damper     a blade with a pin pressed to its tip, contact in three dimensions
   variants by --set element.NAME.KEY=VALUE, drive.DOF=VALUE, structure.damping_ratio=…
 microslip scenes two-blades > mine.toml    makes a copy to change"""
 

@@ -84,6 +84,8 @@ class CondensedStructure:
     """modal coordinate per load, shape (poles, dofs)"""
     coupled: NDArray[np.int64]
     """poles that y excites"""
+    gyroscopic: bool = False
+    """whether S(s) differs from its transpose"""
 
     def restricted(
         self, kept: NDArray[np.int64], force: ComplexArray
@@ -112,6 +114,7 @@ class CondensedStructure:
             self.modes[:, used],
             self.participation[used],
             np.flatnonzero(reach[used] > 1e-10),
+            self.gyroscopic,
         )
 
     def possible(self, orders: int) -> NDArray[np.bool_]:
@@ -148,6 +151,7 @@ class CondensedStructure:
             self.inertial_back[:, self.coupled],
             variable,
             wanted,
+            self.gyroscopic,
         )
 
     def load(
@@ -192,6 +196,7 @@ def _stiffness(
     inertial_back: ComplexArray,
     variable: ComplexArray,
     wanted: NDArray[np.bool_],
+    gyroscopic: bool,
 ) -> tuple[ComplexArray, ComplexArray]:
     """Return S(s) and dS/ds of the coordinates wanted (theory, eqs. 15–16)."""
     orders, (rank, count) = variable.size, viscous.shape
@@ -208,7 +213,7 @@ def _stiffness(
                 slow, fast = viscous[b, p], inertial[b, p]
                 into[p] = (slow + s * fast) * s * pole[p]
                 turn[p] = (slow + 2.0 * s * fast) * pole[p] - into[p] * pole[p]
-            for a in range(b + 1):
+            for a in range(rank if gyroscopic else b + 1):
                 if not wanted[order, a]:
                     continue
                 total, slope = 0.0j, 0.0j
@@ -221,9 +226,19 @@ def _stiffness(
                     stiffness[a, b] + s * (damping[a, b] + s * mass[a, b]) - (s * total)
                 )
                 slope = damping[a, b] + 2.0 * s * mass[a, b] - slope
-                value[order, a, b] = value[order, b, a] = total
-                change[order, a, b] = change[order, b, a] = slope
+                _enter(value[order], a, b, total, gyroscopic)
+                _enter(change[order], a, b, slope, gyroscopic)
     return value, change
+
+
+@kernel
+def _enter(
+    matrix: ComplexArray, row: int, column: int, value: complex, gyroscopic: bool
+) -> None:
+    """Write an entry; and its mirror image unless that is an entry of its own."""
+    matrix[row, column] = value
+    if not gyroscopic:
+        matrix[column, row] = value
 
 
 def condense(problem: Problem, selection: Array) -> CondensedStructure:
@@ -250,12 +265,13 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
         poles,
         forcing @ viscous,
         forcing @ inertial,
-        viscous.T @ shapes,
+        static.T @ structure.damping @ free @ shapes,
         inertial.T @ shapes,
         static,
         free @ shapes,
         forcing @ free.T,
         np.arange(poles.size),
+        structure.gyroscopic,
     )
 
 

@@ -161,6 +161,7 @@ def stuck_structure(problem: Problem, rest: StaticState) -> Structure:
         kept.T @ whole.damping @ kept,
         kept.T @ whole.stiffness @ kept,
         tuple(f"motion {number}" for number in range(kept.shape[1])),
+        whole.gyroscopic,
     )
 
 

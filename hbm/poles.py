@@ -117,7 +117,7 @@ def _between(before: Structure, after: Structure, share: float) -> Structure:
         (1.0 - share) * getattr(before, name) + share * getattr(after, name)
         for name in ("mass", "damping", "stiffness")
     )
-    return Structure(mass, damping, stiffness, after.names)
+    return Structure(mass, damping, stiffness, after.names, after.gyroscopic)
 
 
 def _compared(one: Poles, other: Poles, structure: Structure) -> tuple[Array, Array]:

@@ -157,6 +157,8 @@ def small_motions(problem: Problem) -> SmallMotions:
     part = (coupling.T * scipy.linalg.solve(inertia, coupling.T)).sum(axis=0)
     weight = np.sqrt(np.maximum(part, 0.0) / squares)
     kept = weight >= SMALLEST * weight.max(initial=0.0)
+    if structure.gyroscopic:  # Coriolis terms couple modes that inertia does not
+        kept[:] = True
     motion = np.hstack([static, free @ shapes[:, kept]])
     mass, damping, stiffness = (
         motion.T @ matrix @ motion

@@ -9,8 +9,9 @@ import pytest
 
 from microslip.cli import main
 from microslip.scene_file import built_in_text
+from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response import ResponseCurve
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.record import FLOWS, STORES
 
 PROBES = ("excited-blade", "follower-blade", "element", "element-to-excited")
@@ -92,7 +93,7 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     def undrawn(*_: object) -> None:
         return
 
-    for name in ("figures.curve.curve_figure", "figures.sweep.sweep_figure"):
+    for name in ("figures.curve.curve_figure", "figures.result.result_figure"):
         monkeypatch.setattr(f"microslip.{name}", undrawn)
     monkeypatch.setattr("microslip.store.save_figure", undrawn)
 
@@ -148,4 +149,34 @@ def small_history() -> TimeHistory:
         iterations=123,
         divided=4,
         ending="interrupted",
+        checkpoint=Checkpoint(draw.normal(size=3), draw.normal(size=3), np.ones(5)),
+        frequency=draw.uniform(700.0, 900.0, times),
+        level=draw.uniform(0.0, 2.0, times),
+    )
+
+
+@pytest.fixture
+def small_envelope() -> Envelope:
+    """Return an envelope of five cycles whose numbers are all different."""
+    draw, cycles = np.random.default_rng(3), 5
+    energies = (*FLOWS, *STORES)
+    return Envelope(
+        time=np.linspace(0.1, 0.5, cycles),
+        frequency=draw.uniform(700.0, 900.0, cycles),
+        level=draw.uniform(0.5, 2.0, cycles),
+        probes=PROBES,
+        highest=draw.uniform(0.0, 1e-3, (cycles, len(PROBES))),
+        lowest=draw.uniform(-1e-3, 0.0, (cycles, len(PROBES))),
+        fastest=draw.uniform(0.1, 1.0, (cycles, len(PROBES))),
+        contacts=CONTACTS,
+        normal_smallest=draw.uniform(0.1, 1.0, (cycles, len(CONTACTS))),
+        normal_largest=draw.uniform(1.0, 3.0, (cycles, len(CONTACTS))),
+        energies=energies,
+        energy=draw.uniform(0.0, 1e-3, (cycles, len(energies))),
+        stored_at_start=2.5e-7,
+        time_step=2.5e-5,
+        iterations=321,
+        divided=2,
+        ending="interrupted",
+        checkpoint=Checkpoint(draw.normal(size=3), draw.normal(size=3), np.ones(6)),
     )

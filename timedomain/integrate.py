@@ -12,10 +12,18 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.newmark import Operators, march
 from timedomain.record import FLOWS, STORES, accumulate, row_length, store
-from timedomain.start import Start, at_rest, first_state, meters, stored_energy
+from timedomain.start import (
+    Start,
+    at_rest,
+    checkpoint,
+    first_state,
+    meters,
+    restore,
+    stored_energy,
+)
 
 MOST_DIVISIONS = 20
 """a step in a million parts"""
@@ -61,7 +69,7 @@ def integrate(
     history: LoadHistory,
     options: MarchOptions,
     *,
-    start: Start | None = None,
+    start: Start | Checkpoint | None = None,
     block: float = 0.1,
 ) -> Iterator[TimeHistory]:
     """Yield the response to a load history, block by block.
@@ -76,6 +84,7 @@ def integrate(
         Step and accuracy.
     start
         Initial displacement and velocity; all at rest and without load if left out.
+        From the checkpoint of a block of the same march, the rest of it is yielded.
     block
         Length of a block [s].
 
@@ -97,11 +106,13 @@ def integrate(
     stride = min(options.store_every, steps)
     rows = -(-steps // stride)
     options = replace(options, store_every=stride)
-    marching = _March(
-        problem, history, options, rows * stride, start or at_rest(problem)
+    begin = (
+        at_rest(problem) if start is None or isinstance(start, Checkpoint) else start
     )
+    marching = _March(problem, history, options, rows * stride, begin)
+    done = marching.resume(start) // stride if isinstance(start, Checkpoint) else 0
     per_block = max(1, round(block * rows / history.duration))
-    for first in range(0, rows, per_block):
+    for first in range(done, rows, per_block):
         count = min(per_block, rows - first)
         yield marching.block(first * stride, count * stride)
 
@@ -127,6 +138,11 @@ class _March:
         self._stored_at_start = stored_energy(problem, self._state)
         # the powers at time zero, for the first trapezoid
         self._measure(history.factors(np.zeros(1))[0], 0.0)
+
+    def resume(self, end: Checkpoint) -> int:
+        """Go back to the end of a block; return the steps until there."""
+        steps, self._stored_at_start = restore(self._state, self._meters, end)
+        return steps
 
     def block(self, first: int, count: int) -> TimeHistory:
         """March ``count`` steps from step ``first``; divide those that fail."""
@@ -154,7 +170,10 @@ class _March:
             divided, done = divided + 1, done + 1
             if done % stride == 0:
                 store(self._meters, points, self._state, rows[done // stride - 1])
-        return self._table(times[stride - 1 :: stride], rows, iterations, divided)
+        end = checkpoint(
+            self._state, self._meters, first + count, self._stored_at_start
+        )
+        return self._table(times[stride - 1 :: stride], rows, iterations, divided, end)
 
     def _divide(self, step: int) -> int:
         """Take step number ``step`` in parts; return Newton's iterations."""
@@ -194,7 +213,12 @@ class _March:
         accumulate(self._meters, points, self._state, factors, step)
 
     def _table(
-        self, times: Array, rows: Array, iterations: int, divided: int
+        self,
+        times: Array,
+        rows: Array,
+        iterations: int,
+        divided: int,
+        end: Checkpoint,
     ) -> TimeHistory:
         probes, contacts = self._problem.probes.names, self._problem.interface.names
         cuts = np.cumsum([len(probes), len(probes), len(contacts), 1])
@@ -213,6 +237,7 @@ class _March:
             self._step,
             iterations,
             divided,
+            checkpoint=end,
         )
 
 

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.law import ELASTIC, ContactPoints, contact_force
+from microslip_mechanics.contact.memory import add_traction
 from microslip_mechanics.jit import kernel
 from timedomain.dense import solve_in_place
 from timedomain.record import Meters, accumulate, store
@@ -48,6 +49,11 @@ class State(NamedTuple):
     """relative displacement of each point [m], shape (points, 3)"""
     slips: Array
     """relative velocity of each point [m/s], shape (points, 3)"""
+    past: Array
+    """where each point was along its tangents when the step began [m], and its traction
+    [N] of friction that remembers, shape (points, 2, 2)"""
+    fresh: Array
+    """the same for now"""
 
 
 @kernel
@@ -131,6 +137,7 @@ def _advance(
         return taken
     free -= np.dot(operators.contact, reaction)
     state.reaction[:] = reaction
+    state.past[:] = state.fresh
     for i in range(dofs):
         state.acceleration[i] = free[i]
         state.displacement[i] = predicted[i] + half**2 * free[i]
@@ -220,6 +227,12 @@ def _reaction(
             tangents[0],
             tangents[1],
         )
+        if points.friction[point] >= ELASTIC:
+            add_traction(
+                points, point, state.gaps[point], state.slips[point],
+                state.past[point], state.fresh[point], state.forces[point],
+                tangents[0], tangents[1],
+            )  # fmt: skip
         _scatter(operators.step, rows, state.forces[point], tangents, reaction, tangent)
     return reaction
 

@@ -8,10 +8,17 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_energy, contact_force
+from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.time_history import Checkpoint
 from timedomain.newmark import State
 from timedomain.record import FLOWS, Meters
+
+LOOP = 4096
+"""samples of a period in which contacts that remember settle"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,12 +29,37 @@ class Start:
     """[m], shape (dofs,)"""
     velocity: Array
     """[m/s], shape (dofs,)"""
+    traction: Array | None = None
+    """of friction that remembers [N], shape (points, 2); none if left out"""
 
 
 def at_rest(problem: Problem) -> Start:
     """Return the unloaded structure at rest."""
     still = np.zeros(problem.structure.dofs)
     return Start(still, still)
+
+
+def on_orbit(problem: Problem, response: PeriodicResponse) -> Start:
+    """Return the motion of a periodic response at phase 0, with what contacts remember.
+
+    Their tractions are those of the steady loop along the response.
+    """
+    displacement, velocity = response.at(np.zeros(1))
+    points, rows = problem.interface.points, problem.interface.displacement
+    tractions = np.zeros((problem.interface.count, 2))
+    recalls = np.flatnonzero(remembers(points)).tolist()
+    if recalls:
+        phase = 2.0 * np.pi * np.arange(LOOP) / LOOP
+        moved, moving = (part @ rows.T for part in response.at(phase))
+        still = Waves(np.zeros((LOOP, 0)), np.zeros((LOOP, 0)))
+        for point in recalls:
+            own = slice(3 * point, 3 * point + 3)
+            loop, _ = steady_loop(
+                points, point, moved[:, own].T.copy(), moving[:, own].T.copy(), still,
+                response.frequency, np.zeros(3, dtype=bool), np.zeros((2, 3, 0, 0)),
+            )  # fmt: skip
+            tractions[point] = loop[:, 0]
+    return Start(displacement[0], velocity[0], tractions)
 
 
 def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
@@ -37,6 +69,8 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
     moved = (interface.displacement @ start.displacement).reshape(-1, 3)
     moving = (interface.displacement @ start.velocity).reshape(-1, 3)
     forces, unused = np.zeros_like(moved), np.zeros((2, 3, 3))
+    past = np.zeros((interface.count, 2, 2))
+    past[:, 0] = moved[:, 1:]
     for point in range(interface.count):
         contact_force(
             interface.points,
@@ -47,6 +81,9 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
             unused[0],
             unused[1],
         )
+    if start.traction is not None:
+        past[:, 1] = start.traction
+        forces[:, 1:] += start.traction
     factors = history.factors(np.zeros(1))[0]
     unbalanced = (
         factors[0] * problem.preload
@@ -63,7 +100,45 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
         forces,
         moved,
         moving,
+        past,
+        past.copy(),
     )
+
+
+def checkpoint(state: State, meters: Meters, steps: int, stored: float) -> Checkpoint:
+    """Return where a march stands after so many steps.
+
+    ``stored`` is the energy [J] that was stored at its start.
+    """
+    kept = [array.ravel() for array in _kept(state, meters)]
+    memory = np.concatenate([[steps, stored], *kept])
+    return Checkpoint(state.displacement.copy(), state.velocity.copy(), memory)
+
+
+def restore(state: State, meters: Meters, end: Checkpoint) -> tuple[int, float]:
+    """Put state and meters to where a march stood; return its steps and ``stored``.
+
+    Raises
+    ------
+    ValueError
+        If that march had other degrees of freedom or contacts.
+    """
+    arrays = (state.displacement, state.velocity, *_kept(state, meters))
+    numbers = np.concatenate([end.displacement, end.velocity, end.memory[2:]])
+    if numbers.size != sum(array.size for array in arrays):
+        raise ValueError(
+            f"a march cannot go on from a state of {numbers.size} numbers: "
+            "it must be one of the same problem"
+        )
+    cuts = np.cumsum([array.size for array in arrays])[:-1]
+    for array, values in zip(arrays, np.split(numbers, cuts), strict=True):
+        array[...] = values.reshape(array.shape)
+    return int(end.memory[0]), float(end.memory[1])
+
+
+def _kept(state: State, meters: Meters) -> tuple[Array, ...]:
+    """Return what a step takes over from the one before, besides the motion."""
+    return (*state[2:], meters.powers, meters.energies)
 
 
 def meters(problem: Problem, shapes: Array) -> Meters:

@@ -13,7 +13,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.start import on_orbit
 
 ROWS_PER_PERIOD = 60
 
@@ -64,12 +64,11 @@ def march_periods(
     """
     period = 2.0 * np.pi / response.frequency
     stride = -(-steps_per_period // ROWS_PER_PERIOD)
-    displacement, velocity = response.at(np.zeros(1))
     yield from integrate(
         problem,
         Dwell(response.frequency, periods * period),
         MarchOptions(period / (stride * ROWS_PER_PERIOD), store_every=stride),
-        start=Start(displacement[0], velocity[0]),
+        start=on_orbit(problem, response),
         block=10.0 * period,
     )
 

@@ -9,6 +9,8 @@ import sys
 import warnings
 
 from microslip.commands import (
+    decay,
+    dwell,
     explain,
     folds,
     follow,
@@ -81,6 +83,8 @@ def _parser() -> argparse.ArgumentParser:
     for command in (
         frc,
         sweep,
+        dwell,
+        decay,
         verify,
         track,
         follow,

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
+from microslip.force_file import Force, read_force
 from microslip.quantity import Quantity, SceneError, quantity
 from microslip.scenes.two_blades.tables import TwoBlades
 
@@ -34,6 +35,14 @@ class Sweep:
     duration: float = quantity("s", positive=True)
     lowest: float = quantity("Hz", positive=True)
     highest: float = quantity("Hz", positive=True)
+    kind: typing.Literal["exponential", "linear", "stepped"] = quantity(
+        default="exponential"
+    )
+    direction: typing.Literal["up", "down", "up-down"] = quantity(default="up")
+    levels: tuple[float, ...] = quantity(positive=True, highest=1e6, default=(1.0,))
+    steps: int | None = quantity(lowest=2, highest=10**5, optional=True)
+    periods: int | None = quantity(lowest=1, highest=10**7, optional=True)
+    force_file: str | None = quantity(optional=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +75,8 @@ class Scene:
     march: March
     text: str
     """the TOML that made it, overrides included"""
+    force: Force | None = None
+    """that the sweep's ``force_file`` holds"""
 
 
 def built_in_text(name: str) -> str:
@@ -102,7 +113,16 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
     for override in overrides:
         _apply(document, override)
         text += f"\n# --set {override}"
-    return _scene(source, document, text)
+    scene = _scene(source, document, text)
+    return scene if scene.sweep.force_file is None else _with_force(path, scene)
+
+
+def _with_force(path: Path, scene: Scene) -> Scene:
+    """Return a scene with the force of its file, sought beside the scene file."""
+    folder = path.parent if path.is_file() else Path()
+    force = read_force(folder / str(scene.sweep.force_file))
+    text = f"{scene.text}\n# force file {force.digest}"
+    return dataclasses.replace(scene, force=force, text=text)
 
 
 def _read(path: Path) -> str:
@@ -326,6 +346,7 @@ def _check(source: str, scene: Scene) -> None:
                 f"{source}: [{name}] lowest = {table.lowest:g} Hz, highest = "
                 f"{table.highest:g} Hz: give lowest < highest"
             )
+    _check_kind(source, sweep)
     if curve.samples is not None and curve.harmonics is None:
         raise SceneError(
             f"{source}: [curve] samples = {curve.samples}: they follow from the "
@@ -336,4 +357,25 @@ def _check(source: str, scene: Scene) -> None:
         raise SceneError(
             f"{source}: [curve] samples = {curve.samples}: too few for "
             f"{curve.harmonics} harmonics: give at least {fewest}"
+        )
+
+
+def _check_kind(source: str, sweep: Sweep) -> None:
+    """Check that a sweep has the keys of its kind, and those alone."""
+    steps = {"steps": sweep.steps, "periods": sweep.periods}
+    for name, value in steps.items():
+        if sweep.kind == "stepped" and value is None:
+            raise SceneError(
+                f'{source}: [sweep] {name} is missing: kind = "stepped" needs it'
+            )
+        if sweep.kind != "stepped" and value is not None:
+            raise SceneError(
+                f"{source}: [sweep] {name} = {value}: only for "
+                'kind = "stepped": leave it out'
+            )
+    plain = (sweep.kind, sweep.direction, sweep.levels) == ("exponential", "up", (1.0,))
+    if sweep.force_file is not None and not plain:
+        raise SceneError(
+            f'{source}: [sweep] force_file = "{sweep.force_file}": the force takes the '
+            "place of the sine: leave kind, direction and levels out"
         )

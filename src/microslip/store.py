@@ -2,70 +2,45 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import dataclasses
+from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.io import netcdf_file
 
+from microslip.record_file import Value
+from microslip.schema import (
+    CURVE,
+    GROWS,
+    SCHEMAS,
+    Growing,
+    Result,
+    attributes,
+    checkpoint_of,
+    columns,
+    kind_of,
+)
+from microslip.stream import ORIGIN, RESERVED, Head, Stream, rows_of
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.response import ResponseCurve
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.thinning import thinned
+from microslip_mechanics.time_history import TimeHistory, joined
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from matplotlib.figure import Figure
 
-Result: TypeAlias = ResponseCurve | TimeHistory
-Schema: TypeAlias = dict[str, tuple[tuple[str, ...], str, str]]
-"""for each variable its dimensions, unit and meaning"""
-
-CURVE: Schema = {
-    "frequency": (("point",), "rad/s", "excitation frequency"),
-    "amplitude": (("point", "probe"), "m", "first-harmonic amplitude"),
-    "peak": (("point", "probe"), "m", "largest deviation from the mean in time"),
-    "velocity_peak": (("point", "probe"), "m/s", "largest velocity in time"),
-    "normal_smallest": (("point", "contact"), "N", "smallest normal force"),
-    "normal_largest": (("point", "contact"), "N", "largest normal force"),
-    "friction_energy": (("point",), "J", "energy taken out by friction per period"),
-    "damping_energy": (
-        ("point",),
-        "J",
-        "energy taken out by contact damping per period",
-    ),
-    "residual": (("point",), "N", "largest unbalanced force"),
-    "outcome": (("point", "name"), "", "how Newton's correction ended"),
-    "iterations": (("point",), "1", "Newton iterations"),
-    "harmonics": (("point",), "1", "harmonics that were solved for"),
-    "samples": (("point",), "1", "samples of the contacts per period"),
-    "error": (("point",), "1", "estimated relative error of the amplitude"),
-    "multiplier": (("point",), "1", "largest modulus of a Floquet multiplier"),
-    "unstable": (("point",), "1", "Floquet multipliers outside the unit circle"),
-    "event": (("point", "name"), "", "what the point is located as"),
-    "parameter": (("point",), "SI", "what the curve is followed along"),
-    "probes": (("probe", "name"), "", "what is watched"),
-    "contacts": (("contact", "name"), "", "contact points"),
-}
-HISTORY: Schema = {
-    "time": (("time",), "s", "time"),
-    "displacement": (("time", "probe"), "m", "displacement"),
-    "velocity": (("time", "probe"), "m/s", "velocity"),
-    "normal_force": (("time", "contact"), "N", "normal contact force"),
-    "friction_power": (("time",), "W", "power taken out by friction"),
-    "energy": (("time", "energy"), "J", "energy that flowed so far, or is stored"),
-    "probes": (("probe", "name"), "", "what is watched"),
-    "contacts": (("contact", "name"), "", "contact points"),
-    "energies": (("energy", "name"), "", "kinds of energy"),
-}
-SCHEMAS: dict[str, tuple[type[Result], Schema]] = {
-    "frequency response curve": (ResponseCurve, CURVE),
-    "time history": (TimeHistory, HISTORY),
-}
+TEXTS = ("kind", "scene", "command")
+CHUNK = 50_000
+"""rows that are read at a time"""
 
 
 class StoreError(MicroslipError):
@@ -89,22 +64,50 @@ def save(path: Path, stored: Stored) -> None:
     StoreError
         If the file cannot be written.
     """
-    kind, schema = next(
-        (kind, schema)
-        for kind, (result, schema) in SCHEMAS.items()
-        if isinstance(stored.result, result)
-    )
+    result = stored.result
+    if not isinstance(result, ResponseCurve):
+        stream = begin(path, result, scene=stored.scene, command=stored.command)
+        with told(path):
+            stream.append(result)
+            stream.end(result.ending)
+            stream.close()
+        return
+    _, schema = kind_of(result)
+    about = _about(result, scene=stored.scene, command=stored.command)
+    with told(path), netcdf_file(path, "w", version=2) as file:
+        for name, value in about.items():
+            setattr(file, name, value)
+        for name, values in columns(result, schema).items():
+            dimensions, unit, meaning = schema[name]
+            _dimensions(file, dimensions, values.shape)
+            variable = file.createVariable(name, values.dtype, dimensions)
+            variable[:] = values
+            setattr(variable, "long_name", meaning)  # noqa: B010  (an attribute of the file)
+            setattr(variable, "units", unit)  # noqa: B010
+
+
+def begin(path: Path, block: Growing, *, scene: str, command: str) -> Stream:
+    """Begin a file for a march with this first block, which is still to be written.
+
+    Until the stream's end is told, the file says that the march was interrupted.
+
+    Raises
+    ------
+    StoreError
+        If the file cannot be written.
+    """
+    about = _about(block, scene=scene, command=command)
+    ending = block.ending.encode() if len(block.ending) > RESERVED else b"interrupted"
+    about |= {"iterations": 0, "divided": 0, "ending": ending}
+    with told(path):
+        return Stream(path, Head.of(block, about))
+
+
+@contextlib.contextmanager
+def told(path: Path) -> Iterator[None]:
+    """Make one line of what the system says of a file that cannot be written."""
     try:
-        with netcdf_file(path, "w", version=2) as file:
-            for name, value in _attributes(kind, stored).items():
-                setattr(file, name, value)
-            for name, values in _columns(stored.result, schema).items():
-                dimensions, unit, meaning = schema[name]
-                _dimensions(file, dimensions, values.shape)
-                variable = file.createVariable(name, values.dtype, dimensions)
-                variable[:] = values
-                setattr(variable, "long_name", meaning)  # noqa: B010  (an attribute of the file)
-                setattr(variable, "units", unit)  # noqa: B010
+        yield
     except OSError as error:
         reason = error.strerror or error
         raise StoreError(f"{path} cannot be written: {reason}") from None
@@ -147,17 +150,54 @@ def save_table(
         raise StoreError(f"{path} cannot be written: {reason}") from None
 
 
-def load(path: Path) -> Stored:
-    """Read a result that :func:`save` wrote.
+def load(path: Path, most: int | None = None) -> Stored:
+    """Read a result.
+
+    A time history of more than ``most`` rows comes thinned: of each stretch of rows the
+    extremes, and the energies at its end.
 
     Raises
     ------
     StoreError
         If there is no such file, or it is not a result.
     """
+    with _told(path), netcdf_file(path, "r", mmap=True) as file:
+        texts = {name: getattr(file, name).decode() for name in TEXTS}
+        kind = _known(path, texts["kind"])
+        head = Head.read(file, kind) if kind in GROWS else None
+        if head is None:
+            return Stored(_curve(file), texts["scene"], texts["command"])
+    with _told(path):
+        return Stored(_grown(path, head, most), texts["scene"], texts["command"])
+
+
+def end_of(path: Path) -> tuple[Growing, Head]:
+    """Return the end of a march, without rows, and the head of its file.
+
+    Raises
+    ------
+    StoreError
+        If there is no such file, or its march cannot go on.
+    """
+    with _told(path), netcdf_file(path, "r", mmap=True) as file:
+        kind = _known(path, getattr(file, TEXTS[0]).decode())
+        if kind not in GROWS:
+            raise StoreError(f"{path} holds a {kind}: give what sweep or dwell wrote")
+        head = Head.read(file, kind)
+    if "checkpoint" not in head.fixed:
+        raise StoreError(f"{path} does not know where its march can go on: march anew")
+    # a march that was killed may have written half of a block behind it
+    head = dataclasses.replace(head, rows=int(head.fixed["checkpoint"][0]))
+    with _told(path):
+        end = _result(head, rows_of(path, head, 0, 0))
+        return end, head
+
+
+@contextlib.contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Make one line of what is wrong with a file that is read."""
     try:
-        with netcdf_file(path, "r", mmap=False) as file:
-            return _read(path, file)
+        yield
     except FileNotFoundError:
         raise StoreError(f"there is no result file {path}") from None
     except OSError as error:
@@ -168,50 +208,20 @@ def load(path: Path) -> Stored:
         ) from None
 
 
-def _attributes(kind: str, stored: Stored) -> dict[str, object]:
-    """Return the global attributes of the file."""
-    made: dict[str, object] = {
-        "kind": kind,
-        "source": f"microslip {version('microslip')}",
-        "command": stored.command,
-        "scene": stored.scene,
+def _known(path: Path, kind: str) -> str:
+    if kind not in SCHEMAS:
+        raise StoreError(f"{path} holds a {kind!r}, which this version does not know")
+    return kind
+
+
+def _about(result: Result, *, scene: str, command: str) -> dict[str, Value]:
+    """Return the global attributes of a file, ``ORIGIN`` first."""
+    source = f"microslip {version('microslip')}"
+    texts = zip(ORIGIN, (kind_of(result)[0], source, command, scene), strict=True)
+    return {
+        name: value.encode() if isinstance(value, str) else value
+        for name, value in (*texts, *attributes(result).items())
     }
-    for field in dataclasses.fields(stored.result):
-        made[field.name] = getattr(stored.result, field.name)
-    return {name: _attribute(value) for name, value in made.items() if _single(value)}
-
-
-def _single(value: object) -> bool:
-    return isinstance(value, (str, int, float))
-
-
-def _attribute(value: object) -> object:
-    """Return UTF-8 bytes or a number of full precision."""
-    if isinstance(value, str):
-        return value.encode()
-    return np.float64(value) if isinstance(value, float) else value
-
-
-def _columns(result: Result, schema: Schema) -> dict[str, np.ndarray]:
-    """Return what the file holds of each variable; those without content are left out.
-
-    A dimension of length zero would be netCDF 3's sign for an unlimited one.
-    """
-    found = {name: getattr(result, name) for name in schema}
-    names = [
-        each for value in found.values() if isinstance(value, tuple) for each in value
-    ]
-    longest = max((len(name.encode()) for name in names), default=0)
-    plain = {name: _plain(value, max(1, longest)) for name, value in found.items()}
-    return {name: values for name, values in plain.items() if values.size}
-
-
-def _plain(value: object, longest: int) -> np.ndarray:
-    """Return an array that netCDF 3 knows: float64, or characters for names."""
-    if isinstance(value, tuple):
-        names = np.array([name.encode() for name in value], dtype=f"S{longest}")
-        return names.view("S1").reshape(len(value), longest)
-    return np.asarray(value, dtype=float)
 
 
 def _dimensions(
@@ -222,24 +232,64 @@ def _dimensions(
             file.createDimension(name, size)
 
 
-def _read(path: Path, file: netcdf_file) -> Stored:
-    kind, scene, command = (
-        getattr(file, name).decode() for name in ("kind", "scene", "command")
+def _grown(path: Path, head: Head, most: int | None) -> Growing:
+    """Return what a file has grown to, thinned if it is longer than ``most``."""
+    if most is None or head.rows <= most or head.kind != "time history":
+        return _result(head, rows_of(path, head, 0, head.rows))
+    stride = -(-2 * head.rows // most)
+    parts = []
+    chunk = stride * max(1, CHUNK // stride)
+    for first in range(0, head.rows, chunk):
+        rows = rows_of(path, head, first, min(chunk, head.rows - first))
+        part = _result(head, rows)
+        if isinstance(part, TimeHistory):
+            parts.append(thinned(part, stride))
+    whole = joined(parts, parts[0].ending)
+    return dataclasses.replace(
+        whole, iterations=parts[0].iterations, divided=parts[0].divided
     )
-    if kind not in SCHEMAS:
-        raise StoreError(f"{path} holds a {kind!r}, which this version does not know")
-    result, schema = SCHEMAS[kind]
+
+
+def _result(head: Head, rows: dict[str, Array]) -> Growing:
+    """Return a result of some rows; variables without content are empty."""
     made: dict[str, Any] = {}
-    for field in dataclasses.fields(result):
-        if field.name in schema:
-            dimensions, *_ = schema[field.name]
+    made_of, schema = SCHEMAS[head.kind]
+    count = len(rows["time"])
+    for field in dataclasses.fields(made_of):
+        if field.name in head.growing:
+            made[field.name] = rows[field.name]
+        elif field.name in head.fixed:
+            made[field.name] = _fixed(head.fixed[field.name])
+        elif field.name in head.about:
+            value = head.about[field.name]
+            made[field.name] = value.decode() if isinstance(value, bytes) else value
+        elif field.default is field.default_factory is dataclasses.MISSING:
+            names = schema[field.name][0]
+            if head.sizes.keys() >= set(names):
+                raise KeyError(field.name)
+            made[field.name] = () if "name" in names else np.zeros((count, 0))
+    return made_of(**made)  # type: ignore[return-value]
+
+
+def _fixed(values: np.ndarray) -> object:
+    """Return names or a checkpoint."""
+    if values.dtype.kind == "S":
+        return _names(values)
+    return checkpoint_of(values.astype(float))
+
+
+def _curve(file: netcdf_file) -> ResponseCurve:
+    made: dict[str, Any] = {}
+    for field in dataclasses.fields(ResponseCurve):
+        if field.name in CURVE:
+            dimensions, *_ = CURVE[field.name]
             made[field.name] = _variable(file, field.name, dimensions)
         else:
             value = getattr(file, field.name)
             made[field.name] = (
                 value.decode() if isinstance(value, bytes) else value.item()
             )
-    return Stored(result(**made), scene, command)
+    return ResponseCurve(**made)
 
 
 def _variable(file: netcdf_file, name: str, dimensions: tuple[str, ...]) -> object:
@@ -251,7 +301,9 @@ def _variable(file: netcdf_file, name: str, dimensions: tuple[str, ...]) -> obje
     if name not in file.variables and 0 in sizes:
         return () if "name" in dimensions else np.zeros(sizes)
     data = file.variables[name].data
-    if data.dtype.kind == "S":
-        rows = np.ascontiguousarray(data).view(f"S{data.shape[-1]}")
-        return tuple(text.decode() for text in rows.ravel())
-    return data.astype(float)
+    return _names(data) if data.dtype.kind == "S" else data.astype(float)
+
+
+def _names(data: np.ndarray) -> tuple[str, ...]:
+    rows = np.ascontiguousarray(data).view(f"S{data.shape[-1]}")
+    return tuple(text.decode() for text in rows.ravel())

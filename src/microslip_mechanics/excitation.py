@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.segments import Segments, after_ramp, factors_over
 
 
 class LoadHistory(Protocol):
@@ -17,6 +18,10 @@ class LoadHistory(Protocol):
     @property
     def duration(self) -> float:
         """Length [s]."""
+        ...
+
+    def segments(self) -> Segments:
+        """Return the load factors piece by piece."""
         ...
 
     def factors(self, time: Array) -> Array:
@@ -72,13 +77,19 @@ class SweptSine:
         frequency: Array = self.lowest * np.exp(self.rate * inside)
         return frequency
 
+    def segments(self) -> Segments:
+        """Return ramp, waiting, sweep and free motion, those that take time."""
+        low, high = 2.0 * np.pi * self.lowest, 2.0 * np.pi * self.highest
+        turned = low * np.expm1(self.rate * (self.end - self.start)) / self.rate
+        rows = (
+            (self.start, 0.0, 0.0, 1.0, 0.0, 0.0, low, self.rate, 0.0),
+            (self.end, 0.0, 0.0, 0.0, 0.0, turned, high, 0.0, 0.0),
+        )
+        return after_ramp(self.ramp, self.start, np.array(rows))
+
     def factors(self, time: Array) -> Array:
         """Return the factors of preload and drive, shape (times, 2)."""
-        elapsed = np.clip(time, self.start, self.end) - self.start
-        phase = 2.0 * np.pi * self.lowest * np.expm1(self.rate * elapsed) / self.rate
-        sweeps = (time >= self.start) & (time <= self.end)
-        ramp = np.clip(time / self.ramp, 0.0, 1.0) if self.ramp else np.ones_like(time)
-        return np.stack([ramp, np.where(sweeps, np.sin(phase), 0.0)], axis=1)
+        return factors_over(self.segments(), time)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +112,12 @@ class Dwell:
                 f"duration {self.duration:g} s: give a positive finite one"
             )
 
+    def segments(self) -> Segments:
+        """Return the one segment."""
+        one, zero = np.array([[1.0, 0.0]]), np.zeros((1, 2))
+        sine = np.array([[0.0, self.frequency, 0.0, 0.0]])
+        return Segments(np.zeros(1), one, zero, one.copy(), sine)
+
     def factors(self, time: Array) -> Array:
         """Return the factors of preload and drive, shape (times, 2)."""
-        return np.stack([np.ones_like(time), np.sin(self.frequency * time)], axis=1)
+        return factors_over(self.segments(), time)

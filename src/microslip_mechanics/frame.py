@@ -76,10 +76,10 @@ class Frame:
 
     def structure(self) -> Structure:
         """Assemble mass, damping and stiffness of the free motions."""
-        free = self._free()
+        free = self.free()
         names = tuple(f"{n.name}.{motion}" for n in self.nodes for motion in n.free)
         mass, damping, stiffness = (
-            matrix[np.ix_(free, free)] for matrix in self._matrices()
+            matrix[np.ix_(free, free)] for matrix in self.matrices()
         )
         return Structure(mass, damping, stiffness, names)
 
@@ -102,31 +102,33 @@ class Frame:
         ValueError
             If the frame has no such node.
         """
-        first = 6 * self._index(node)
+        first = 6 * self.index(node)
         rows = np.zeros((3, 6 * len(self.nodes)))
-        arm = np.asarray(point) - self.nodes[self._index(node)].position
+        arm = np.asarray(point) - self.nodes[self.index(node)].position
         rows[:, first : first + 6] = point_motion(arm)
-        return rows[:, self._free()]
+        return rows[:, self.free()]
 
-    def _index(self, name: str) -> int:
+    def index(self, name: str) -> int:
+        """Return the place of a node."""
         names = [node.name for node in self.nodes]
         if name not in names:
             raise ValueError(f"no node {name!r}: give one of {', '.join(names)}")
         return names.index(name)
 
-    def _free(self) -> list[int]:
+    def free(self) -> list[int]:
+        """Return the unknowns among all six motions of all nodes."""
         return [
             6 * place + MOTIONS.index(motion)
             for place, node in enumerate(self.nodes)
             for motion in node.free
         ]
 
-    def _matrices(self) -> tuple[Array, Array, Array]:
+    def matrices(self) -> tuple[Array, Array, Array]:
         """Return M, C, K over all six motions of all nodes."""
         size = 6 * len(self.nodes)
         mass, damping, stiffness = (np.zeros((size, size)) for _ in range(3))
         for beam in self.beams:
-            both = np.r_[self._slots(beam.start), self._slots(beam.end)]
+            both = np.r_[self.slots(beam.start), self.slots(beam.end)]
             place = np.ix_(both, both)
             elastic, inertial = self._element(beam)
             stiffness[place] += elastic
@@ -135,23 +137,37 @@ class Frame:
                 beam.mass_damping * inertial + beam.stiffness_damping * elastic
             )
         for body in self.bodies:
-            slots = self._slots(body.node)
-            arm = body.centre - self.nodes[self._index(body.node)].position
+            slots = self.slots(body.node)
+            arm = body.centre - self.nodes[self.index(body.node)].position
             mass[np.ix_(slots, slots)] += rigid_mass(body.mass, body.inertia, arm)
         for spring in self.springs:
-            slots = self._slots(spring.node)[:3]
+            slots = self.slots(spring.node)[:3]
             along = np.outer(spring.direction, spring.direction)
             stiffness[np.ix_(slots, slots)] += spring.stiffness * along
         return mass, damping, stiffness
 
-    def _slots(self, node: str) -> NDArray[np.intp]:
-        return 6 * self._index(node) + np.arange(6)
+    def slots(self, node: str) -> NDArray[np.intp]:
+        """Return the places of a node's six motions among those of all nodes."""
+        return 6 * self.index(node) + np.arange(6)
 
     def _element(self, beam: Beam) -> tuple[Array, Array]:
         """Return stiffness and mass of a beam in global axes."""
+        axes, length = self.axes(beam)
+        turn = np.kron(np.eye(4), axes)
+        elastic, inertial = beam_matrices(beam.section, length)
+        return turn.T @ elastic @ turn, turn.T @ inertial @ turn
+
+    def axes(self, beam: Beam) -> tuple[Array, float]:
+        """Return the local axes of a beam as rows, shape (3, 3), and its length [m].
+
+        Raises
+        ------
+        ValueError
+            If its thickness is not across its axis.
+        """
         start, end = (
-            self.nodes[self._index(beam.start)],
-            self.nodes[self._index(beam.end)],
+            self.nodes[self.index(beam.start)],
+            self.nodes[self.index(beam.end)],
         )
         axis = end.position - start.position
         length = float(np.linalg.norm(axis))
@@ -163,6 +179,4 @@ class Frame:
             )
         local_z = beam.thickness_direction / np.linalg.norm(beam.thickness_direction)
         axes = np.array([axis / length, np.cross(local_z, axis / length), local_z])
-        turn = np.kron(np.eye(4), axes)
-        elastic, inertial = beam_matrices(beam.section, length)
-        return turn.T @ elastic @ turn, turn.T @ inertial @ turn
+        return axes, length

@@ -12,6 +12,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.extended import extended_product
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structure import Structure
 from microslip_mechanics.stuck import StuckModes, StuckStructure, stuck_structure
@@ -91,9 +92,14 @@ def reduced(problem: Problem, highest: float) -> Reduction:
     Raises
     ------
     ValueError
-        If the structure can move freely while all contacts stick, or has too many
-        modes.
+        If the structure can move freely while all contacts stick, has too many modes,
+        or is gyroscopic.
     """
+    if problem.structure.gyroscopic:
+        raise ValueError(
+            "a sparse structure with Coriolis terms: reduce it first "
+            "(microslip_mechanics.reduced_structure.craig_bampton)"
+        )
     basis, selection = problem.interface.relative_motion()
     stuck = stuck_structure(problem.structure, selection)
     modes = stuck.modes(MARGIN * highest)
@@ -107,7 +113,9 @@ def reduced(problem: Problem, highest: float) -> Reduction:
         else [problem.drive.real, problem.drive.imag]
     )
     loads = stuck.free.T @ np.stack([problem.preload, *drive], axis=1)
-    residual, energy = _residual(stuck, modes, np.hstack([loads, inertia, friction]))
+    residual, energy = residual_vectors(
+        stuck, modes, np.hstack([loads, inertia, friction])
+    )
     shapes = np.hstack([stuck.static, stuck.free @ np.hstack([modes.shapes, residual])])
     damping = stuck.loss(modes) if 0.0 < modes.next < np.inf else 0.0
     return Reduction(
@@ -118,10 +126,23 @@ def reduced(problem: Problem, highest: float) -> Reduction:
     )
 
 
-def _residual(
+def residual_vectors(
     stuck: StuckStructure, modes: StuckModes, loads: Array
 ) -> tuple[Array, Array]:
-    """Return what modes miss of the static response to loads, and its energy."""
+    """Return what modes miss of the static response to loads, and its energy.
+
+    Parameters
+    ----------
+    stuck, modes
+        A structure that is held, and its slowest modes.
+    loads
+        Shape ``(free, loads)``.
+
+    Returns
+    -------
+    vectors, energy
+        Of unit mass, shape ``(free, some)``; twice the energy, ``(loads, loads)``.
+    """
     left = stuck.factors.solve(loads)
     sizes = np.linalg.norm(stuck.factors.root(left), axis=0)
     sizes[sizes == 0.0] = 1.0
@@ -138,27 +159,44 @@ def _residual(
 def _projected(problem: Problem, basis: Array, shapes: Array) -> Problem:
     """Return the problem in the coordinates of shapes, (dofs, coordinates)."""
     rank, count = basis.shape[1], shapes.shape[1]
-    mass, damping, stiffness = (
-        _symmetric(shapes.T @ (matrix @ shapes))
-        for matrix in (
-            problem.structure.mass,
-            problem.structure.damping,
-            problem.structure.stiffness,
-        )
-    )
-    # by construction the relative motion does no work on the modes
-    stiffness[rank:, :rank] = stiffness[:rank, rank:] = 0.0
     names = tuple(f"relative {place + 1}" for place in range(rank))
     names += tuple(f"stuck {place + 1}" for place in range(count - rank))
     seen = np.hstack([basis, np.zeros((len(basis), count - rank))])
     return replace(
         problem,
-        structure=Structure(mass, damping, stiffness, names),
+        structure=projected(problem.structure, shapes, rank, names),
         interface=Interface(problem.interface.points, seen, problem.interface.names),
         preload=shapes.T @ problem.preload,
         drive=shapes.T @ problem.drive,
         probes=Probes(problem.probes.names, problem.probes.rows @ shapes),
     )
+
+
+def projected(
+    structure: Structure, shapes: Array, rank: int, names: tuple[str, ...]
+) -> Structure:
+    """Return the dense structure of the motions u = shapes q.
+
+    Parameters
+    ----------
+    structure
+        Of the motions u.
+    shapes
+        Shape ``(dofs, coordinates)``.
+    rank
+        So many coordinates come first that do no work on the others.
+    names
+        Of the coordinates.
+    """
+    mass, damping = (
+        shapes.T @ (matrix @ shapes) for matrix in (structure.mass, structure.damping)
+    )
+    if not structure.gyroscopic:
+        damping = _symmetric(damping)
+    forces = extended_product(structure.stiffness, shapes)
+    stiffness = _symmetric(shapes.T @ forces)
+    stiffness[rank:, :rank] = stiffness[:rank, rank:] = 0.0
+    return Structure(_symmetric(mass), damping, stiffness, names, structure.gyroscopic)
 
 
 def _symmetric(matrix: Array) -> Array:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse
+from scipy.sparse.linalg import LinearOperator
 
 from microslip_mechanics.arrays import Matrix
 from microslip_mechanics.factors import factors
@@ -17,24 +18,26 @@ MATRICES = ("mass", "damping", "stiffness")
 class Structure:
     """Linear structure M ü + C u̇ + K u = p; the matrices have shape (dofs, dofs).
 
-    All three are arrays, or all three are sparse arrays or matrices of scipy.sparse.
+    All three are arrays, or all three are sparse arrays or matrices of scipy.sparse;
+    beside sparse ones the damping may be a linear operator of scipy.
     """
 
     mass: Matrix
     """M [kg], symmetric and positive definite"""
     damping: Matrix
-    """C [N s/m], symmetric"""
+    """C [N s/m], symmetric; and Coriolis terms, skew-symmetric, if it is gyroscopic"""
     stiffness: Matrix
     """K [N/m], symmetric; may be singular where contact alone holds a body"""
     names: tuple[str, ...]
     """one name for each degree of freedom"""
+    gyroscopic: bool = False
+    """whether the damping has a skew-symmetric part"""
 
     def __post_init__(self) -> None:
         """Check shapes, finiteness, symmetry and that no motion is massless."""
         shape = (len(self.names), len(self.names))
-        if len({scipy.sparse.issparse(getattr(self, name)) for name in MATRICES}) > 1:
-            raise ValueError("some matrices are sparse, others not: give three alike")
-        for name in MATRICES:
+        arrays = self._arrays(shape)
+        for name in arrays:
             matrix = getattr(self, name)
             if matrix.shape != shape:
                 raise ValueError(
@@ -45,6 +48,8 @@ class Structure:
                 matrix = matrix.tocsc()
             if not np.all(np.isfinite(matrix.data if self.sparse else matrix)):
                 raise ValueError(f"{name} holds a value that is not finite")
+            if self.gyroscopic and name == "damping":
+                continue
             if abs(matrix - matrix.T).max() > 1e-9 * abs(matrix).max():
                 raise ValueError(
                     f"{name} is not symmetric: only symmetric is supported"
@@ -80,6 +85,30 @@ class Structure:
                 "(microslip_mechanics.reduction.reduced)"
             )
         return self
+
+    def _arrays(self, shape: tuple[int, int]) -> list[str]:
+        """Return which matrices are no operators; check that they are alike."""
+        operator = self.sparse and isinstance(self.damping, LinearOperator)
+        arrays = [name for name in MATRICES if not (operator and name == "damping")]
+        if len({scipy.sparse.issparse(getattr(self, name)) for name in arrays}) > 1:
+            raise ValueError("some matrices are sparse, others not: give three alike")
+        if operator:
+            self._check_operator(shape)
+        return arrays
+
+    def _check_operator(self, shape: tuple[int, int]) -> None:
+        """Check shape, finiteness and symmetry of an operator, by two motions."""
+        if self.damping.shape != shape:
+            raise ValueError(
+                f"damping has shape {self.damping.shape}, but there are "
+                f"{shape[0]} names of degrees of freedom: give {shape}"
+            )
+        motions = np.random.default_rng(0).normal(size=(shape[0], 2))
+        power = motions.T @ (self.damping @ motions)
+        if not np.all(np.isfinite(power)):
+            raise ValueError("damping holds a value that is not finite")
+        if abs(power[0, 1] - power[1, 0]) > 1e-9 * np.abs(power).max():
+            raise ValueError("damping is not symmetric: only symmetric is supported")
 
     def _heavy(self) -> bool:
         """Return whether the mass is positive definite."""

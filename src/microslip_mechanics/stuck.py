@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 import scipy.sparse
-from scipy.sparse.linalg import LinearOperator, eigsh
+from scipy.sparse.linalg import LinearOperator, aslinearoperator, eigsh
 
 from microslip_mechanics.arrays import Array, Matrix
+from microslip_mechanics.extended import extended_product
 from microslip_mechanics.factors import Factors, factors, indefinite_factors
 from microslip_mechanics.structure import Structure
 
@@ -43,7 +44,7 @@ class StuckStructure:
     mass: Matrix
     """freeᵀ M free, sparse"""
     damping: Matrix
-    """freeᵀ C free, sparse"""
+    """freeᵀ C free, sparse; a linear operator if C is one"""
     stiffness: Matrix
     """freeᵀ K free, sparse"""
     factors: Factors
@@ -61,12 +62,7 @@ class StuckStructure:
             return StuckModes(np.zeros(0), np.zeros((self.mass.shape[0], 0)), 0.0)
         size, count = self.mass.shape[0], min(self._expected(cutoff) + MORE, MOST)
         while True:
-            if size <= max(SMALL, 2 * count):
-                squares, shapes = scipy.linalg.eigh(
-                    self.stiffness.toarray(), self.mass.toarray()
-                )
-            else:
-                squares, shapes = self._slowest(count)
+            squares, shapes = self.slowest(count)
             kept = int((squares <= cutoff**2).sum())
             if kept < squares.size or squares.size == size:
                 left = np.sqrt(squares[kept]) if kept < size else np.inf
@@ -86,9 +82,14 @@ class StuckStructure:
         found = indefinite_factors(self.stiffness - cutoff**2 * self.mass)
         return 0 if found is None else int((found.pivots < 0.0).sum())
 
-    def _slowest(self, count: int) -> tuple[Array, Array]:
-        """Return squares and shapes of the slowest modes, by Lanczos' method."""
+    def slowest(self, count: int) -> tuple[Array, Array]:
+        """Return squares and shapes of the slowest modes, ``count`` at the least.
+
+        All of them by a dense solution where that is cheap, else by Lanczos' method.
+        """
         shape = self.mass.shape
+        if shape[0] <= max(SMALL, 2 * count):
+            return scipy.linalg.eigh(self.stiffness.toarray(), self.mass.toarray())
         squares, shapes = eigsh(
             self.stiffness,
             count,
@@ -102,7 +103,7 @@ class StuckStructure:
 
     def loss(self, modes: StuckModes) -> float:
         """Return the largest ratio of damping to stiffness beside some modes [s]."""
-        if self.damping.nnz == 0:
+        if not isinstance(self.damping, LinearOperator) and self.damping.nnz == 0:
             return 0.0
         momenta = self.mass @ modes.shapes
         own = modes.shapes.T @ (self.damping @ modes.shapes)
@@ -136,7 +137,7 @@ def stuck_structure(structure: Structure, selection: Array) -> StuckStructure:
     """
     direct, free = _null_basis(selection)
     mass, damping, stiffness = (
-        scipy.sparse.csc_array(free.T @ scipy.sparse.csc_array(matrix) @ free)
+        _restricted(matrix, free)
         for matrix in (structure.mass, structure.damping, structure.stiffness)
     )
     found = factors(stiffness)
@@ -144,9 +145,18 @@ def stuck_structure(structure: Structure, selection: Array) -> StuckStructure:
         raise ValueError(
             "the structure can move freely while all contacts stick: clamp it somewhere"
         )
-    held = free.T @ (structure.stiffness @ direct)
-    static = direct - free @ found.solve(held)
+    static = direct
+    for _ in range(2):  # once more, for what rounding leaves
+        held = free.T @ extended_product(structure.stiffness, static)
+        static = static - free @ found.solve(held)
     return StuckStructure(static, free, mass, damping, stiffness, found)
+
+
+def _restricted(matrix: Matrix, free: Matrix) -> Matrix:
+    """Return freeᵀ matrix free, sparse unless the matrix is a linear operator."""
+    if isinstance(matrix, LinearOperator):
+        return aslinearoperator(free.T.tocsc()) @ matrix @ aslinearoperator(free)
+    return scipy.sparse.csc_array(free.T @ scipy.sparse.csc_array(matrix) @ free)
 
 
 def _null_basis(selection: Array) -> tuple[Array, Matrix]:

@@ -3,12 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from microslip_mechanics.arrays import Array
+
+if TYPE_CHECKING:
+    from microslip_mechanics.envelope import Envelope
+
+Block = TypeVar("Block", "TimeHistory", "Envelope")
+
+
+@dataclass(frozen=True, slots=True)
+class Checkpoint:
+    """The end of a block: from here a march goes on as if it had never stopped."""
+
+    displacement: Array
+    """[m], shape (dofs,)"""
+    velocity: Array
+    """[m/s], shape (dofs,)"""
+    memory: Array
+    """what else the integrator keeps, in an order of its own, shape (numbers,)"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,27 +57,44 @@ class TimeHistory:
     """steps that converged only when they were divided"""
     ending: str = "complete"
     """how the march ended: "complete", "interrupted", or the cause"""
+    checkpoint: Checkpoint | None = None
+    """at the last time, if the march can go on from there"""
+
+    frequency: Array = field(default_factory=lambda: np.zeros(0))
+    """of the drive [rad/s], shape (times,), or empty if not told"""
+    level: Array = field(default_factory=lambda: np.zeros(0))
+    """amplitude of the drive's sine over the problem's, like ``frequency``"""
 
     def of(self, energy: str) -> Array:
         """Return one energy over time [J], shape (times,)."""
-        column: Array = self.energy[:, self.energies.index(energy)]
-        return column
+        return energy_of(self, energy)
 
     @property
     def closing_error(self) -> Array:
         """What the energy balance leaves [J], shape (times,) (theory, eq. 26)."""
-        others = [place for place, name in enumerate(self.energies) if name != "input"]
-        spent: Array = self.energy[:, others].sum(axis=1)
-        return self.of("input") + self.stored_at_start - spent
+        return closing_error(self)
 
 
-def joined(blocks: Sequence[TimeHistory], ending: str) -> TimeHistory:
-    """Return blocks of one march as one history."""
+def energy_of(result: TimeHistory | Envelope, name: str) -> Array:
+    """Return one energy [J], shape (rows,)."""
+    column: Array = result.energy[:, result.energies.index(name)]
+    return column
+
+
+def closing_error(result: TimeHistory | Envelope) -> Array:
+    """Return what the energy balance leaves [J], shape (rows,) (theory, eq. 26)."""
+    others = [place for place, name in enumerate(result.energies) if name != "input"]
+    spent: Array = result.energy[:, others].sum(axis=1)
+    return energy_of(result, "input") + result.stored_at_start - spent
+
+
+def joined(blocks: Sequence[Block], ending: str) -> Block:
+    """Return blocks of one march as one."""
     first = blocks[0]
     whole: dict[str, Any] = {
-        field.name: np.concatenate([getattr(block, field.name) for block in blocks])
-        for field in fields(first)
-        if isinstance(getattr(first, field.name), np.ndarray)
+        each.name: np.concatenate([getattr(block, each.name) for block in blocks])
+        for each in fields(first)
+        if isinstance(getattr(first, each.name), np.ndarray)
     }
     return replace(
         first,
@@ -68,4 +102,5 @@ def joined(blocks: Sequence[TimeHistory], ending: str) -> TimeHistory:
         iterations=sum(block.iterations for block in blocks),
         divided=sum(block.divided for block in blocks),
         ending=ending,
+        checkpoint=blocks[-1].checkpoint,
     )

@@ -14,7 +14,7 @@ FREQUENCIES = (6.5, 8.6)
 """below and near resonances [rad/s]"""
 SETTLED = 60
 """periods in which what begins on an orbit that is none leaves it"""
-MEMORY_MARCHES = False
+MEMORY_MARCHES = True
 """whether time integration knows the laws that remember"""
 UNKNOWN = pytest.mark.skip(reason="time integration does not know what remembers yet")
 

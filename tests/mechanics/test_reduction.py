@@ -9,8 +9,11 @@ import scipy.sparse
 
 from contact_tables import contact_points
 from microslip_mechanics import stuck
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.beam import RectangularSection, beam_matrices
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.reduced_structure import craig_bampton
 from microslip_mechanics.reduction import reduced
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
@@ -102,6 +105,36 @@ def test_damping_beside_the_modes_is_that_of_the_fastest_modes(count: int) -> No
 
     # a mode has (α + β ω²)/ω²: most for the slowest one left out
     assert found == pytest.approx(30.0 / modes.next**2 + 1e-5, rel=2e-3)
+
+
+def test_a_fine_mesh_loses_no_digits() -> None:
+    elements, section = 1500, RectangularSection(0.02, 0.01, 2.1e11, 0.3, 7800.0)
+    bent = [2, 4, 8, 10]
+    stiffness, mass = (
+        assembled(matrix[np.ix_(bent, bent)], elements)
+        for matrix in beam_matrices(section, 1.0 / elements)
+    )
+    names = tuple(map(str, range(2 * elements)))
+    structure = Structure(mass, 0.0 * mass, stiffness, names)
+    tip = np.eye(1, 2 * elements, 2 * elements - 2)
+
+    found = craig_bampton(structure, np.flatnonzero(tip[0]), 4000.0).structure
+
+    # rounding grows with the fourth power of the elements: 1e-5 without extended sums
+    rigidity = section.young_modulus * section.inertia_y
+    assert found.stiffness[0, 0] == pytest.approx(3.0 * rigidity, rel=1e-8)
+    # a clamped beam with its tip on a pin: tan x = tanh x
+    rate = np.sqrt(rigidity / (section.density * section.area))
+    pinned = np.sqrt(found.stiffness[1, 1] / found.mass[1, 1])
+    assert pinned == pytest.approx(3.926602312047919**2 * rate, rel=1e-8)
+
+
+def assembled(element: Array, elements: int) -> scipy.sparse.csc_array:
+    """Return the matrix of a clamped beam of equal elements, shape (4, 4) each."""
+    places = 2 * np.arange(elements)[:, None] + np.arange(4)
+    where = (np.repeat(places, 4, axis=1).ravel(), np.tile(places, 4).ravel())
+    values = np.tile(element.ravel(), elements)
+    return scipy.sparse.csc_array(scipy.sparse.csc_array((values, where))[2:, 2:])
 
 
 def test_a_mechanism_is_refused() -> None:

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 import scipy.sparse
+from scipy.sparse.linalg import LinearOperator, aslinearoperator
 
 from microslip_mechanics.arrays import Array, Matrix
 from microslip_mechanics.structure import MATRICES, Structure
@@ -14,7 +15,8 @@ NAMES = ("a", "b")
 
 def structure(**matrices: Array) -> Structure:
     sound = {name: np.array([[2.0, -1.0], [-1.0, 3.0]]) for name in MATRICES}
-    return Structure(**(sound | matrices), names=NAMES)
+    mass, damping, stiffness = ((sound | matrices)[name] for name in MATRICES)
+    return Structure(mass, damping, stiffness, NAMES)
 
 
 def test_structure_counts_its_degrees_of_freedom() -> None:
@@ -86,7 +88,8 @@ def test_massless_motion_is_refused(mass: Array) -> None:
 def sparse_structure(**matrices: Matrix) -> Structure:
     sound = {name: np.array([[2.0, -1.0], [-1.0, 3.0]]) for name in MATRICES}
     made = {name: scipy.sparse.csr_array(each) for name, each in sound.items()}
-    return Structure(**(made | matrices), names=NAMES)
+    mass, damping, stiffness = ((made | matrices)[name] for name in MATRICES)
+    return Structure(mass, damping, stiffness, NAMES)
 
 
 def test_sparse_matrices_are_kept_as_they_are() -> None:
@@ -140,3 +143,31 @@ def test_only_a_dense_structure_passes_for_one() -> None:
     assert plain.dense is plain
     with pytest.raises(ValueError, match=f"^{re.escape(text)}$"):
         _ = sparse_structure().dense
+
+
+def operator(*rows: float) -> LinearOperator:
+    return aslinearoperator(np.reshape(rows, (2, -1)))
+
+
+def test_damping_beside_sparse_matrices_may_be_an_operator() -> None:
+    sound = sparse_structure(damping=operator(2.0, -1.0, -1.0, 3.0))
+
+    assert sound.sparse
+
+
+@pytest.mark.parametrize(
+    ("damping", "message"),
+    [
+        (operator(1.0, 2.0, 0.0, 1.0), "damping is not symmetric: only symmetric is"),
+        (operator(1.0, np.nan, 0.0, 1.0), "damping holds a value that is not finite"),
+        (
+            operator(1.0, 0.0, 0.0, 0.0, 1.0, 0.0),
+            "damping has shape (2, 3), but there are 2 names",
+        ),
+    ],
+)
+def test_an_operator_that_is_no_damping_is_refused(
+    damping: LinearOperator, message: str
+) -> None:
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}"):
+        sparse_structure(damping=damping)

@@ -12,12 +12,23 @@ import numpy as np
 import pytest
 
 from microslip.scene_file import built_in_text
-from microslip.store import Result, Stored, load, save
+from microslip.schema import Result
+from microslip.store import Stored, load, save
 from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
-COMMANDS = ("frc", "sweep", "verify", "tables", "scenes", "explain", "plot")
+COMMANDS = (
+    "frc",
+    "sweep",
+    "dwell",
+    "decay",
+    "verify",
+    "tables",
+    "scenes",
+    "explain",
+    "plot",
+)
 
 
 def curve_of(path: Path) -> ResponseCurve:

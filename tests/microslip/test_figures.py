@@ -1,6 +1,7 @@
 """Figures: the data that they show, labels with units, no screen."""
 
 import dataclasses
+import itertools
 import re
 from collections.abc import Iterable, Sequence
 
@@ -14,6 +15,11 @@ from numpy.typing import ArrayLike
 from microslip.figures import curve as curves
 from microslip.figures import sweep as sweeps
 from microslip.figures.agreement import agreement_figure
+from microslip.figures.envelope import envelope_figure
+from microslip.figures.passes import passes
+from microslip.figures.result import result_figure
+from microslip.figures.track import track_figure
+from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
@@ -288,5 +294,138 @@ def test_agreement_without_sweeps_is_drawn_too(small_curve: ResponseCurve) -> No
 
     figure = agreement_figure(small_curve, marched, [], (nothing, nothing), "title")
 
-    check_labels_of_agreement(figure)
-    assert legend(figure.axes[2]) == ["curve"]
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    assert [title.split(",")[0] for title in titles] == [
+        "Curve",
+        "Amplitude after the march",
+    ]
+
+
+@pytest.mark.parametrize(
+    "values", [[0.4, 0.6, 0.8, 20.0], [1e-3, 2e-3, 1.0], [0.125, 0.25, 0.375, 3.0]]
+)
+def test_labels_of_near_values_do_not_touch(values: list[float]) -> None:
+    peaks = [(value, 130.0, 1e-3) for value in values]
+
+    figure = track_figure(peaks, [], "excitation.force", "title")
+
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        boxes = [
+            label.get_window_extent()
+            for label in axes.get_xticklabels()
+            if label.get_text()
+        ]
+        assert len(boxes) >= 2
+        for left, right in itertools.pairwise(boxes):
+            assert left.x1 < right.x0
+
+
+@pytest.mark.parametrize("panel", ["sweep", "curve"])
+def test_legend_of_energies_lies_above_their_lines(
+    axes: Axes, panel: str, small_history: TimeHistory, small_curve: ResponseCurve
+) -> None:
+    if panel == "sweep":
+        sweeps.energies(axes, small_history)
+    else:
+        curves.dissipated_energy(axes, small_curve)
+
+    axes.figure.draw_without_rendering()  # type: ignore[union-attr]
+    shown = axes.get_legend()
+    assert shown is not None
+    below = axes.transData.inverted().transform(shown.get_window_extent())[0, 1]
+    assert below > max(np.max(line.get_ydata()) for line in axes.lines)
+
+
+def swept(hertz: np.ndarray, level: np.ndarray, small: Envelope) -> Envelope:
+    """Return an envelope whose first probe swings by the frequency in micrometres."""
+    cycles = len(hertz)
+    made = {
+        field.name: np.resize(getattr(small, field.name), (cycles, *shape[1:]))
+        for field in dataclasses.fields(small)
+        if len(shape := np.shape(getattr(small, field.name))) > 0
+        and field.name not in ("probes", "contacts", "energies")
+    }
+    high = np.tile(1e-6 * hertz[:, None], (1, len(small.probes)))
+    changed = {
+        "time": np.cumsum(1.0 / hertz),
+        "frequency": 2.0 * np.pi * hertz,
+        "level": level,
+        "highest": high,
+        "lowest": -high,
+    }
+    return dataclasses.replace(small, **(made | changed))
+
+
+def test_each_way_of_a_sweep_is_a_pass(small_envelope: Envelope) -> None:
+    up = np.linspace(125.0, 145.0, 50)
+    rest = np.full(20, 125.0)
+    hertz = np.concatenate([rest, up, up[::-1], rest, up, up[::-1], rest])
+    level = np.repeat([0.0, 0.5, 0.0, 2.0, 0.0], [20, 100, 20, 100, 20])
+
+    ways = passes(swept(hertz, level, small_envelope))
+
+    assert [(way.level, way.rises) for way in ways] == [
+        (0.5, True),
+        (0.5, False),
+        (2.0, True),
+        (2.0, False),
+    ]
+    for way in ways:
+        assert 49 <= len(way.hertz) <= 51
+        np.testing.assert_allclose(way.swing[:, 0], 1e-6 * way.hertz)
+
+
+def test_steps_are_one_pass(small_envelope: Envelope) -> None:
+    hertz = np.repeat(np.linspace(125.0, 145.0, 11), 20)
+
+    (way,) = passes(swept(hertz, np.ones(220), small_envelope))
+
+    assert way.rises
+    assert len(way.hertz) == 220
+
+
+def test_a_dwell_has_no_pass(small_envelope: Envelope) -> None:
+    assert passes(swept(np.full(100, 130.0), np.ones(100), small_envelope)) == []
+
+
+def test_passes_of_rows_are_those_of_the_drive(small_history: TimeHistory) -> None:
+    time = np.arange(1, 20_001) * 1e-4
+    hertz = np.linspace(50.0, 80.0, 20_000)
+    phase = 2.0 * np.pi * np.cumsum(hertz) * 1e-4
+    rows = np.ones((20_000, 4)) * np.sin(phase)[:, None]
+    history = dataclasses.replace(
+        small_history,
+        time=time,
+        displacement=rows,
+        frequency=2.0 * np.pi * hertz,
+        level=np.ones(20_000),
+    )
+
+    (way,) = passes(history)
+
+    assert len(way.hertz) == pytest.approx(130, abs=1)
+    # 125 rows a cycle at most: the highest lies within half of one of them
+    np.testing.assert_allclose(way.swing[:-1], 1.0, atol=4e-3)
+
+
+def test_envelope_figure_has_a_labelled_panel_for_each_thing_to_see(
+    small_envelope: Envelope,
+) -> None:
+    up = np.linspace(125.0, 145.0, 50)
+    hertz, level = np.concatenate([up, up[::-1]]), np.ones(100)
+
+    figure = envelope_figure(swept(hertz, level, small_envelope), "two-blades")
+
+    check_labels(figure)
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    # as those of a sweep, and the amplitude of both blades against frequency
+    assert len(titles) == len(set(titles)) == 9
+    assert legend(figure.axes[-1]) == ["up", "down"]
+
+
+def test_march_without_rows_is_not_drawn(small_envelope: Envelope) -> None:
+    none = swept(np.zeros(0), np.zeros(0), small_envelope)
+
+    with pytest.raises(ValueError, match="no cycle is complete"):
+        result_figure(none, "title")

@@ -40,8 +40,9 @@ def curve_until(points: int, end: BaseException) -> Callable[..., object]:
 def march_until(blocks: int, end: BaseException) -> Callable[..., object]:
     """Return an integrator whose march ends after some blocks of a millisecond."""
 
-    def solved(*arguments: object) -> Iterator[TimeHistory]:
-        yield from itertools.islice(integrate(*arguments, block=1e-3), blocks)  # type: ignore[arg-type]
+    def solved(*arguments: object, **named: object) -> Iterator[TimeHistory]:
+        march = integrate(*arguments, **named, block=1e-3)  # type: ignore[arg-type]
+        yield from itertools.islice(march, blocks)
         raise end
 
     return solved

@@ -89,6 +89,23 @@ def calculix(folder: Path, name: str, matrix: np.ndarray) -> MatrixSource:
     return MatrixSource(path)
 
 
+def nastran(folder: Path, name: str, matrix: np.ndarray) -> MatrixSource:
+    path = folder / "job.pch"
+    known = path.read_text() if path.exists() else "$ punched\n"
+    title = "KAAX" if name == "stiffness" else "MAAX"
+    lines = [f"DMIG    {title:8s}{0:8d}{6:8d}{2:8d}{0:8d}{'':8s}{4:8d}"]
+    for column, (node, way) in enumerate(LABELS):
+        lines.append(f"DMIG*   {title:16s}{node:16d}{way:16d}")
+        for row, place, value in halves(matrix):
+            if place == column:
+                number = f"{value:.9E}".replace("E", "D")
+                lines.append(
+                    f"*       {LABELS[row][0]:16d}{LABELS[row][1]:16d}{number:>16s}"
+                )
+    path.write_text(known + "\n".join(lines) + "\n")
+    return MatrixSource(path)
+
+
 @pytest.mark.parametrize(
     ("write", "names"),
     [
@@ -99,6 +116,7 @@ def calculix(folder: Path, name: str, matrix: np.ndarray) -> MatrixSource:
         (sparse_archive, ("1", "2", "3", "4")),
         (abaqus, NAMES),
         (calculix, NAMES),
+        (nastran, NAMES),
     ],
 )
 def test_matrices_come_back_from_each_format(
@@ -173,6 +191,24 @@ def test_a_degree_of_freedom_held_by_a_huge_stiffness_is_left_out(
     np.testing.assert_array_equal(found.stiffness.toarray(), [[4.0]])
 
 
+def test_nastran_may_leave_out_the_letter_of_an_exponent(tmp_path: Path) -> None:
+    (tmp_path / "a.pch").write_text(
+        "DMIG    K              0       6       2       0\n"
+        "DMIG*   K                             12               0\n"
+        "*                     12               0          -2.5+3\n"
+        "*                      7               2         1.25-02\n"
+        "DMIG*   OTHER                         12               0\n"
+        "*                     12               0             9.0\n"
+    )
+
+    found = MatrixSource(tmp_path / "a.pch").read(("K",))
+
+    assert found.names == ("7.y", "12")
+    np.testing.assert_array_equal(
+        found.matrix.toarray(), [[0.0, 0.0125], [0.0125, -2500.0]]
+    )
+
+
 HEADER = "%%MatrixMarket matrix coordinate real symmetric\n"
 TEXTS = [
     (
@@ -231,7 +267,24 @@ TEXTS = [
         "give the files of one job",
     ),
     ("a.csv", "1\n", ": .csv is not known: give .mtx (Matrix Market or Abaqus), .mat, "
-     ".npz, .sti and .mas (CalculiX), or Abaqus text as .txt"),
+     ".npz, .sti and .mas (CalculiX), .pch (Nastran DMIG), or Abaqus text as .txt"),
+    ("a.pch", "DMIG    KGG            0       6       2       0\n",
+     ": holds no matrix K but KGG: write a.pch:NAME"),
+    ("a.pch", "DMIG    K              0       6       4       0\n",
+     ": holds no matrix K but nothing: write a.pch:NAME"),
+    ("a.pch", "DMIG    K              0       6\n",
+     ", line 1: a DMIG header without form and type: punch it again"),
+    ("a.pch", "DMIG    K              0       6       2       0\n"
+     "DMIG    K       1       1               1       1       3.0\n",
+     ": K has no entries in large fields (DMIG*): punch it again"),
+    ("a.pch", "DMIG    K              0       6       2       0\n"
+     "DMIG*   K                              1               7\n",
+     ", line 2: '1', '7' are no node and direction from 0 to 6: "
+     "punch the matrix again"),
+    ("a.pch", "DMIG    K              0       6       2       0\n"
+     "DMIG*   K                              1               1\n"
+     "*                      1               1             abc\n",
+     ", line 3: 'abc' is no number: punch the matrix again"),
 ]  # fmt: skip
 
 
@@ -243,7 +296,7 @@ def test_malformed_text_is_refused_in_one_line(
     (tmp_path / "a.dof").write_text("1.1\n1.2\n")
 
     with pytest.raises(MatrixFileError) as caught:
-        MatrixSource(tmp_path / name).read()
+        MatrixSource(tmp_path / name).read(("K",))
 
     assert str(caught.value) == f"{tmp_path / name}{message}"
 
@@ -293,7 +346,7 @@ def test_objects_in_an_archive_are_not_unpickled(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arrays", "message"),
     [
-        ({"A": MASS, "B": MASS}, "holds no variable K but A, B: write a.npz:NAME"),
+        ({"A": MASS, "B": MASS}, "holds no matrix K but A, B: write a.npz:NAME"),
         ({"K": MASS[0]}, "K has 1 axes of float64: give a matrix of real numbers"),
         ({"K": 1j * MASS}, "K has 2 axes of complex128: give a matrix of real numbers"),
         (

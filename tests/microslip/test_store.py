@@ -4,15 +4,15 @@ import csv
 import dataclasses
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from scipy.io import netcdf_file
 
+from microslip.schema import SCHEMAS, Result
 from microslip.store import (
-    SCHEMAS,
-    Result,
     Stored,
     StoreError,
     load,
@@ -20,21 +20,29 @@ from microslip.store import (
     save_figure,
     save_table,
 )
+from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.thinning import thinned
 from microslip_mechanics.time_history import TimeHistory
 
 SCENE = '# a scene\nscene = "two-blades"\n# --set model=A'
 COMMAND = "microslip frc two-blades --set model=A"
 
 
-@pytest.fixture(params=["curve", "history"])
+@pytest.fixture(params=["curve", "history", "envelope"])
 def result(
     request: pytest.FixtureRequest,
     small_curve: ResponseCurve,
     small_history: TimeHistory,
+    small_envelope: Envelope,
 ) -> Result:
     """Return one result of each kind."""
-    return small_curve if request.param == "curve" else small_history
+    results: dict[str, Result] = {
+        "curve": small_curve,
+        "history": small_history,
+        "envelope": small_envelope,
+    }
+    return results[request.param]
 
 
 @pytest.fixture
@@ -51,10 +59,10 @@ def attribute(place: object, name: str) -> str:
     return text.decode()
 
 
-def check_same(result: Result, stored: Result) -> None:
+def check_same(result: object, stored: object) -> None:
     """Check that each field came back bit for bit, with its type and shape."""
     assert type(stored) is type(result)
-    for field in dataclasses.fields(result):
+    for field in dataclasses.fields(result):  # type: ignore[arg-type]
         before, after = (getattr(each, field.name) for each in (result, stored))
         assert type(after) is type(before), field.name
         if isinstance(before, np.ndarray):
@@ -62,6 +70,8 @@ def check_same(result: Result, stored: Result) -> None:
             assert after.dtype.isnative, field.name
             assert after.shape == before.shape, field.name
             assert after.tobytes() == before.tobytes(), field.name
+        elif dataclasses.is_dataclass(before):
+            check_same(before, after)
         else:
             assert after == before, field.name
 
@@ -109,7 +119,8 @@ def test_file_without_a_variable_is_no_result(
 ) -> None:
     kind = next(kind for kind, (type_, _) in SCHEMAS.items() if type(result) is type_)
     schema = dict(SCHEMAS[kind][1])
-    del schema["velocity" if "velocity" in schema else "peak"]
+    missing = {"velocity", "peak", "highest"} & set(schema)
+    del schema[missing.pop()]
     monkeypatch.setitem(SCHEMAS, kind, (type(result), schema))
     save(saved, Stored(result, SCENE, COMMAND))
     monkeypatch.undo()
@@ -189,7 +200,11 @@ def test_scene_and_command_may_hold_any_letters(
 
 
 def test_attributes_tell_where_a_file_is_from(result: Result, saved: Path) -> None:
-    kind = {"ResponseCurve": "frequency response curve", "TimeHistory": "time history"}
+    kind = {
+        "ResponseCurve": "frequency response curve",
+        "TimeHistory": "time history",
+        "Envelope": "envelope",
+    }
 
     with netcdf_file(saved, "r", mmap=False) as file:
         assert attribute(file, "kind") == kind[type(result).__name__]
@@ -347,3 +362,36 @@ def test_table_that_cannot_be_written_is_told_in_words(
 
     with pytest.raises(StoreError, match=f"{name} cannot be written: "):
         save_table(tmp_path / name, ("name",), [])
+
+
+def test_a_long_history_is_read_thinned(
+    small_history: TimeHistory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("microslip.store.CHUNK", 100)
+    rows = 1000
+    many: dict[str, Any] = {
+        field.name: np.resize(values, (rows, *values.shape[1:]))
+        for field in dataclasses.fields(small_history)
+        if isinstance(values := getattr(small_history, field.name), np.ndarray)
+    }
+    result = dataclasses.replace(small_history, **many)
+    save(tmp_path / "result.nc", Stored(result, SCENE, COMMAND))
+
+    few = load(tmp_path / "result.nc", most=50).result
+
+    check_same(few, thinned(result, 40))
+
+
+def test_a_file_that_another_program_wrote_anew_is_told(
+    small_history: TimeHistory, tmp_path: Path
+) -> None:
+    path, copy = tmp_path / "result.nc", tmp_path / "copy.nc"
+    save(path, Stored(small_history, SCENE, COMMAND))
+    with netcdf_file(path, "r", mmap=False) as old, netcdf_file(copy, "w") as new:
+        for name in ("kind", "source", "command", "scene", "ending"):
+            setattr(new, name, getattr(old, name))
+        new.createDimension("time", None)
+        new.createVariable("time", "d", ("time",))[:] = old.variables["time"].data
+
+    with pytest.raises(StoreError, match="is not a result file"):
+        load(copy)

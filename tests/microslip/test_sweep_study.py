@@ -91,8 +91,8 @@ def test_part_of_a_march_is_no_whole(
     scene: Scene,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def stops(*arguments: object) -> Iterator[TimeHistory]:
-        yield from integrate(*arguments)  # type: ignore[arg-type]
+    def stops(*arguments: object, **named: object) -> Iterator[TimeHistory]:
+        yield from integrate(*arguments, **named)  # type: ignore[arg-type]
         raise end
 
     monkeypatch.setattr(MARCH, stops)

@@ -107,10 +107,11 @@ def test_the_size_of_blocks_changes_no_bit(model: dict[str, object]) -> None:
     whole = marched(problem, sweep, options, block=1.0)
     parts = marched(problem, sweep, options, block=0.0071)
 
-    for field in dataclasses.fields(TimeHistory):
-        np.testing.assert_array_equal(
-            getattr(whole, field.name), getattr(parts, field.name), field.name
-        )
+    one, many = (dataclasses.asdict(each) for each in (whole, parts))
+    ends = one.pop("checkpoint"), many.pop("checkpoint")
+    for each, other in ((one, many), ends):
+        for name, values in each.items():
+            np.testing.assert_array_equal(values, other[name], name)
 
 
 @pytest.mark.kernels
@@ -210,3 +211,40 @@ def test_a_block_without_a_length_is_refused(block: float) -> None:
 
     with pytest.raises(ValueError, match=text):
         marched(oscillator(), Dwell(3.0, 1.0), MarchOptions(0.01), block=block)
+
+
+@pytest.mark.parametrize("stop", [1, 3])
+def test_march_goes_on_from_a_checkpoint_as_if_it_had_never_stopped(stop: int) -> None:
+    problem = rig_problem(model="B")
+    sweep = SweptSine(0.005, 0.01, 0.04, 0.05, 125.0, 145.0)
+    whole = list(integrate(problem, sweep, MarchOptions(), block=0.01))
+
+    rest = list(
+        integrate(
+            problem,
+            sweep,
+            MarchOptions(),
+            start=whole[stop].checkpoint,
+            block=0.013,
+        )
+    )
+
+    part, expected = joined(rest, "complete"), joined(whole[stop + 1 :], "complete")
+    np.testing.assert_array_equal(part.time, expected.time)
+    for name in ("displacement", "velocity", "normal_force", "energy"):
+        ours, theirs = getattr(part, name), getattr(expected, name)
+        scale = np.abs(theirs).max()
+        np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-12 * scale)
+    assert part.stored_at_start == expected.stored_at_start
+
+
+def test_march_does_not_go_on_from_that_of_another_problem() -> None:
+    dwell = Dwell(3.0, 1.0)
+    block = next(integrate(oscillator(), dwell, MarchOptions(0.01)))
+
+    with pytest.raises(ValueError, match="it must be one of the same problem"):
+        next(
+            integrate(
+                rig_problem(model="A"), dwell, MarchOptions(), start=block.checkpoint
+            )
+        )

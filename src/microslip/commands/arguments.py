@@ -9,6 +9,9 @@ from pathlib import Path
 
 from microslip_mechanics.errors import MicroslipError
 
+MOST_ROWS = 100_000
+"""of a time history that a picture shows; a longer one is thinned"""
+
 
 class OutputError(MicroslipError):
     """Results have no place to go."""

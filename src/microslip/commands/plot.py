@@ -5,16 +5,19 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from microslip.commands import arguments
+
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = commands.add_parser(
         "plot",
         help="draw a result file again",
-        description="Draw the picture of a file that frc or sweep wrote.",
+        description="Draw the picture of a file that frc, sweep or dwell wrote, also "
+        "of a run that was stopped or is still going on.",
         epilog="example: microslip plot two-blades-frc.nc -o curve.pdf",
     )
-    parser.add_argument("file", type=Path, help="netCDF file that frc or sweep wrote")
+    parser.add_argument("file", type=Path, help="netCDF file of a result")
     parser.add_argument(
         "-o",
         "--output",
@@ -26,19 +29,12 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
+    from microslip.figures.result import result_figure
     from microslip.store import load, save_figure
-    from microslip_mechanics.response import ResponseCurve
 
-    stored = load(options.file)
+    stored = load(options.file, arguments.MOST_ROWS)
     picture = options.output or options.file.with_suffix(".png")
     title = f"{options.file.name}: {stored.command}"
-    if isinstance(stored.result, ResponseCurve):
-        from microslip.figures.curve import curve_figure
-
-        save_figure(picture, curve_figure(stored.result, title))
-    else:
-        from microslip.figures.sweep import sweep_figure
-
-        save_figure(picture, sweep_figure(stored.result, title))
+    save_figure(picture, result_figure(stored.result, title))
     print(f"picture in {picture}")
     return 0

@@ -23,6 +23,8 @@ def agreement_figure(
 ) -> Figure:
     """Draw curve and march, deviation, envelopes of sweeps, and energy by duration.
 
+    Without sweeps the latter two are left out.
+
     Parameters
     ----------
     curve
@@ -37,8 +39,9 @@ def agreement_figure(
     title
         Of the figure.
     """
-    figure = Figure(figsize=(10.0, 7.0), layout="constrained")
-    panels = figure.subplots(2, 2)
+    lines = 2 if sweeps else 1
+    figure = Figure(figsize=(10.0, 3.6 * lines), layout="constrained")
+    panels = figure.subplots(lines, 2, squeeze=False)
     frequency_response(panels[0, 0], curve)
     for place, colour in zip(absolute(curve.probes), COLOURS, strict=False):
         panels[0, 0].plot(
@@ -48,8 +51,9 @@ def agreement_figure(
         "Curve, and the march on its orbits (dots)", loc="left", fontsize="medium"
     )
     _deviation(panels[0, 1], marched)
-    _envelopes(panels[1, 0], curve, sweeps)
-    _energy(panels[1, 1], energies)
+    if sweeps:
+        _envelopes(panels[1, 0], curve, sweeps)
+        _energy(panels[1, 1], energies)
     figure.suptitle(literal(title))
     return figure
 

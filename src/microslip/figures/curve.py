@@ -15,6 +15,7 @@ from microslip.figures.style import (
     absolute,
     faces,
     framed,
+    legend_above,
     literal,
     readable,
     relative,
@@ -141,7 +142,7 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
             label=name,
         )
     framed(axes, x=abscissa_name(curve), y="energy [mJ]", title="Dissipated per period")
-    axes.legend(frameon=False, loc="upper left")
+    legend_above(axes)
 
 
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:

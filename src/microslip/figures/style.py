@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Okabe and Ito's palette: told apart by colour-blind readers too"""
@@ -22,6 +24,21 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.margins(x=0.0)
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
+
+
+def plain_logarithmic(axis: Axis) -> None:
+    """Label a logarithmic axis with plain numbers: 0.1, 0.2, 0.5 and so on."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(NullLocator())
+
+
+def legend_above(axes: Axes) -> None:
+    """Put the legend above the lines, in space that is made for it."""
+    lines = -(-len(axes.get_legend_handles_labels()[0]) // 2)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + (0.08 + 0.1 * lines) * (high - low))
+    axes.legend(frameon=False, loc="upper left", ncols=2, fontsize="small")
 
 
 def absolute(probes: Iterable[str]) -> list[int]:

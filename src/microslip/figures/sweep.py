@@ -2,32 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
     absolute,
     faces,
     framed,
+    legend_above,
     literal,
     readable,
     relative,
 )
+from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import TimeHistory
 
 TIME = "time [s]"
 
 
 def sweep_figure(history: TimeHistory, title: str) -> Figure:
-    """Draw displacements, relative velocities, normal forces, friction and energies."""
+    """Draw displacements, relative velocities, normal forces, friction and energies.
+
+    Where the cycles of a sweep can be seen, their amplitude against frequency follows.
+    """
     slips, shrouds = relative(history.probes), faces(history.contacts)
-    blades = absolute(history.probes)[:2]
+    blades, ways = absolute(history.probes)[:2], passes(history)
     count = len(blades) + len(slips) + len(shrouds) + 2
-    lines = (count + 1) // 2
-    figure = Figure(figsize=(10.0, 2.6 * lines), layout="constrained")
-    panels = iter(figure.subplots(lines, 2, sharex=True, squeeze=False).ravel())
+    figure, panels, others = grid_of(count, len(blades) if ways else 0)
     limit = 1.05e3 * float(abs(history.displacement[:, blades]).max(initial=1e-12))
     for colour, place in zip(COLOURS, blades, strict=False):
         axes = next(panels)
@@ -39,12 +45,26 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
         normal_force(next(panels), history, face, places)
     friction_power(next(panels), history)
     energies(next(panels), history)
-    for axes in panels:
-        axes.remove()
-    for axes in figure.axes[-2:]:
-        axes.tick_params(labelbottom=True)
+    for axes, place in zip(others, blades, strict=False):
+        amplitude(axes, ways, place, history.probes[place])
     figure.suptitle(literal(title))
     return figure
+
+
+def grid_of(count: int, others: int) -> tuple[Figure, Iterator[Axes], list[Axes]]:
+    """Return a figure with panels that share their time axis, and with some others."""
+    lines = (count + 1) // 2 + (others + 1) // 2
+    figure = Figure(figsize=(10.0, 2.6 * lines), layout="constrained")
+    axes = list(figure.subplots(lines, 2, squeeze=False).ravel())
+    panels, last = axes[:count], axes[2 * ((count + 1) // 2) :][:others]
+    for panel in panels[1:]:
+        panel.sharex(panels[0])
+    for panel in panels[:-2]:
+        panel.tick_params(labelbottom=False)
+    for panel in axes:
+        if panel not in (*panels, *last):
+            panel.remove()
+    return figure, iter(panels), last
 
 
 def displacement(axes: Axes, history: TimeHistory, place: int, colour: str) -> None:
@@ -89,7 +109,7 @@ def friction_power(axes: Axes, history: TimeHistory) -> None:
     framed(axes, x=TIME, y="power [W]", title="Power developed by friction forces")
 
 
-def energies(axes: Axes, history: TimeHistory) -> None:
+def energies(axes: Axes, history: TimeHistory | Envelope) -> None:
     """Draw the energies that flowed, and the closing error of their balance."""
     flows = ("input", "friction", "normal_damping", "structural_damping")
     for colour, name in zip(COLOURS, flows, strict=False):
@@ -103,4 +123,4 @@ def energies(axes: Axes, history: TimeHistory) -> None:
     closing = abs(history.closing_error).max()
     title = f"Energy since the start (closing error {closing:.1e} J)"
     framed(axes, x=TIME, y="energy [J]", title=title)
-    axes.legend(frameon=False, loc="center left", fontsize="small")
+    legend_above(axes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from matplotlib.figure import Figure
@@ -11,6 +12,8 @@ from microslip.figures.style import COLOURS, WIDTH, framed, literal
 
 MANY = 10
 """values up to which each has its own tick"""
+LETTER = 0.021
+"""width of a letter of a tick's label, over the axis"""
 
 
 def track_figure(
@@ -52,7 +55,7 @@ def track_figure(
         if min(values) > 0.0 and max(values) > 10.0 * min(values):
             axes.set_xscale("log")
         if len(values) <= MANY:
-            axes.set_xticks(list(values), [f"{value:g}" for value in values])
+            axes.set_xticks(list(values), _labels(values, axes.get_xscale() == "log"))
             axes.set_xticks([], minor=True)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
     left.set_ylim(bottom=0.0)
@@ -62,3 +65,19 @@ def track_figure(
         axes.margins(x=0.04)
     figure.suptitle(literal(title))
     return figure
+
+
+def _labels(values: Sequence[float], logarithmic: bool) -> list[str]:
+    """Return the text of each tick, none for those too near to the one before."""
+    places = [math.log(value) if logarithmic else value for value in values]
+    length = (places[-1] - places[0]) or 1.0
+    labels: list[str] = []
+    end = -math.inf
+    for value, place in zip(values, places, strict=True):
+        text = f"{value:g}"
+        half = 0.5 * LETTER * len(text)
+        middle = (place - places[0]) / length
+        near = middle - half < end
+        labels.append("" if near else text)
+        end = end if near else middle + half + LETTER
+    return labels

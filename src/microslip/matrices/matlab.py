@@ -20,15 +20,15 @@ def read_matlab(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         If there is none, or the file is of another kind; files of version 7.3 are.
     """
     try:
-        found = scipy.io.loadmat(path, appendmat=False)
+        with path.open("rb"):  # says why a file cannot be read
+            found = scipy.io.loadmat(str(path), appendmat=False)
     except NotImplementedError:
         raise MatrixFileError(
             path, "is of MATLAB's version 7.3: save it with save(file, vars, '-v7')"
         ) from None
     except OSError as error:
-        cause = error.strerror or "it is no such file"
         raise MatrixFileError(
-            path, f"cannot be read ({cause}): check the name"
+            path, f"cannot be read ({error.strerror}): check the name"
         ) from None
     except (ValueError, TypeError, EOFError) as error:
         raise MatrixFileError(

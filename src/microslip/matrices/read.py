@@ -15,9 +15,9 @@ from microslip_mechanics.arrays import Matrix
 from microslip_mechanics.structure import Structure
 
 USUAL = {
-    "mass": ("M", "mass", "MASS"),
-    "damping": ("C", "D", "damping", "DAMPING"),
-    "stiffness": ("K", "stiffness", "STIFFNESS"),
+    "mass": ("M", "mass", "MASS", "MAAX"),
+    "damping": ("C", "D", "damping", "DAMPING", "BAAX"),
+    "stiffness": ("K", "stiffness", "STIFFNESS", "KAAX"),
 }
 """names of variables that are looked for if none is given"""
 HELD = 1e30

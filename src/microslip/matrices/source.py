@@ -11,12 +11,13 @@ from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
 from microslip.matrices.matlab import read_matlab
 from microslip.matrices.matrix_market import read_matrix_market
+from microslip.matrices.nastran import read_nastran
 from microslip.matrices.npz import read_npz
 from microslip.matrices.text_table import text_of
 
 FORMATS = (
     ".mtx (Matrix Market or Abaqus), .mat, .npz, .sti and .mas (CalculiX), "
-    "or Abaqus text as .txt"
+    ".pch (Nastran DMIG), or Abaqus text as .txt"
 )
 
 
@@ -53,6 +54,8 @@ class MatrixSource:
             return read_matlab(self.path, wanted)
         if suffix == ".npz":
             return read_npz(self.path, wanted)
+        if suffix == ".pch":
+            return read_nastran(self.path, wanted)
         if self.variable:
             raise MatrixFileError(
                 self.path, f"holds one matrix: leave out :{self.variable}"

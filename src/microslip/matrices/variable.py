@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,14 +21,7 @@ def matrix_of(path: Path, there: Mapping[str, Any], wanted: tuple[str, ...]) -> 
     MatrixFileError
         If there is none, or it is not a matrix of real numbers.
     """
-    name = next((each for each in wanted if each in there), None)
-    if name is None:
-        listed = ", ".join(there) or "nothing"
-        raise MatrixFileError(
-            path,
-            f"holds no variable {' or '.join(wanted)} but {listed}: "
-            f"write {path.name}:NAME",
-        )
+    name = chosen(path, list(there), wanted)
     value = there[name]
     if not scipy.sparse.issparse(value):
         value = np.asarray(value)
@@ -39,3 +32,21 @@ def matrix_of(path: Path, there: Mapping[str, Any], wanted: tuple[str, ...]) -> 
             "give a matrix of real numbers",
         )
     return scipy.sparse.csc_array(value, dtype=float)
+
+
+def chosen(path: Path, there: Sequence[str], wanted: tuple[str, ...]) -> str:
+    """Return the first wanted name that is there.
+
+    Raises
+    ------
+    MatrixFileError
+        If there is none.
+    """
+    for name in wanted:
+        if name in there:
+            return name
+    listed = ", ".join(there) or "nothing"
+    raise MatrixFileError(
+        path,
+        f"holds no matrix {' or '.join(wanted)} but {listed}: write {path.name}:NAME",
+    )

@@ -2,39 +2,78 @@
 
 from __future__ import annotations
 
-import dataclasses
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from typing import Any
 
 from microslip.progress import Watch
 from microslip.scene_file import March, Sweep
-from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.envelope import Envelope, enveloped, parted
+from microslip_mechanics.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.time_history import TimeHistory, joined
+from microslip_mechanics.segments import clock
+from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
 
 
-def march_sweep(
-    problem: Problem, sweep: SweptSine, march: March, watch: Watch = iter
-) -> TimeHistory:
-    """March a sweep; keep what there is when it cannot go on or is stopped."""
+def marched(
+    problem: Problem,
+    loads: LoadHistory,
+    march: March,
+    *,
+    envelope: bool = False,
+    end: Checkpoint | None = None,
+) -> Iterator[TimeHistory | Envelope]:
+    """Yield the march of a scene block by block, as rows or as their envelope.
+
+    ``end`` is where a stopped march of the same scene and kind goes on.
+    """
+    segments, begun = loads.segments(), None
+    if envelope:
+        if end is not None:
+            end, begun = parted(end)
+        options = MarchOptions(march.time_step, 1)
+        blocks = integrate(problem, loads, options, start=end)
+        yield from enveloped(blocks, segments, begun)
+        return
     options = MarchOptions(march.time_step, march.store_every)
-    blocks: list[TimeHistory] = []
-    ending = "complete"
+    for block in integrate(problem, loads, options, start=end):
+        sine = clock(segments, block.time)
+        yield replace(block, frequency=sine[:, 0], level=sine[:, 1])
+
+
+def kept(blocks: Iterable[Any], keep: Callable[[Any], None]) -> str:
+    """Hand blocks on as they come; return how the march ended.
+
+    What stops it before the first block is raised.
+    """
+    some = False
     try:
-        for block in watch(integrate(problem, sweep, options)):
-            blocks.append(block)  # noqa: PERF402  (what is there must be kept)
+        for block in blocks:
+            keep(block)
+            some = True
     except IntegrationError as error:
-        ending = str(error)
-        if not blocks:
+        if not some:
             raise
+        return str(error)
     except KeyboardInterrupt:
-        ending = "interrupted"
-        if not blocks:
+        if not some:
             raise
+        return "interrupted"
+    return "complete"
+
+
+def march_sweep(
+    problem: Problem, sweep: LoadHistory, march: March, watch: Watch = iter
+) -> TimeHistory:
+    """March loads; keep what there is when it cannot go on or is stopped."""
+    blocks: list[TimeHistory] = []
+    ending = kept(watch(marched(problem, sweep, march)), blocks.append)
     return joined(blocks, ending)
 
 
 def march_whole(
-    problem: Problem, sweep: SweptSine, march: March, watch: Watch = iter
+    problem: Problem, sweep: LoadHistory, march: March, watch: Watch = iter
 ) -> TimeHistory:
     """March a sweep to its end, or raise: a part of it would give wrong energies."""
     history = march_sweep(problem, sweep, march, watch)
@@ -46,12 +85,13 @@ def march_whole(
 
 
 def swept_sine(sweep: Sweep, *, slower: float = 1.0) -> SweptSine:
-    """Return the load history of a scene, its sweep made ``slower`` times as long."""
+    """Return a scene's upward exponential sweep, made ``slower`` times as long."""
     longer = (slower - 1.0) * (sweep.end - sweep.start)
     return SweptSine(
-        **dataclasses.asdict(
-            dataclasses.replace(
-                sweep, end=sweep.end + longer, duration=sweep.duration + longer
-            )
-        )
+        sweep.ramp,
+        sweep.start,
+        sweep.end + longer,
+        sweep.duration + longer,
+        sweep.lowest,
+        sweep.highest,
     )

@@ -1,0 +1,169 @@
+"""microslip decay: frequency and damping by amplitude from a free decay."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments, dwell
+
+if TYPE_CHECKING:
+    from microslip.scene_file import Scene
+    from microslip_mechanics.problem import Problem
+    from microslip_mechanics.ring_down import RingDown
+    from microslip_mechanics.time_history import Checkpoint, TimeHistory
+
+PERIODS, SHOWN = 300, 20
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "decay",
+        help="free decay: frequency and damping by amplitude",
+        description="Drive the scene at one frequency until it is steady, or take the "
+        "state at the end of a file; let the drive go, and measure natural frequency "
+        "and damping ratio of each cycle of the decay; write SCENE-decay.csv, "
+        "SCENE-decay.nc and SCENE-decay.png.",
+        epilog="example: microslip decay two-blades --frequency 136.8",
+    )
+    arguments.add_scene(parser)
+    begin = parser.add_mutually_exclusive_group(required=True)
+    dwell.add_frequency(begin, required=False)
+    begin.add_argument(
+        "--from",
+        type=Path,
+        metavar="FILE",
+        dest="file",
+        help="march of the same scene at whose end the drive is let go",
+    )
+    dwell.add_limits(parser)
+    parser.add_argument(
+        "--periods",
+        type=dwell.count,
+        default=PERIODS,
+        metavar="N",
+        help=f"length of the decay in periods of the drive (default: {PERIODS})",
+    )
+    parser.add_argument(
+        "--probe",
+        help="whose decay is measured (default: the one that moves most)",
+    )
+    arguments.add_output(parser, "decay")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.figures.decay import decay_figure
+    from microslip.rigs import problem_of
+    from microslip.scene_file import load_scene
+    from microslip.store import save_figure, save_table
+    from microslip.studies.decay import liveliest, measured
+
+    data, picture = arguments.outputs(options, "decay")
+    scene = load_scene(options.scene, options.overrides)
+    problem = problem_of(scene)
+    chosen = _chosen(options, problem)
+    state, frequency = _driven(options, scene, problem, data)
+    history, ending = _released(options, scene, problem, (state, frequency, data))
+    probe = liveliest(history) if chosen is None else chosen
+    decay = measured(problem, history, probe)
+    table = data.with_suffix(".csv")
+    names = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
+    hertz = decay.frequency / math.tau
+    columns = (decay.time, decay.amplitude, hertz, decay.damping)
+    save_table(table, names, zip(*columns, strict=True))
+    title = arguments.title(options)
+    save_figure(picture, decay_figure(history, decay, probe, title))
+    print("\n".join(_lines(decay, history.probes[probe])))
+    print(f"decay in {data}, table in {table}, picture in {picture}")
+    return arguments.ended(ending)
+
+
+def _chosen(options: argparse.Namespace, problem: Problem) -> int | None:
+    """Return the place of the probe that is asked for.
+
+    Raises
+    ------
+    SceneError
+        If there is no such probe.
+    """
+    from microslip.quantity import SceneError
+
+    names = problem.probes.names
+    if options.probe is None:
+        return None
+    if options.probe not in names:
+        raise SceneError(f"--probe {options.probe}: give one of {', '.join(names)}")
+    return names.index(options.probe)
+
+
+def _driven(
+    options: argparse.Namespace, scene: Scene, problem: Problem, data: Path
+) -> tuple[Checkpoint, float]:
+    """Return the state in which the drive is let go, and its frequency [rad/s]."""
+    from microslip.recording import last_state
+
+    if options.file is not None:
+        return last_state(options.file)
+    history, _, ending = dwell.dwelled(options, scene, problem, data)
+    if ending == "interrupted":
+        raise KeyboardInterrupt
+    if ending != "complete":
+        print(f"microslip: let go when {ending}", file=sys.stderr)
+    if history.checkpoint is None:
+        raise ValueError("the march does not tell its last state")
+    return history.checkpoint, math.tau * options.frequency
+
+
+def _released(
+    options: argparse.Namespace,
+    scene: Scene,
+    problem: Problem,
+    begin: tuple[Checkpoint, float, Path],
+) -> tuple[TimeHistory, str]:
+    """March the decay into a file; return it, and how it ended."""
+    from microslip.commands.sweep import watched
+    from microslip.recording import Recording
+    from microslip.studies.decay import released
+    from microslip.studies.sweep import kept
+    from microslip_mechanics.time_history import joined
+
+    state, frequency, data = begin
+    recording = Recording(data, scene.text, options.command)
+    blocks: list[TimeHistory] = []
+
+    def keep(block: TimeHistory) -> None:
+        recording.keep(block)
+        blocks.append(block)
+
+    march = released(
+        problem, state, scene.march, frequency=frequency, periods=options.periods
+    )
+    length = math.tau / frequency * options.periods
+    with recording:
+        ending = kept(watched(length, "decay")(march), keep)
+        recording.end(ending)
+    return joined(blocks, ending), ending
+
+
+def _lines(decay: RingDown, probe: str) -> list[str]:
+    """Return the table of the decay, some of its cycles."""
+    count = decay.time.size
+    if not count:
+        return [f"{probe} does not swing: there is nothing to measure"]
+    rows = [
+        f"free decay of {probe}",
+        "time [s]  amplitude [mm]  frequency [Hz]  damping ratio [%]",
+    ]
+    chosen = sorted({round(n * (count - 1) / (SHOWN - 1)) for n in range(SHOWN)})
+    rows += [
+        f"{decay.time[place]:8.4f} {1e3 * decay.amplitude[place]:15.6g} "
+        f"{decay.frequency[place] / math.tau:15.4f} "
+        f"{100.0 * decay.damping[place]:18.4f}"
+        for place in chosen
+    ]
+    return rows

@@ -1,0 +1,160 @@
+"""microslip dwell: a sine of one frequency until the motion is steady."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+from microslip.commands.sweep import energy_table
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from microslip.scene_file import Scene
+    from microslip.studies.dwell import Period
+    from microslip_mechanics.problem import Problem
+    from microslip_mechanics.time_history import TimeHistory
+
+TOLERANCE, PERIODS = 1e-4, 5000
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "dwell",
+        help="sine of one frequency until the motion is steady",
+        description="March the scene from rest under a sine of one frequency until its "
+        "period map stands still; print amplitudes and energies, write SCENE-dwell.nc "
+        "and SCENE-dwell.png. Exit status 1 if it is not steady in time.",
+        epilog="example: microslip dwell two-blades --frequency 136.8",
+    )
+    arguments.add_scene(parser)
+    add_frequency(parser, required=True)
+    add_limits(parser)
+    arguments.add_output(parser, "dwell")
+    parser.set_defaults(run=_run)
+
+
+def add_frequency(parser: argparse._ActionsContainer, *, required: bool) -> None:
+    """Add the frequency of the drive."""
+    parser.add_argument(
+        "--frequency",
+        type=arguments.positive,
+        required=required,
+        metavar="HZ",
+        help="of the drive [Hz]",
+    )
+
+
+def add_limits(parser: argparse.ArgumentParser) -> None:
+    """Add when a dwell ends."""
+    parser.add_argument(
+        "--tolerance",
+        type=arguments.positive,
+        default=TOLERANCE,
+        help="estimated distance from the steady state, over the size of the motion, "
+        f"at which the dwell ends (default: {TOLERANCE:g})",
+    )
+    parser.add_argument(
+        "--most-periods",
+        type=count,
+        default=PERIODS,
+        metavar="N",
+        help=f"periods after which it ends in any case (default: {PERIODS})",
+    )
+
+
+def count(text: str) -> int:
+    """Read a number of periods from the command line."""
+    number = int(text)
+    if not 1 <= number <= 10**7:
+        raise argparse.ArgumentTypeError(f"{number}: give 1 to 10000000")
+    return number
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.figures.dwell import dwell_figure
+    from microslip.rigs import problem_of
+    from microslip.scene_file import load_scene
+    from microslip.store import save_figure
+
+    data, picture = arguments.outputs(options, "dwell")
+    scene = load_scene(options.scene, options.overrides)
+    history, distances, ending = dwelled(options, scene, problem_of(scene), data)
+    figure = dwell_figure(
+        history, distances, options.tolerance, arguments.title(options)
+    )
+    save_figure(picture, figure)
+    print("\n".join(_lines(options, history, distances)))
+    print(energy_table(history))
+    print(f"{len(distances)} periods in {data}, picture in {picture}")
+    return arguments.ended(ending)
+
+
+def dwelled(
+    options: argparse.Namespace, scene: Scene, problem: Problem, data: Path
+) -> tuple[TimeHistory, list[float], str]:
+    """March a dwell into a file; return it, the distances from steady and its ending.
+
+    The file ends as "complete" only if the motion became steady.
+    """
+    from microslip.progress import shown
+    from microslip.recording import Recording
+    from microslip.studies.dwell import dwelling
+    from microslip.studies.sweep import kept
+    from microslip_mechanics.time_history import joined
+
+    recording = Recording(data, scene.text, options.command)
+    blocks: list[TimeHistory] = []
+    distances: list[float] = []
+
+    def keep(period: Period) -> None:
+        recording.keep(period.history)
+        blocks.append(period.history)
+        distances.append(period.distance)
+
+    periods = dwelling(
+        problem,
+        math.tau * options.frequency,
+        scene.march,
+        tolerance=options.tolerance,
+        most=options.most_periods,
+    )
+    bar = shown(
+        periods,
+        total=options.most_periods,
+        done=lambda _: len(distances) + 1.0,
+        unit="periods at most",
+        name="dwell",
+    )
+    with recording:
+        ending = kept(bar, keep)
+        if ending == "complete" and distances[-1] > options.tolerance:
+            ending = (
+                f"not steady after {len(distances)} periods: give more "
+                "--most-periods or a larger --tolerance"
+            )
+        recording.end(ending)
+    return joined(blocks, ending), distances, ending
+
+
+def _lines(
+    options: argparse.Namespace, history: TimeHistory, distances: list[float]
+) -> list[str]:
+    """Return how the dwell ended, and the amplitudes of its last period."""
+    from microslip.studies.dwell import amplitudes
+
+    steady = distances[-1] <= options.tolerance
+    found = amplitudes(history, math.tau * options.frequency)
+    return [
+        f"{options.frequency:g} Hz: {'steady' if steady else 'NOT steady'} after "
+        f"{len(distances)} periods, {history.time[-1]:.4g} s; estimated distance from "
+        f"the steady state {distances[-1]:.1e} of the motion",
+        "first harmonic of the last period [mm]",
+        *(
+            f"  {name:20s} {1e3 * amplitude:12.6g}"
+            for name, amplitude in zip(history.probes, found, strict=True)
+        ),
+    ]

@@ -1,0 +1,50 @@
+"""Picture of a free decay: the motion, its frequency and its damping by amplitude."""
+
+from __future__ import annotations
+
+import math
+
+from matplotlib.figure import Figure
+
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    framed,
+    literal,
+    plain_logarithmic,
+    readable,
+)
+from microslip_mechanics.ring_down import RingDown
+from microslip_mechanics.time_history import TimeHistory
+
+
+def decay_figure(
+    history: TimeHistory, decay: RingDown, probe: int, title: str
+) -> Figure:
+    """Draw one probe in time, its amplitude, and frequency and damping against it."""
+    figure = Figure(figsize=(10.0, 7.0), layout="constrained")
+    (motion, shrinking), (frequency, damping) = figure.subplots(2, 2)
+    name = readable(history.probes[probe])
+    moved = 1e3 * history.displacement[:, probe]
+    motion.plot(history.time, moved, color=COLOURS[0], lw=0.2, rasterized=True)
+    framed(motion, x="time [s]", y="displacement [mm]", title=f"Free decay, {name}")
+    millimetres = 1e3 * decay.amplitude
+    line = {"color": COLOURS[0], "linewidth": WIDTH * 1.5}
+    shrinking.plot(decay.time, millimetres, **line)
+    framed(shrinking, x="time [s]", y="amplitude [mm]", title="Amplitude")
+    frequency.plot(millimetres, decay.frequency / math.tau, **line)
+    below = "amplitude [mm]"
+    framed(frequency, x=below, y="natural frequency [Hz]", title="Frequency")
+    frequency.ticklabel_format(axis="y", useOffset=False)
+    damping.plot(millimetres, 100.0 * decay.damping, **line)
+    framed(damping, x=below, y="damping ratio [%]", title="Damping")
+    if (decay.damping > 0.0).all():
+        damping.set_ylim(bottom=0.0)
+    if (decay.amplitude > 0.0).all() and decay.amplitude.size:
+        for axes in (frequency, damping):
+            axes.set_xscale("log")
+            plain_logarithmic(axes.xaxis)
+        shrinking.set_yscale("log")
+        plain_logarithmic(shrinking.yaxis)
+    figure.suptitle(literal(title))
+    return figure

@@ -1,0 +1,103 @@
+"""Picture of a dwell: how it settles, and the period in which it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from microslip.figures.style import (
+    COLOURS,
+    STYLES,
+    WIDTH,
+    absolute,
+    framed,
+    literal,
+    readable,
+    relative,
+)
+from microslip.figures.sweep import displacement, energies
+from microslip_mechanics.time_history import TimeHistory
+
+
+def dwell_figure(
+    history: TimeHistory, distances: Sequence[float], tolerance: float, title: str
+) -> Figure:
+    """Draw displacements, the last period, the distance from steady, and energies.
+
+    Parameters
+    ----------
+    history
+        All periods, each with as many rows.
+    distances
+        From the steady state, of each period; inf while unknown.
+    tolerance
+        Of the distance.
+    title
+        Of the figure.
+    """
+    figure = Figure(figsize=(10.0, 7.8), layout="constrained")
+    panels = figure.subplots(3, 2)
+    for axes, colour, place in zip(
+        panels[0], COLOURS, absolute(history.probes), strict=False
+    ):
+        displacement(axes, history, place, colour)
+    rows = len(history.time) // max(1, len(distances))
+    _orbit(panels[1, 0], history, rows)
+    _slips(panels[1, 1], history, rows)
+    _distance(panels[2, 0], distances, tolerance)
+    energies(panels[2, 1], history)
+    figure.suptitle(literal(title))
+    return figure
+
+
+def _orbit(axes: Axes, history: TimeHistory, rows: int) -> None:
+    lines = zip(COLOURS, STYLES, absolute(history.probes), strict=False)
+    for colour, style, place in lines:
+        axes.plot(
+            _since(history, rows),
+            1e3 * history.displacement[-rows:, place],
+            style,
+            color=colour,
+            linewidth=WIDTH * 1.5,
+            label=readable(history.probes[place]),
+        )
+    framed(axes, x="time [ms]", y="displacement [mm]", title="The last period")
+    axes.legend(frameon=False, fontsize="small")
+
+
+def _slips(axes: Axes, history: TimeHistory, rows: int) -> None:
+    for colour, style, place in zip(
+        COLOURS, STYLES, relative(history.probes), strict=False
+    ):
+        axes.plot(
+            _since(history, rows),
+            history.velocity[-rows:, place],
+            style,
+            color=colour,
+            linewidth=WIDTH * 1.5,
+            label=readable(history.probes[place]),
+        )
+    title = "Relative velocities in the last period"
+    framed(axes, x="time [ms]", y="velocity [m/s]", title=title)
+    if axes.lines:
+        axes.legend(frameon=False, fontsize="small")
+
+
+def _distance(axes: Axes, distances: Sequence[float], tolerance: float) -> None:
+    values = np.array(distances)
+    known = np.isfinite(values) & (values > 0.0)
+    axes.plot(np.flatnonzero(known) + 1, values[known], color=COLOURS[0], lw=WIDTH)
+    axes.axhline(tolerance, color="0.15", linewidth=WIDTH, linestyle="--")
+    axes.set_yscale("log")
+    title = "Distance from the steady state (dashed: tolerance)"
+    framed(axes, x="period [-]", y="relative distance [-]", title=title)
+
+
+def _since(history: TimeHistory, rows: int) -> np.ndarray:
+    """Return the time within the last period [ms]."""
+    time = 1e3 * history.time[-rows:]
+    begin = 1e3 * history.time[-rows - 1] if rows < len(history.time) else 0.0
+    return time - begin

@@ -1,0 +1,85 @@
+"""Pictures of the envelope of a march."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from microslip.figures.passes import amplitude, passes
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    absolute,
+    faces,
+    framed,
+    literal,
+    readable,
+    relative,
+)
+from microslip.figures.sweep import TIME, energies, grid_of
+from microslip_mechanics.envelope import Envelope
+
+
+def envelope_figure(envelope: Envelope, title: str) -> Figure:
+    """Draw ranges of each cycle over time, energies, and amplitude over frequency."""
+    slips, shrouds = relative(envelope.probes), faces(envelope.contacts)
+    blades, ways = absolute(envelope.probes)[:2], passes(envelope)
+    count = len(blades) + len(slips) + len(shrouds) + 2
+    figure, panels, others = grid_of(count, len(blades) if ways else 0)
+    limit = 1.05e3 * float(abs(envelope.highest[:, blades]).max(initial=1e-12))
+    limit = max(limit, 1.05e3 * float(abs(envelope.lowest[:, blades]).max(initial=0.0)))
+    for colour, place in zip(COLOURS, blades, strict=False):
+        axes = next(panels)
+        displacement(axes, envelope, place, colour)
+        axes.set_ylim(-limit, limit)
+    for place in slips:
+        relative_velocity(next(panels), envelope, place)
+    for face, places in shrouds.items():
+        normal_force(next(panels), envelope, face, places)
+    friction_power(next(panels), envelope)
+    energies(next(panels), envelope)
+    for axes, place in zip(others, blades, strict=False):
+        amplitude(axes, ways, place, envelope.probes[place])
+    figure.suptitle(literal(title))
+    return figure
+
+
+def displacement(axes: Axes, envelope: Envelope, place: int, colour: str) -> None:
+    """Draw the range of one probe."""
+    low, high = envelope.lowest[:, place], envelope.highest[:, place]
+    axes.fill_between(envelope.time, 1e3 * low, 1e3 * high, color=colour, linewidth=0)
+    name = readable(envelope.probes[place])
+    framed(axes, x=TIME, y="displacement [mm]", title=f"Displacement, {name}")
+
+
+def relative_velocity(axes: Axes, envelope: Envelope, place: int) -> None:
+    """Draw the largest velocity of one relative motion."""
+    axes.plot(envelope.time, envelope.fastest[:, place], color="0.25", linewidth=WIDTH)
+    name = readable(envelope.probes[place])
+    title = f"Largest relative velocity, {name}"
+    framed(axes, x=TIME, y="velocity [m/s]", title=title)
+
+
+def normal_force(axes: Axes, envelope: Envelope, face: str, places: list[int]) -> None:
+    """Draw the range of normal forces at the points of one face."""
+    for colour, place in zip(COLOURS, places, strict=False):
+        axes.fill_between(
+            envelope.time,
+            envelope.normal_smallest[:, place],
+            envelope.normal_largest[:, place],
+            alpha=0.4,
+            color=colour,
+            linewidth=WIDTH,
+            label=envelope.contacts[place],
+        )
+    framed(axes, x=TIME, y="force [N]", title=f"Normal forces, face {face}")
+    axes.legend(frameon=False, loc="upper left")
+
+
+def friction_power(axes: Axes, envelope: Envelope) -> None:
+    """Draw the mean power that friction develops in each cycle, negative as in rows."""
+    spent = np.diff(envelope.of("friction")) / np.diff(envelope.time)
+    axes.plot(envelope.time[1:], -spent, color=COLOURS[1], linewidth=WIDTH)
+    title = "Power developed by friction forces, mean of each cycle"
+    framed(axes, x=TIME, y="power [W]", title=title)

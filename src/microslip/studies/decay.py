@@ -1,0 +1,80 @@
+"""Free decay: the drive is let go, and the motion tells frequency and damping."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from microslip.quantity import SceneError
+from microslip.scene_file import March
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.ring_down import RingDown, ring_down
+from microslip_mechanics.sine_test import SineTest, Tone
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.integrate import MarchOptions, integrate
+from timedomain.start import Start
+
+ROWS = 60
+"""per period at least, if the steps are not longer"""
+
+
+def released(
+    problem: Problem,
+    state: Checkpoint | Start,
+    march: March,
+    *,
+    frequency: float,
+    periods: int,
+) -> Iterator[TimeHistory]:
+    """Yield the motion that follows from a state under the preload alone.
+
+    Parameters
+    ----------
+    problem, march
+        What is marched, and in which steps; rows are dense enough to see cycles.
+    state
+        Where the drive is let go.
+    frequency
+        [rad/s] of the ``periods`` that are marched.
+
+    Raises
+    ------
+    SceneError
+        If the state is that of another structure.
+    """
+    dofs = problem.structure.dofs
+    if state.displacement.size != dofs:
+        raise SceneError(
+            f"the motion has {state.displacement.size} degrees of freedom, the scene "
+            f"has {dofs}: give the scene of its file"
+        )
+    hertz = frequency / (2.0 * math.pi)
+    loads = SineTest(0.0, 0.0, (Tone(hertz, hertz, periods / hertz, 0.0),), 0.0)
+    stride = max(1, int(1.0 / (ROWS * hertz * march.time_step)))
+    options = MarchOptions(march.time_step, min(stride, march.store_every))
+    start = Start(state.displacement, state.velocity)
+    for block in integrate(problem, loads, options, start=start):
+        still = np.zeros(len(block.time))
+        yield replace(block, frequency=still + frequency, level=still)
+
+
+def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:
+    """Return frequency and damping of a probe's decay about the static equilibrium."""
+    rest = problem.probes.rows[probe] @ static_equilibrium(problem).displacement
+    return ring_down(
+        history.time,
+        history.displacement[:, probe],
+        history.velocity[:, probe],
+        rest=float(rest),
+    )
+
+
+def liveliest(history: TimeHistory) -> int:
+    """Return the place of the probe that moves most, of those that are no slip."""
+    swing = np.ptp(history.displacement, axis=0)
+    slips = np.array(["-to-" in name for name in history.probes])
+    return int(np.argmax(np.where(slips, -1.0, swing)))

@@ -1,0 +1,108 @@
+"""A sine of one frequency until the motion repeats itself."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from microslip.scene_file import March
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.integrate import MarchOptions, integrate
+from timedomain.start import Start
+
+ROWS = 60
+"""per period at least, if the steps are not longer"""
+WINDOW = 32
+"""periods over which a transient is seen to fade: beats of modes should be shorter"""
+
+
+@dataclass(frozen=True, slots=True)
+class Period:
+    """A period of a dwell."""
+
+    history: TimeHistory
+    distance: float
+    """from the steady state, estimated, over the motion's size; inf while unknown"""
+
+
+def dwelling(
+    problem: Problem, frequency: float, march: March, *, tolerance: float, most: int
+) -> Iterator[Period]:
+    """Yield periods from rest under the preload until the motion is steady.
+
+    Parameters
+    ----------
+    problem, march
+        What is marched, and in which steps; a period is a whole number of them.
+    frequency
+        Of the drive [rad/s].
+    tolerance
+        The dwell ends when the estimated distance from the steady state is below it.
+    most
+        Periods after which it ends in any case.
+
+    The period map moves the state by d_k = |x_k − x_{k−1}| in the norm of energy. While
+    the d fade by a factor of ρ in each period, d_k ρ/(1−ρ) is left to go. As modes
+    that fade together beat, d_k and ρ are taken from the largest d of each window.
+    """
+    period = 2.0 * math.pi / frequency
+    rest = static_equilibrium(problem).displacement
+    ruler = _Ruler(problem, frequency, rest)
+    dense = int(period / (ROWS * march.time_step))
+    stride = max(1, min(march.store_every, dense))
+    rows = math.ceil(period / (march.time_step * stride))
+    blocks = integrate(
+        problem,
+        Dwell(frequency, most * period),
+        MarchOptions(period / (rows * stride), stride),
+        start=Start(rest, np.zeros_like(rest)),
+        block=period,
+    )
+    for block in blocks:
+        told = np.full(len(block.time), frequency), np.ones(len(block.time))
+        distance = ruler.distance(block.checkpoint)
+        yield Period(replace(block, frequency=told[0], level=told[1]), distance)
+        if distance <= tolerance:
+            return
+
+
+class _Ruler:
+    """Measures how far a motion is from repeating itself."""
+
+    def __init__(self, problem: Problem, frequency: float, rest: Array) -> None:
+        self._root = np.linalg.cholesky(problem.structure.dense.mass).T
+        self._frequency, self._rest = frequency, rest
+        self._before = np.zeros(2 * rest.size)
+        self._moved: list[float] = []
+
+    def distance(self, state: Checkpoint | None) -> float:
+        """Return the estimated distance from the steady state, relative."""
+        if state is None:
+            return math.inf
+        place = self._frequency * (self._root @ (state.displacement - self._rest))
+        here = np.concatenate([place, self._root @ state.velocity])
+        self._moved.append(float(np.linalg.norm(here - self._before)))
+        self._before = here
+        if max(self._moved) == 0.0:
+            return 0.0
+        recent, before = self._moved[-WINDOW:], self._moved[-2 * WINDOW : -WINDOW]
+        if len(before) < WINDOW or not max(recent) < max(before):
+            return math.inf
+        fade = (max(recent) / max(before)) ** (1.0 / WINDOW)
+        return float(max(recent) * fade / (1.0 - fade) / np.linalg.norm(here))
+
+
+def amplitudes(history: TimeHistory, frequency: float) -> Array:
+    """Return the first harmonic of each probe over the last period [m]."""
+    begin = history.time[-1] - 2.0 * math.pi / frequency
+    last = history.time > begin * (1.0 + 1e-12)
+    waves = np.exp(-1j * frequency * history.time[last])[:, None]
+    found: Array = np.abs(2.0 * (waves * history.displacement[last]).mean(axis=0))
+    return found

@@ -1,0 +1,51 @@
+"""Loads that travel around a bladed disk."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.selection import selected
+
+
+def engine_order(
+    names: Sequence[str], blades: Sequence[str], order: int, amplitude: complex
+) -> ComplexArray:
+    """Return a wave with some maxima around the disk, at the frequency of the drive.
+
+    Parameters
+    ----------
+    names
+        Of all degrees of freedom.
+    blades
+        The loaded degree of freedom of each blade, in the order around the disk.
+    order
+        E, maxima around the disk. Each blade is ahead of the one before it by 2π E/N
+        of N blades; −E travels the other way.
+    amplitude
+        On each blade [N]; with a phase if it is complex.
+
+    Returns
+    -------
+    p, shape ``(dofs,)``: the load is the imaginary part of p e^{iωt}.
+
+    Raises
+    ------
+    ValueError
+        If a blade is unknown, is several degrees of freedom, or stands there twice.
+    """
+    load = np.zeros(len(names), complex)
+    if not np.isfinite(amplitude):
+        raise ValueError(f"amplitude {amplitude} N: give a finite one")
+    for place, blade in enumerate(blades):
+        (dof, *more) = selected(names, [blade])
+        if more:
+            raise ValueError(
+                f"blade {blade!r} is {1 + len(more)} degrees of freedom: give one"
+            )
+        if load[dof] != 0.0:
+            raise ValueError(f"blade {blade!r} stands there twice: give each one once")
+        load[dof] = amplitude * np.exp(2j * np.pi * order * place / len(blades))
+    return load

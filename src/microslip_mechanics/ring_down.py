@@ -1,0 +1,91 @@
+"""Frequency and damping of a decaying motion, swing by swing."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+
+FEWEST = 4
+"""extremes that a damping ratio needs"""
+
+
+@dataclass(frozen=True, slots=True)
+class RingDown:
+    """A decay, one value for each swing from an extreme to the next but two."""
+
+    time: Array
+    """in the middle [s], shape (swings,)"""
+    amplitude: Array
+    """there [m], shape (swings,)"""
+    frequency: Array
+    """natural, that is of the undamped motion [rad/s], shape (swings,)"""
+    damping: Array
+    """ratio, from the logarithmic decrement of a cycle, shape (swings,)"""
+
+
+def ring_down(
+    time: Array, displacement: Array, velocity: Array, *, rest: float = 0.0
+) -> RingDown:
+    """Measure a decay about a place of rest.
+
+    Between two crossings of the place of rest lies one extreme, at which the cubic
+    through the rows (with their velocities) has no slope. Half of the way from one
+    extreme to the next is free of a constant offset; it falls by exp(−πζ/√(1−ζ²)) each
+    half cycle of a linear decay, and by 2F/k of one against constant friction F.
+
+    Parameters
+    ----------
+    time, displacement, velocity
+        Rows of the motion [s, m, m/s], a dozen or more in each cycle, shape (rows,).
+    rest
+        Where it comes to rest [m].
+    """
+    moments, extremes = _extremes(time, displacement - rest, velocity)
+    if moments.size < FEWEST:
+        none = np.zeros(0)
+        return RingDown(none, none, none, none)
+    swing = 0.5 * np.abs(np.diff(extremes))
+    middle = 0.5 * (moments[1:] + moments[:-1])
+    decrement = np.log(swing[:-2] / swing[2:])
+    turning = 2.0 * np.pi / (middle[2:] - middle[:-2])
+    damping = decrement / np.hypot(2.0 * np.pi, decrement)
+    return RingDown(
+        middle[1:-1],
+        np.sqrt(swing[:-2] * swing[2:]),
+        turning / np.sqrt(1.0 - damping**2),
+        damping,
+    )
+
+
+def _extremes(time: Array, place: Array, velocity: Array) -> tuple[Array, Array]:
+    """Return time and displacement of the extreme between any two crossings."""
+    crossings = np.flatnonzero(np.diff(np.signbit(place))) + 1
+    moments, extremes = [], []
+    for first, last in itertools.pairwise(crossings):
+        row = first + int(np.argmax(np.abs(place[first:last])))
+        away = velocity[row] * place[row] > 0.0
+        left = row if away else row - 1
+        rows = slice(left, left + 2)
+        share, height = _top(np.diff(time[rows])[0], place[rows], velocity[rows])
+        moments.append(time[left] + share * np.diff(time[rows])[0])
+        extremes.append(height)
+    return np.array(moments), np.array(extremes)
+
+
+def _top(step: float, place: Array, velocity: Array) -> tuple[float, float]:
+    """Return where in a step its cubic has no slope, from 0 to 1, and its value there.
+
+    With x(s) = x₀ + h v₀ s + b s² + a s³, of which the other end gives a and b.
+    """
+    rise, first, last = place[1] - place[0], step * velocity[0], step * velocity[1]
+    cubic = first + last - 2.0 * rise
+    square = 3.0 * rise - 2.0 * first - last
+    root = np.sqrt(max(0.0, square**2 - 3.0 * cubic * first))
+    below = -square + np.copysign(root, -square)
+    share = float(np.clip(first / below if below else 0.0, 0.0, 1.0))
+    height = place[0] + share * (first + share * (square + share * cubic))
+    return share, float(height)

@@ -1,0 +1,38 @@
+"""Forces given by their values against the exact response of a linear oscillator."""
+
+import numpy as np
+import pytest
+import scipy.signal
+
+from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.force_record import ForceRecord
+from microslip_mechanics.sine_test import SineTest, Tone
+from small_problems import marched, oscillator
+from timedomain.integrate import MarchOptions
+
+# 2 ü + 0.5 u̇ + 300 u = preload + 1.5 × drive
+SYSTEM = ([1.5], [2.0, 0.5, 300.0])
+DRAW = np.random.default_rng(4)
+RECORD = ForceRecord(
+    0.0, 0.2, np.arange(40) * 0.05, DRAW.normal(size=40), free=1.0, clock=2.0
+)
+TONES = SineTest(
+    0.0, 0.1, (Tone(1.0, 3.0, 4.0, 1.0, "linear"), Tone(3.0, 1.0, 3.0, 2.0)), 1.0
+)
+
+
+@pytest.mark.parametrize("loads", [RECORD, TONES], ids=["record", "tones"])
+def test_oscillator_under_any_load_moves_as_linear_theory_says(
+    loads: LoadHistory,
+) -> None:
+    history = marched(oscillator(), loads, MarchOptions(1e-3, 1))
+
+    time = np.concatenate([[0.0], history.time])
+    drive = loads.factors(time)[:, 1]
+    # exact for a drive with straight lines between the times
+    _, exact, _ = scipy.signal.lsim(SYSTEM, drive, time, interp=True)
+    size = np.abs(exact).max()
+    # second order: (ωh)² of the fastest swing, grown over the march
+    np.testing.assert_allclose(
+        history.displacement[:, 0], exact[1:], rtol=0.0, atol=2e-3 * size
+    )

@@ -1,0 +1,187 @@
+"""Damping models: ratios of each mode, dense and sparse; what is refused."""
+
+import dataclasses
+import re
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import scipy.linalg
+import scipy.sparse
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.hysteretic import Hysteretic
+from microslip_mechanics.modal_damping import ModalDamping
+from microslip_mechanics.natural_modes import natural_modes
+from microslip_mechanics.rayleigh import Rayleigh
+from microslip_mechanics.reduction import reduced
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.structure import Structure
+from sparse_problems import dense, net
+
+RATIOS = (0.01, 0.0, 0.03, 0.002, 0.005)
+
+
+def damped(structure: Structure, damping: ModalDamping | Rayleigh) -> Structure:
+    return Structure(
+        structure.mass,
+        damping.matrix(structure),
+        structure.stiffness,
+        structure.names,
+    )
+
+
+def modal(structure: Structure) -> tuple[Array, Array]:
+    """Return all frequencies, and C in the modes of unit mass."""
+    squares, shapes = scipy.linalg.eigh(structure.stiffness, structure.mass)
+    return np.sqrt(squares), shapes.T @ structure.damping @ shapes
+
+
+def test_rayleigh_has_its_ratios_at_two_frequencies() -> None:
+    structure = dense(net(4, 5)).structure
+    frequencies, _ = modal(structure)
+    low, high = frequencies[2], frequencies[11]
+
+    damping = Rayleigh.of_ratios((low, high), (0.01, 0.012))
+
+    _, found = modal(damped(structure, damping))
+    ratios = np.diag(found) / (2.0 * frequencies)
+    assert ratios[2] == pytest.approx(0.01)
+    assert ratios[11] == pytest.approx(0.012)
+    np.testing.assert_allclose(found, np.diag(np.diag(found)), atol=1e-9)
+
+
+@pytest.mark.parametrize("rest", [None, Rayleigh(4.0, 2e-5)])
+def test_modal_damping_gives_each_mode_its_ratio(rest: Rayleigh | None) -> None:
+    structure = dense(net(4, 5)).structure
+    frequencies, _ = modal(structure)
+
+    _, found = modal(damped(structure, ModalDamping(RATIOS, rest)))
+
+    last = rest or Rayleigh(stiffness=2.0 * RATIOS[-1] / frequencies[len(RATIOS) - 1])
+    wanted = last.mass + last.stiffness * frequencies**2
+    wanted[: len(RATIOS)] = 2.0 * np.array(RATIOS) * frequencies[: len(RATIOS)]
+    # two modes of the net may be as fast as each other, and mix
+    np.testing.assert_allclose(np.linalg.eigvalsh(found), np.sort(wanted), atol=1e-9)
+
+
+@pytest.mark.parametrize("shape", [(5, 6), (21, 22)])
+def test_modal_damping_of_a_sparse_structure_is_that_of_the_dense_one(
+    shape: tuple[int, int],
+) -> None:
+    sparse = net(*shape).structure
+    damping = ModalDamping(RATIOS)
+
+    found = damping.matrix(sparse)
+
+    wanted = damping.matrix(dense(net(*shape)).structure)
+    moved = np.random.default_rng(5).normal(size=(sparse.dofs, 3))
+    np.testing.assert_allclose(
+        found @ moved, wanted @ moved, atol=1e-7 * np.abs(wanted @ moved).max()
+    )
+
+
+def test_a_sparse_structure_with_modal_damping_is_reduced_like_a_full_matrix() -> None:
+    problem = net(21, 22)
+    structure, plain = problem.structure, dense(problem).structure
+    full = ModalDamping(RATIOS).matrix(plain)
+
+    found, wanted = (
+        reduced(
+            dataclasses.replace(
+                problem, structure=dataclasses.replace(structure, damping=damping)
+            ),
+            1500.0,
+        )
+        for damping in (
+            ModalDamping(RATIOS).matrix(structure),
+            scipy.sparse.csc_array(full),
+        )
+    )
+
+    damping = found.problem.structure.damping
+    exact = found.shapes.T @ full @ found.shapes
+    np.testing.assert_allclose(
+        damping, exact, rtol=0, atol=1e-7 * np.abs(damping).max()
+    )
+    assert found.truncation.damping == pytest.approx(
+        wanted.truncation.damping, rel=5e-3
+    )
+    assert static_equilibrium(found.whole).iterations == 0
+
+
+def response(matrix: Array, load: Array) -> Array:
+    return np.linalg.solve(matrix, load)
+
+
+@pytest.mark.parametrize("loss", [0.02, 0.3])
+def test_hysteretic_and_viscous_responses_differ_as_stated(loss: float) -> None:
+    problem = dense(net(4, 5))
+    hysteretic, structure = Hysteretic(loss), problem.structure
+    modes = natural_modes(structure, structure.dofs)
+    viscous = hysteretic.viscous(structure.dofs).matrix(structure)
+    weights = modes.shapes.T @ structure.mass
+
+    for frequency in np.linspace(50.0, 2500.0, 40):
+        load = problem.drive.astype(complex)
+        exact = response(hysteretic.dynamic_stiffness(structure, frequency), load)
+        found = response(
+            structure.stiffness + 1j * frequency * viscous
+            - frequency**2 * structure.mass,
+            load,
+        )  # fmt: skip
+        share, change = weights @ exact, weights @ (found - exact)
+        errors = hysteretic.error(frequency / modes.frequencies)
+        np.testing.assert_allclose(
+            np.abs(change), errors * np.abs(share), atol=1e-9 * np.abs(share).max()
+        )
+        bound = loss / (1.0 + frequency / modes.frequencies)
+        assert (errors <= bound * (1.0 + 1e-12)).all()
+
+
+def test_hysteretic_and_viscous_agree_at_resonance() -> None:
+    assert Hysteretic(0.1).error(np.array([1.0]))[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (
+            lambda: Rayleigh(-1.0, 0.0),
+            "damping by mass -1: give zero or a positive number",
+        ),
+        (
+            lambda: Rayleigh(0.0, np.nan),
+            "damping by stiffness nan: give zero or a positive number",
+        ),
+        (
+            lambda: Rayleigh.of_ratios((100.0, 100.0), (0.1, 0.1)),
+            "frequencies 100 and 100 rad/s: give two different positive ones",
+        ),
+        (
+            lambda: Rayleigh.of_ratios((100.0, 200.0), (0.1, 0.01)),
+            "ratios 0.1 and 0.01 at 100 and 200 rad/s need a negative coefficient: "
+            "give ratios that differ less, or modal damping",
+        ),
+        (lambda: ModalDamping(()), "no damping ratios: give at least one"),
+        (
+            lambda: ModalDamping((0.1, -0.1)),
+            "damping ratio -0.1 of mode 2: give zero or a positive number",
+        ),
+        (
+            lambda: ModalDamping((0.1,) * 21).matrix(dense(net(4, 5)).structure),
+            "21 modes of a structure with 20 degrees of freedom: give 20 at the most",
+        ),
+        (lambda: Hysteretic(-0.1), "loss factor -0.1: give one from 0 to below 1"),
+        (
+            lambda: Hysteretic(0.1).dynamic_stiffness(net(2, 2).structure, 0.0),
+            "frequency 0 rad/s: structural damping is defined at positive "
+            "frequencies alone",
+        ),
+    ],
+)
+def test_impossible_damping_is_refused(
+    make: Callable[[], object], message: str
+) -> None:
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+        make()

@@ -1,0 +1,49 @@
+"""Engine orders against the closed form of a ring, and what is refused."""
+
+import re
+
+import numpy as np
+import pytest
+
+from microslip_mechanics.engine_order import engine_order
+
+BLADES = 12
+NAMES = tuple(f"{node}.{way}" for node in range(BLADES) for way in ("x", "z"))
+LOADED = [f"{blade}.z" for blade in range(BLADES)]
+
+
+@pytest.mark.parametrize("order", [0, 1, 5, 6, 7, 13, -1])
+def test_a_ring_answers_with_one_wave(order: int) -> None:
+    spring, tie, mass, frequency = 900.0, 400.0, 1.5, 31.0
+    ring = (spring + 2.0 * tie - frequency**2 * mass) * np.eye(BLADES)
+    ring -= tie * (np.roll(np.eye(BLADES), 1, 0) + np.roll(np.eye(BLADES), -1, 0))
+
+    load = engine_order(NAMES, LOADED, order, 3.0j)[1::2]
+
+    angle = 2.0 * np.pi * order / BLADES
+    own = spring + 2.0 * tie * (1.0 - np.cos(angle)) - frequency**2 * mass
+    wanted = 3.0j * np.exp(1j * angle * np.arange(BLADES)) / own
+    np.testing.assert_allclose(np.linalg.solve(ring, load), wanted, atol=1e-12)
+
+
+def test_orders_that_differ_by_the_number_of_blades_are_the_same_load() -> None:
+    one, other = (engine_order(NAMES, LOADED, order, 1.0) for order in (5, 17))
+
+    np.testing.assert_allclose(one, other, atol=1e-12)
+    assert not one[::2].any()
+
+
+@pytest.mark.parametrize(
+    ("blades", "amplitude", "message"),
+    [
+        (["3.z", "4"], 1.0, "blade '4' is 2 degrees of freedom: give one"),
+        (["3.z", "3.z"], 1.0, "blade '3.z' stands there twice: give each one once"),
+        (["99.z"], 1.0, "no degree of freedom is called '99.z': did you mean 9.z?"),
+        (["3.z"], np.nan, "amplitude nan N: give a finite one"),
+    ],
+)
+def test_an_impossible_wave_is_refused(
+    blades: list[str], amplitude: float, message: str
+) -> None:
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+        engine_order(NAMES, blades, 2, amplitude)

@@ -1,0 +1,73 @@
+"""Decays with known answers: linear, constant friction, an offset, too short."""
+
+import numpy as np
+import pytest
+
+from microslip_mechanics.ring_down import ring_down
+
+
+@pytest.mark.parametrize("ratio", [1e-4, 2e-3, 0.02, 0.1])
+@pytest.mark.parametrize("offset", [0.0, 0.4])
+def test_linear_decay_has_its_frequency_and_damping(
+    ratio: float, offset: float
+) -> None:
+    # no whole number of rows a cycle, so that extremes lie anywhere between two
+    natural, rows = 850.0, 60.37
+    turning = natural * np.sqrt(1.0 - ratio**2)
+    time = np.arange(int(12 * rows)) * 2.0 * np.pi / (turning * rows) + 0.3
+    pole = complex(-ratio * natural, turning)
+    motion = 2e-3 * np.exp(pole * (time - 0.3) + 0.7j)
+
+    found = ring_down(time, motion.real + offset, (pole * motion).real, rest=offset)
+
+    # the cubic is off by (2π/60)⁴/384 = 3e-7 of the amplitude
+    np.testing.assert_allclose(found.damping, ratio, rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(found.frequency, natural, rtol=2e-5)
+    assert found.amplitude.size >= 20
+    # the extremes of a cosine that decays are lower by √(1−ζ²), and half of the way
+    # between two of them is higher than in its middle by cosh(πζ/2/√(1−ζ²))
+    tilt = ratio / np.sqrt(1.0 - ratio**2)
+    between = np.cosh(0.5 * np.pi * tilt) / np.hypot(1.0, tilt)
+    envelope = 2e-3 * np.exp(-ratio * natural * (found.time - 0.3))
+    np.testing.assert_allclose(found.amplitude, envelope * between, rtol=1e-5)
+
+
+def test_decay_against_constant_friction_falls_on_a_line() -> None:
+    natural, lost, rows = 10.0, 0.01, 80
+    half = np.pi / natural
+    time = np.arange(1, 10 * 2 * rows) * half / rows
+    number = np.floor(time / half)
+    # each half cycle is a cosine about ±lost
+    side = (-1.0) ** number
+    size = 1.0 - lost - 2.0 * lost * number
+    place = lost * side + side * size * np.cos(natural * (time - number * half))
+    rate = -natural * side * size * np.sin(natural * (time - number * half))
+
+    found = ring_down(time, place, rate)
+
+    fallen = np.diff(found.amplitude)
+    np.testing.assert_allclose(fallen, -2.0 * lost, rtol=2e-2)
+    a = found.amplitude
+    # the swing of a cycle falls by 4F/k: from a + 2F/k to a − 2F/k
+    mean = np.sqrt(a**2 + (2.0 * lost) ** 2)
+    decrement = np.log((mean + 2.0 * lost) / (mean - 2.0 * lost))
+    expected = decrement / np.hypot(2.0 * np.pi, decrement)
+    np.testing.assert_allclose(found.damping, expected, rtol=1e-4)
+    turning = found.frequency * np.sqrt(1.0 - found.damping**2)
+    np.testing.assert_allclose(turning, natural, rtol=1e-5)
+
+
+@pytest.mark.parametrize("cycles", [0.2, 1.2])
+def test_too_short_a_motion_gives_nothing(cycles: float) -> None:
+    time = np.linspace(0.0, cycles, 50)
+    turn = 2.0 * np.pi
+
+    found = ring_down(time, np.cos(turn * time), -turn * np.sin(turn * time))
+
+    assert found.time.size == found.damping.size == 0
+
+
+def test_motion_that_never_crosses_its_rest_gives_nothing() -> None:
+    time = np.linspace(0.0, 1.0, 50)
+
+    assert ring_down(time, np.exp(-time), -np.exp(-time)).time.size == 0

@@ -1,0 +1,133 @@
+"""Free decay: closed forms, the modes of harmonic balance, the command."""
+
+import csv
+import dataclasses
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
+from microslip.scene_file import March
+from microslip.store import load
+from microslip.studies.decay import liveliest, measured, released
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.ring_down import RingDown
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.time_history import TimeHistory, joined
+from rigs import rig_problem
+from small_problems import oscillator, sliding_block
+from timedomain.start import Start
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+
+
+def let_go(
+    problem: Problem, start: Start, frequency: float, *, periods: int, steps: int = 600
+) -> RingDown:
+    """Return the decay of the first probe after a start."""
+    march = March(2.0 * np.pi / frequency / steps, 10)
+    blocks = list(released(problem, start, march, frequency=frequency, periods=periods))
+    return measured(problem, joined(blocks, "complete"), 0)
+
+
+def test_linear_decay_has_the_damping_of_its_equation() -> None:
+    # 2 ü + 0.5 u̇ + 300 u = 4
+    start = Start(np.array([0.05]), np.zeros(1))
+
+    decay = let_go(oscillator(preload=4.0), start, np.sqrt(150.0), periods=20)
+
+    assert decay.time.size > 30
+    np.testing.assert_allclose(decay.damping, 0.5 / (2.0 * np.sqrt(600.0)), rtol=1e-4)
+    # average acceleration turns slower by (ωh)²/12
+    np.testing.assert_allclose(decay.frequency, np.sqrt(150.0), rtol=2e-5)
+
+
+def test_decay_against_friction_loses_as_much_in_each_cycle() -> None:
+    # 0.6 N, which turn over within a velocity of 1e-5 of the motion's
+    friction = {"load": 2.0, "threshold": 1e-5, "viscous": 0.0}
+    block = sliding_block(mass=2.0, stiffness=200.0, **friction)
+    start = Start(np.array([0.1]), np.zeros(1))
+
+    decay = let_go(block, start, 10.0, periods=6, steps=4000)
+
+    # 2F/k each half cycle; the amplitude is the geometric mean of those a cycle apart
+    lost = 2.0 * 0.6 / 200.0
+    middle = np.hypot(decay.amplitude, lost)
+    np.testing.assert_allclose(np.diff(middle), -lost, rtol=2e-3)
+    decrement = np.log((middle + lost) / (middle - lost))
+    expected = decrement / np.hypot(2.0 * np.pi, decrement)
+    np.testing.assert_allclose(decay.damping, expected, rtol=2e-3)
+
+
+@pytest.mark.slow
+def test_decay_of_a_sliding_rig_is_that_of_its_mode() -> None:
+    problem = rig_problem(model="A")
+    linear = modes_in_range(problem, static_equilibrium(problem), 800.0, 900.0)[0]
+    options = ModeOptions(1e-4, 4e-3, harmonics=15)
+    points = list(nonlinear_mode(problem, static_equilibrium(problem), linear, options))
+    sizes = np.array([abs(point.probes[0]) for point in points])
+    first = int(np.flatnonzero(np.diff(sizes) <= 0.0).max(initial=-1)) + 1
+    points, sizes = points[first:], sizes[first:]
+    begin = points[int(np.abs(sizes - 2e-3).argmin())]
+
+    start = Start(*begin.state(0.0))
+    decay = let_go(problem, start, begin.pole.imag, periods=30, steps=1600)
+
+    damping = np.interp(decay.amplitude, sizes, [point.damping for point in points])
+    hertz = np.interp(decay.amplitude, sizes, [point.frequency for point in points])
+    assert decay.amplitude[-1] < 0.9 * decay.amplitude[0]
+    np.testing.assert_allclose(decay.damping, damping, rtol=0.05)
+    # a motion that slows down lags behind the modes of its amplitudes
+    fallen = np.ptp(hertz)
+    assert fallen > 2.0
+    np.testing.assert_allclose(decay.frequency, hertz, rtol=0.0, atol=0.1 * fallen)
+
+
+def test_the_probe_that_moves_most_is_no_slip(small_history: TimeHistory) -> None:
+    moved = np.zeros((6, 4))
+    moved[0] = 1.0, 3.0, 2.0, 9.0
+
+    assert small_history.probes[3] == "element-to-excited"
+    assert liveliest(dataclasses.replace(small_history, displacement=moved)) == 1
+
+
+def test_decay_is_measured_from_a_dwell_and_from_a_file(
+    run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    scene = str(quick_scene)
+    words = ("--tolerance", "0.5", "--periods", "12")
+    status, output, _ = run("decay", scene, "--frequency", "135", *words)
+    assert status == 0
+    assert "damping ratio" in output
+    run("dwell", scene, "--frequency", "135", "--tolerance", "0.5")
+
+    begun = ("--from", "quick-dwell.nc", "--periods", "12", "-o", "again")
+    assert run("decay", scene, *begun)[0] == 0
+
+    tables = []
+    for name in ("quick-decay", "again"):
+        assert (tmp_path / f"{name}.png").stat().st_size > 10_000
+        with (tmp_path / f"{name}.csv").open(encoding="utf-8") as file:
+            tables.append([[*map(float, row.values())] for row in csv.DictReader(file)])
+    assert len(tables[0]) >= 18
+    np.testing.assert_allclose(tables[0], tables[1], rtol=1e-9)
+    history = load(tmp_path / "again.nc").result
+    assert isinstance(history, TimeHistory)
+    np.testing.assert_array_equal(history.level, 0.0)
+
+
+def test_state_of_another_structure_is_refused(
+    run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    run("sweep", str(quick_scene))
+
+    words = ("--set", "blade.elements=3", "--from", "quick-sweep.nc")
+    status, _, error = run("decay", str(quick_scene), *words)
+
+    assert status == 2
+    assert "give the scene of its file" in error
+    assert error.count("\n") == 1
+    assert not (tmp_path / "quick-decay.nc").exists()

@@ -1,0 +1,131 @@
+"""Dwells: the steady state of closed forms and of harmonic balance, limits, texts."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
+from microslip.scene_file import March
+from microslip.store import load
+from microslip.studies.dwell import amplitudes, dwelling
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.time_history import TimeHistory, joined
+from small_problems import cubic_oscillator, oscillator
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+
+
+def settled(
+    problem: Problem, frequency: float, *, tolerance: float, steps: int = 400
+) -> tuple[TimeHistory, list[float]]:
+    """Return a dwell with so many steps a period, and its distances from steady."""
+    march = March(2.0 * np.pi / frequency / steps * 1.0001, 10)
+    periods = list(dwelling(problem, frequency, march, tolerance=tolerance, most=2000))
+    blocks = [period.history for period in periods]
+    return joined(blocks, "complete"), [period.distance for period in periods]
+
+
+@pytest.mark.parametrize("frequency", [3.0, 12.0, 12.247, 30.0])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-5])
+def test_linear_dwell_ends_as_near_as_it_says(
+    frequency: float, tolerance: float
+) -> None:
+    history, distances = settled(oscillator(), frequency, tolerance=tolerance)
+
+    # 2 ü + 0.5 u̇ + 300 u = 1.5 sin
+    stiffness = 300.0 - 2.0 * frequency**2 + 0.5j * frequency
+    (found,) = amplitudes(history, frequency)
+    assert distances[-1] <= tolerance < min(distances[:-1])
+    # a second-order march weighs the inertia wrong by (ωh)²/6
+    own = (frequency * history.time_step) ** 2 / 6.0 * 2.0 * frequency**2
+    own /= abs(stiffness)
+    assert found == pytest.approx(1.5 / abs(stiffness), rel=1.2 * (tolerance + own))
+
+
+def test_the_distance_is_neither_far_too_small_nor_too_large() -> None:
+    problem, frequency = oscillator(), 12.0
+    history, distances = settled(problem, frequency, tolerance=1e-7)
+
+    rows = len(history.time) // len(distances)
+    ends = np.stack(
+        [
+            history.displacement[rows - 1 :: rows, 0] * frequency,
+            history.velocity[rows - 1 :: rows, 0],
+        ],
+        axis=1,
+    )
+    away = np.linalg.norm(ends - ends[-1], axis=1) / np.linalg.norm(ends[-1])
+    middle = slice(70, len(away) // 2)
+    ratio = np.array(distances)[middle] / away[middle]
+    assert ratio.min() > 0.5
+    assert ratio.max() < 20.0
+
+
+def test_dwell_of_a_cubic_spring_is_that_of_harmonic_balance() -> None:
+    problem, frequency = cubic_oscillator(drive=1.0), 1.0
+
+    history, _ = settled(problem, frequency, tolerance=1e-6, steps=1000)
+
+    options = CurveOptions(0.9, frequency, harmonics=9, samples=256)
+    *_, last = frequency_response(problem, static_equilibrium(problem), options)
+    assert last.frequency == pytest.approx(frequency)
+    orbit = last.at(2.0 * np.pi * np.arange(64) / 64)[0][:, 0]
+    expected = abs(2.0 * np.fft.rfft(orbit)[1] / 64)
+    assert amplitudes(history, frequency)[0] == pytest.approx(expected, rel=1e-4)
+
+
+def test_dwell_is_written_drawn_and_told(
+    run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    words = ("--frequency", "130", "--tolerance", "0.5")
+    status, output, _ = run("dwell", str(quick_scene), *words)
+
+    assert status == 0
+    assert "130 Hz: steady after" in output
+    history = load(tmp_path / "quick-dwell.nc").result
+    assert isinstance(history, TimeHistory)
+    assert history.ending == "complete"
+    np.testing.assert_allclose(history.frequency, 2.0 * np.pi * 130.0)
+    assert (tmp_path / "quick-dwell.png").stat().st_size > 10_000
+    assert run("plot", "quick-dwell.nc")[0] == 0
+
+
+def test_dwell_that_is_not_steady_in_time_says_so(
+    run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    words = ("--frequency", "130", "--most-periods", "3")
+    status, output, error = run("dwell", str(quick_scene), *words)
+
+    assert status == 1
+    assert "NOT steady after 3 periods" in output
+    assert error.startswith("microslip: not steady after 3 periods: give more")
+    assert error.count("\n") == 1
+    ending = load(tmp_path / "quick-dwell.nc").result.ending
+    assert ending.startswith("not steady")
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("dwell", []),
+        ("dwell", ["--frequency", "0"]),
+        ("dwell", ["--frequency", "130", "--most-periods", "0"]),
+        ("dwell", ["--frequency", "130", "--tolerance", "-1"]),
+        ("decay", []),
+        ("decay", ["--frequency", "130", "--from", "x.nc"]),
+        ("decay", ["--frequency", "130", "--probe", "nose"]),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    command: str, words: list[str], run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    status, _, error = run(command, str(quick_scene), *words)
+
+    assert status == 2
+    assert error
+    assert not list(tmp_path.glob("*.nc"))

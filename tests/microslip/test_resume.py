@@ -1,0 +1,150 @@
+"""A sweep that was stopped can be read, drawn, and continued to the same end."""
+
+import dataclasses
+import itertools
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from microslip.recording import last_state
+from microslip.store import StoreError, load
+from microslip_mechanics.envelope import Envelope
+from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.integrate import integrate
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+MARCH = "microslip.studies.sweep.integrate"
+LONG = ("--set", "sweep.end=60 ms", "--set", "sweep.duration=65 ms")
+
+
+def stopped(blocks: int) -> Callable[..., object]:
+    """Return an integrator that is interrupted after blocks of 7 ms."""
+
+    def marched(*arguments: object, **named: object) -> Iterator[TimeHistory]:
+        march = integrate(*arguments, **named, block=7e-3)  # type: ignore[arg-type]
+        yield from itertools.islice(march, blocks)
+        raise KeyboardInterrupt
+
+    return marched
+
+
+def check_equal(part: object, whole: object) -> None:
+    """Check that two results are the same to 1e-12, work and checkpoint included."""
+    assert type(part) is type(whole)
+    for field in dataclasses.fields(whole):  # type: ignore[arg-type]
+        ours, theirs = getattr(part, field.name), getattr(whole, field.name)
+        if isinstance(theirs, Checkpoint):
+            check_equal(ours, theirs)
+        elif isinstance(theirs, np.ndarray):
+            scale = np.abs(theirs).max()
+            np.testing.assert_allclose(
+                ours, theirs, rtol=0.0, atol=1e-12 * scale, err_msg=field.name
+            )
+        else:
+            assert ours == theirs, field.name
+
+
+@pytest.mark.parametrize("kind", [(), ("--envelope",)], ids=["rows", "envelope"])
+@pytest.mark.parametrize("blocks", [1, 5])
+def test_two_parts_are_the_whole(
+    blocks: int,
+    kind: tuple[str, ...],
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    words = ("sweep", str(quick_scene), *LONG, *kind)
+    assert run(*words, "-o", "whole")[0] == 0
+
+    with monkeypatch.context() as stop:
+        stop.setattr(MARCH, stopped(blocks))
+        assert run(*words, "-o", "parts")[0] == 130
+    part = load(tmp_path / "parts.nc").result
+    status, output, _ = run(*words, "--resume", "parts.nc")
+
+    assert status == 0
+    assert "parts.nc" in output
+    whole, both = (load(tmp_path / f"{name}.nc").result for name in ("whole", "parts"))
+    assert isinstance(part, Envelope if kind else TimeHistory)
+    assert isinstance(both, Envelope if kind else TimeHistory)
+    assert part.ending == "interrupted"
+    assert both.ending == "complete"
+    assert 0 < len(part.time) < len(both.time)
+    check_equal(both, whole)
+
+
+@pytest.mark.parametrize("torn", [0, 3, 997])
+def test_what_a_kill_left_half_written_is_marched_again(
+    torn: int,
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    words = ("sweep", str(quick_scene), *LONG)
+    run(*words, "-o", "whole")
+    with monkeypatch.context() as stop:
+        stop.setattr(MARCH, stopped(3))
+        run(*words, "-o", "parts")
+    path = tmp_path / "parts.nc"
+    before = load(path).result
+    path.write_bytes(path.read_bytes() + b"\x7f" * torn)
+
+    assert isinstance(before, TimeHistory)
+    check_equal(load(path).result, before)
+    assert run("plot", "parts.nc")[0] == 0
+    assert run(*words, "--resume", "parts.nc")[0] == 0
+    check_equal(load(path).result, load(tmp_path / "whole.nc").result)
+
+
+def test_last_state_is_that_of_the_last_row(
+    run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    run("sweep", str(quick_scene))
+
+    state, frequency = last_state(tmp_path / "quick-sweep.nc")
+
+    history = load(tmp_path / "quick-sweep.nc").result
+    assert isinstance(history, TimeHistory)
+    assert frequency == history.frequency[-1]
+    assert np.abs(state.velocity).max() > 0.0
+
+
+def test_what_cannot_go_on_is_told_in_one_line(
+    run: Run, quick_scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = str(quick_scene)
+    run("sweep", scene, "-o", "done")
+    with monkeypatch.context() as stop:
+        stop.setattr(MARCH, stopped(1))
+        run("sweep", scene, *LONG, "-o", "part")
+    run("frc", scene, "-o", "curve")
+    (tmp_path / "text.nc").write_text("no netCDF")
+    for words, status, hint in (
+        (["--resume", "done.nc"], 1, "is complete"),
+        (["--resume", "part.nc"], 2, "another scene"),
+        ([*LONG, "--resume", "part.nc", "--envelope"], 2, "rows in time"),
+        ([*LONG, "--resume", "part.nc", "-o", "new"], 2, "leave -o out"),
+        (["--resume", "nowhere.nc"], 1, "there is no result file nowhere.nc"),
+        (["--resume", "curve.nc"], 1, "holds a frequency response curve"),
+        (["--resume", "text.nc"], 1, "is not a result file"),
+    ):
+        ended, _, error = run("sweep", scene, *words)
+        assert (ended, error.count("\n")) == (status, 1), error
+        assert hint in error
+    part = load(tmp_path / "part.nc").result
+    assert not isinstance(part, str)
+    assert part.ending == "interrupted"
+
+
+def test_state_of_a_curve_is_refused(
+    run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    run("frc", str(quick_scene), "-o", "curve")
+
+    with pytest.raises(StoreError, match="give what sweep or dwell wrote"):
+        last_state(tmp_path / "curve.nc")

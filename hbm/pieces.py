@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import ContinuationError, trace
+from hbm.corner import round_corner
 from hbm.homotopy import approached
 from hbm.newton import Correction
 from hbm.path import Path
@@ -18,6 +20,10 @@ from microslip_mechanics.arrays import Array
 
 RESTARTS = 6
 """that a curve may take before it is given up"""
+REMEMBERED = 60
+"""points behind the last one, by which the way to a corner is known"""
+CORNERS = 30
+"""that a piece may turn round before it is given up"""
 LEAPS = (1e-4, 1e-3, 5e-3, 2e-2)
 """shares of the range by which a restart passes what resists, tried in turn"""
 
@@ -42,7 +48,7 @@ class Pieces:
         for attempt in range(RESTARTS + 1):
             last: Correction | None = None
             try:
-                for correction in self._traced(guess, heading):
+                for correction in self._cornered(guess, heading):
                     last = correction
                     yield correction
             except ContinuationError:
@@ -89,7 +95,31 @@ class Pieces:
         scale[-1] = self.path.unit(float(point[-1]))
         return scale
 
-    def _traced(self, guess: Array, heading: float) -> Iterator[Correction]:
+    def _cornered(self, guess: Array, heading: float) -> Iterator[Correction]:
+        """Yield corrections of one piece, round its corners."""
+        direction: Array | None = None
+        way: deque[Correction] = deque(maxlen=REMEMBERED)
+        for corner in range(CORNERS + 1):
+            try:
+                for correction in self._traced(guess, heading, direction):
+                    joined = correction.joined or direction is not None
+                    way.append(replace(correction, joined=joined))
+                    yield way[-1]
+            except ContinuationError:
+                if not way or corner == CORNERS:
+                    raise
+                turned = round_corner(
+                    self.system, way, self.metric, self.control.tolerance
+                )
+                if turned is None:
+                    raise
+                guess, direction = turned
+            else:
+                return
+
+    def _traced(
+        self, guess: Array, heading: float, direction: Array | None
+    ) -> Iterator[Correction]:
         return trace(
             self.system,
             guess,
@@ -98,6 +128,7 @@ class Pieces:
             control=self.control,
             settler=self.system,
             begin=self.start if heading == self.end else self.end,
+            direction=direction,
         )
 
     def _again(self, reached: float, heading: float, *, begun: bool) -> Array | None:

@@ -40,7 +40,7 @@ class Modes(NamedTuple):
     reach: NDArray[np.int64]
     """first and behind the last entry of each of its rows, shape (modes, 2)"""
     loads: Array
-    """of preload and drive, shape (2, modes)"""
+    """of preload and drive, shape (loads, modes)"""
     selection: Array
     """relative coordinates from the modes, shape (rank, modes)"""
     seen: Array
@@ -87,7 +87,7 @@ def modal_coordinates(problem: Problem) -> Coordinates:
         np.diag(damping).copy(),
         coupling,
         _reach(coupling),
-        np.ascontiguousarray(np.stack([problem.preload, problem.drive]) @ shapes),
+        np.ascontiguousarray(problem.loads @ shapes),
         np.ascontiguousarray(seen.T),
         seen,
         seen.T @ seen,

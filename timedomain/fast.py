@@ -269,7 +269,7 @@ def _trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
         np.zeros(count),
         np.zeros((2, rank)),
         np.zeros((stages, len(FLOWS))),
-        np.zeros(2),
+        np.zeros(len(modes.loads)),
         np.zeros((points, 3)),
         np.zeros(rank),
         np.zeros(3),

@@ -57,11 +57,19 @@ def stage_powers(
 
 
 @bare_kernel
+def pull(modes: Modes, trial: Trial, mode: int) -> float:
+    """Return the modal force of the loads."""
+    force = 0.0
+    for load in range(trial.factors.size):
+        force += trial.factors[load] * modes.loads[load, mode]
+    return force
+
+
+@bare_kernel
 def _input_power(modes: Modes, trial: Trial, velocity: Array, stage: int) -> None:
-    one, two = trial.factors[0], trial.factors[1]
     power = 0.0
     for j in range(velocity.size):
-        power += (one * modes.loads[0, j] + two * modes.loads[1, j]) * velocity[j]
+        power += pull(modes, trial, j) * velocity[j]
     trial.powers[stage, 0] = power
 
 
@@ -71,11 +79,10 @@ def _mean_input(modes: Modes, motion: Motion, trial: Trial, length: float) -> No
 
     With a cubic between the modal motions of its ends it is p̄ Δq/h + Δp Δq̇/12.
     """
-    one, two = trial.factors[0], trial.factors[1]
     power = 0.0
     for j in range(trial.velocity.size):
         begin = trial.load[j]
-        end = one * modes.loads[0, j] + two * modes.loads[1, j]
+        end = pull(modes, trial, j)
         moved = trial.displacement[j] - motion.displacement[j]
         faster = trial.velocity[j] - motion.velocity[j]
         power += 0.5 * (begin + end) * moved / length + (end - begin) * faster / 12.0

@@ -8,7 +8,7 @@ from microslip_mechanics.segments import Segments, load_factors
 from timedomain.contact_newton import Answer, solve_contact
 from timedomain.coordinates import Contacts, Modes
 from timedomain.dense import copy, copy_rows
-from timedomain.fast_powers import stage_powers
+from timedomain.fast_powers import pull, stage_powers
 from timedomain.motion import HINT, ITERATIONS, LENGTH, Control, Motion, Trial
 from timedomain.tables import Tables
 
@@ -81,9 +81,8 @@ def _begin(
         for j in range(trial.contact.size):
             trial.force[0, j] -= trial.contact[j]
     copy(motion.powers, trial.powers[0])
-    one, two = trial.factors[0], trial.factors[1]
     for j in range(trial.load.size):
-        trial.load[j] = one * modes.loads[0, j] + two * modes.loads[1, j]
+        trial.load[j] = pull(modes, trial, j)
 
 
 @bare_kernel
@@ -131,10 +130,9 @@ def _load(
 ) -> None:
     """Write the modal force of a stage but for contact."""
     load_factors(segments, time, motion.counts[HINT], trial.factors)
-    one, two = trial.factors[0], trial.factors[1]
     force = trial.force[stage]
     for j in range(force.size):
-        force[j] = one * modes.loads[0, j] + two * modes.loads[1, j]
+        force[j] = pull(modes, trial, j)
         force[j] -= motion.coupled[0, j] + part * motion.coupled[1, j]
 
 

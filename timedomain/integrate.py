@@ -37,8 +37,8 @@ def integrate(
     history
         Factors of preload and drive over time.
     options
-        Method, step or tolerance, and what is stored. Contacts that remember are marched
-        by the reference method with ``time_step``, and without an estimated error.
+        Method, step or tolerance, and what is stored. Contacts that remember take the
+        reference method with ``time_step``, and have no estimated error.
     start
         Initial displacement and velocity; all at rest and without load if left out.
         From the checkpoint of a block of the same march, the rest of it is yielded.

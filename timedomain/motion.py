@@ -81,7 +81,7 @@ class Trial(NamedTuple):
     powers: Array
     """of the stages, shape (stages + 1, 4)"""
     factors: Array
-    """shape (2,)"""
+    """of the loads, shape (loads,)"""
     before: Array
     """forces of the last stage but one, shape (points, 3)"""
     curvature: Array

@@ -7,6 +7,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.segments import factors_over
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.newmark import Operators, march
 from timedomain.options import IntegrationError, MarchOptions
@@ -35,13 +36,13 @@ class ReferenceMarch:
         self._problem, self._history = problem, history
         self._options, self._steps = options, steps
         self._step = history.duration / steps
-        self._shapes = np.stack([problem.preload, problem.drive], axis=1)
+        self._shapes = problem.loads.T.copy()
         self._operators = _operators(problem, self._shapes, self._step)
         self._state = first_state(problem, history, start)
         self._meters = meters(problem, self._shapes)
         self._stored_at_start = stored_energy(problem, self._state)
         # the powers at time zero, for the first trapezoid
-        self._measure(history.factors(np.zeros(1))[0], 0.0)
+        self._measure(self._factors(np.zeros(1))[0], 0.0)
 
     def resume(self, end: Checkpoint) -> int:
         """Go back to the end of a block; return the steps until there."""
@@ -54,7 +55,7 @@ class ReferenceMarch:
         probes = len(self._problem.probes.names)
         rows = np.empty((count // stride, row_length(probes, len(points.load))))
         times = self._times(first + np.arange(1.0, count + 1.0))
-        factors = self._history.factors(times)
+        factors = self._factors(times)
         done, iterations, divided = 0, 0, 0
         while True:
             done, taken = march(
@@ -93,7 +94,7 @@ class ReferenceMarch:
                 points,
                 self._state,
                 self._meters,
-                self._history.factors(times),
+                self._factors(times),
                 nothing,
                 0,
                 self._options.residual,
@@ -107,6 +108,9 @@ class ReferenceMarch:
             f"in {parts} parts: "
             "give a shorter time step, a larger threshold velocity or a softer contact"
         )
+
+    def _factors(self, times: Array) -> Array:
+        return factors_over(self._history.segments(), times, self._shapes.shape[1])
 
     def _times(self, steps: Array) -> Array:
         """Return the times after so many steps; the last is exactly the duration."""

@@ -16,6 +16,7 @@ from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.segments import factors_over
 from microslip_mechanics.time_history import Checkpoint
 from timedomain.newmark import State
 from timedomain.record import FLOWS, Meters, accumulate
@@ -87,10 +88,10 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
     if start.traction is not None:
         past[:, 1] = start.traction
         forces[:, 1:] += start.traction
-    factors = history.factors(np.zeros(1))[0]
+    loads = problem.loads
+    factors = factors_over(history.segments(), np.zeros(1), len(loads))[0]
     unbalanced = (
-        factors[0] * problem.preload
-        + factors[1] * problem.drive
+        factors @ loads
         - structure.damping @ start.velocity
         - structure.stiffness @ start.displacement
         - interface.displacement.T @ forces.ravel()
@@ -170,9 +171,9 @@ def meters(problem: Problem, shapes: Array) -> Meters:
 
 def powers(problem: Problem, history: LoadHistory, state: State) -> Array:
     """Return the powers of FLOWS at time zero [W], shape (4,)."""
-    shapes = np.stack([problem.preload, problem.drive], axis=1)
+    shapes = problem.loads.T.copy()
     reading = meters(problem, shapes)
-    factors = history.factors(np.zeros(1))[0]
+    factors = factors_over(history.segments(), np.zeros(1), shapes.shape[1])[0]
     accumulate(reading, problem.interface.points, state, factors, 0.0)
     return reading.powers
 

@@ -1,1 +1,39 @@
-"""microslip: nonlinear forced response with friction and contact."""
+"""microslip: nonlinear forced response with friction and contact.
+
+The names load on first use, so that ``import microslip`` takes no time.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from microslip.api import curve, scene, sweep
+    from microslip_mechanics.element import Element
+    from microslip_mechanics.laws.catalogue import LAWS
+    from microslip_mechanics.system import system
+
+__all__ = ["LAWS", "Element", "curve", "scene", "sweep", "system"]
+
+HOMES = {
+    "curve": "microslip.api",
+    "scene": "microslip.api",
+    "sweep": "microslip.api",
+    "system": "microslip_mechanics.system",
+    "Element": "microslip_mechanics.element",
+    "LAWS": "microslip_mechanics.laws.catalogue",
+}
+"""module of each name; laws are found in the catalogue by the name of their class"""
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401  (whatever is asked for)
+    """Return a public name, or a law by its class's name."""
+    if name in HOMES:
+        return getattr(importlib.import_module(HOMES[name]), name)
+    if name[:1].isupper():
+        laws = importlib.import_module(HOMES["LAWS"]).LAWS
+        for law in laws.values():
+            if law.__name__ == name:
+                return law
+    raise AttributeError(f"module microslip has no attribute {name}")

@@ -7,6 +7,7 @@ import difflib
 import tomllib
 import types
 import typing
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -15,8 +16,13 @@ from microslip.force_file import Force, read_force
 from microslip.quantity import Quantity, SceneError, quantity
 from microslip.scenes.two_blades.tables import TwoBlades
 
-RIGS = {"two-blades": TwoBlades}
+KINDS = ("two-blades", "system")
 """what ``scene = "…"`` may name"""
+SYSTEMS = ("duffing", "jenkins", "gap", "chain", "friction-beam", "tip-damper")
+BUILT_IN = ("two-blades", *SYSTEMS)
+"""names of built-in scenes"""
+NESTED = (["element"], ["drive"], ["structure"])
+"""tables of a system with tables in them"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +68,8 @@ class March:
 class Scene:
     """A rig, and what is done with it."""
 
-    rig: TwoBlades
+    rig: typing.Any
+    """tables of its kind: TwoBlades, or System"""
     sweep: Sweep
     curve: Curve
     march: March
@@ -74,7 +81,8 @@ class Scene:
 
 def built_in_text(name: str) -> str:
     """Return the TOML of a built-in scene."""
-    folder = resources.files("microslip.scenes") / name.replace("-", "_")
+    kind = "systems" if name in SYSTEMS else name.replace("-", "_")
+    folder = resources.files("microslip.scenes") / kind
     return (folder / f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -94,7 +102,7 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
         With file, table, key, value and remedy.
     """
     path = Path(source)
-    if source in RIGS and not path.is_file():
+    if source in BUILT_IN and not path.is_file():
         text = built_in_text(source)
     else:
         text = _read(path)
@@ -123,7 +131,7 @@ def _read(path: Path) -> str:
     except (FileNotFoundError, NotADirectoryError):
         raise SceneError(
             f"there is no scene file {path}, and no built-in scene of that name: "
-            f"give a path, or one of {', '.join(RIGS)}"
+            f"give a path, or one of {', '.join(BUILT_IN)}"
         ) from None
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
@@ -134,7 +142,8 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
     """Put one ``table.key=value`` into the document."""
     name, equals, text = override.partition("=")
     *tables, key = name.strip().split(".")
-    if not equals or not key or len(tables) > 1 or not all(tables):
+    deepest = 2 if tables[:1] in NESTED else 1
+    if not equals or not key or len(tables) > deepest or not all(tables):
         raise SceneError(
             f"--set {override}: give table.key=value, such as contact.sigma=3e-7"
         )
@@ -145,33 +154,62 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
     value = parsed["value"] if len(parsed) == 1 else text.strip()
     place = document
     for table in tables:
-        place = place.setdefault(table, {})
+        place = _inner(place, table, override)
         if not isinstance(place, dict):
             raise SceneError(f"--set {override}: {table} is a value, not a table")
     place[key] = value
 
 
+def _inner(place: dict[str, typing.Any], table: str, override: str) -> typing.Any:  # noqa: ANN401
+    """Return the table of a name within another, or the element of that name."""
+    elements = place.get("element")
+    if table != "element" or not isinstance(elements, list):
+        return place.setdefault(table, {})
+    named = {each.get("name"): each for each in elements if isinstance(each, dict)}
+    name = override.split(".")[1]
+    if name not in named:
+        raise SceneError(
+            f"--set {override}: there is no element {name}"
+            f"{meant(name, [str(each) for each in named])}"
+        )
+    return named
+
+
 def _scene(source: str, document: dict[str, typing.Any], text: str) -> Scene:
     kind = document.pop("scene", None)
-    if not isinstance(kind, str) or kind not in RIGS:
+    if kind not in KINDS:
         raise SceneError(
             f"{source}: scene = {kind!r}: name the kind of scene at the top, "
-            f"one of {', '.join(RIGS)}"
+            f"one of {', '.join(KINDS)}"
         )
     experiments = {"sweep": Sweep, "curve": Curve, "march": March}
     made = {}
     for name, table in experiments.items():
         if name not in document:
             raise SceneError(f"{source}: table [{name}] is missing: add it")
-        made[name] = _table(source, f"[{name}] ", table, document.pop(name))
+        made[name] = read_table(source, f"[{name}] ", table, document.pop(name))
     known = [*experiments, "scene"]
-    rig = _table(source, "", RIGS[kind], document, known)
-    scene = Scene(rig, **made, text=text)
+    scene = Scene(_rig(source, str(kind), document, known), **made, text=text)
     _check(source, scene)
     return scene
 
 
-def _table(
+def _rig(
+    source: str, kind: str, document: dict[str, typing.Any], known: list[str]
+) -> object:
+    """Return the tables of a kind of scene."""
+    if kind == "system":
+        # what it needs knows numbers, which the list of scenes must not wait for
+        from microslip.scenes.systems.read import read_system
+
+        return read_system(source, document, known)
+    try:
+        return read_table(source, "", TwoBlades, document, known)
+    except ValueError as error:
+        raise SceneError(f"{source}: {error}") from None
+
+
+def read_table(
     source: str,
     place: str,
     table: type,
@@ -186,8 +224,8 @@ def _table(
     for key in values:
         if key not in fields:
             raise SceneError(
-                f"{source}: {place}{key}{_shown(values[key])} is unknown"
-                f"{_meant(key, [*fields, *known])}"
+                f"{source}: {place}{key}{shown(values[key])} is unknown"
+                f"{meant(key, [*fields, *known])}"
             )
     made = {}
     for name, field in fields.items():
@@ -212,11 +250,11 @@ def _value(
     if _optional(hint):
         hint = typing.get_args(hint)[0]
     if dataclasses.is_dataclass(hint):
-        return _table(source, f"[{field.name}] ", typing.cast("type", hint), value)
+        return read_table(source, f"[{field.name}] ", typing.cast("type", hint), value)
     try:
         return _scalar(field.metadata["quantity"], hint, value)
     except ValueError as error:
-        name = f"{place}{field.name}{_shown(value)}"
+        name = f"{place}{field.name}{shown(value)}"
         raise SceneError(f"{source}: {name}: {error}") from None
 
 
@@ -231,6 +269,8 @@ def _scalar(
         if value not in choices:
             raise ValueError(f"is unknown: give one of {', '.join(choices)}")
         return value
+    if typing.get_origin(hint) is Mapping:
+        return _by_power(kind, value)
     if typing.get_origin(hint) is tuple:
         return _several(kind, value)
     if hint is str:
@@ -254,6 +294,15 @@ def _number(kind: Quantity, hint: type, value: object) -> object:
     return number
 
 
+def _by_power(kind: Quantity, value: object) -> dict[float, float]:
+    """Return numbers by the power to which they belong."""
+    if not isinstance(value, dict):
+        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+            "is no table: give a number for each power, such as {1 = 10, 3 = 2e6}"
+        )
+    return {float(power): kind.read(each) for power, each in value.items()}
+
+
 def _several(kind: Quantity, value: object) -> tuple[float, ...]:
     """Return one number or a list of them as a tuple."""
     several = value if isinstance(value, list) else [value]
@@ -262,7 +311,7 @@ def _several(kind: Quantity, value: object) -> tuple[float, ...]:
     return tuple(kind.read(each) for each in several)
 
 
-def _shown(value: object) -> str:
+def shown(value: object) -> str:
     """Return `` = value`` for a message; a table has too much to show."""
     if isinstance(value, dict):
         return ""
@@ -274,7 +323,8 @@ def _optional(hint: typing.Any) -> bool:  # noqa: ANN401  (a type annotation)
     return isinstance(hint, types.UnionType) and types.NoneType in typing.get_args(hint)
 
 
-def _meant(key: str, names: typing.Sequence[str]) -> str:
+def meant(key: str, names: typing.Sequence[str]) -> str:
+    """Return what may have been meant, to end a message."""
     close = difflib.get_close_matches(key, names, n=1)
     if close:
         return f": do you mean {close[0]}?"
@@ -283,7 +333,7 @@ def _meant(key: str, names: typing.Sequence[str]) -> str:
 
 def _check(source: str, scene: Scene) -> None:
     """Check what more than one key decides."""
-    sweep, curve, contact = scene.sweep, scene.curve, scene.rig.contact
+    sweep, curve = scene.sweep, scene.curve
     if not sweep.ramp <= sweep.start < sweep.end <= sweep.duration:
         raise SceneError(
             f"{source}: [sweep] ramp {sweep.ramp:g} s, start {sweep.start:g} s, end "
@@ -307,12 +357,6 @@ def _check(source: str, scene: Scene) -> None:
         raise SceneError(
             f"{source}: [curve] samples = {curve.samples}: too few for "
             f"{curve.harmonics} harmonics: give at least {fewest}"
-        )
-    if contact.angle_excited + contact.angle_follower <= 0.0:
-        raise SceneError(
-            f"{source}: [contact] angle_excited + angle_follower = "
-            f"{contact.angle_excited + contact.angle_follower:g} rad: the faces must "
-            "form a wedge that the preload pushes into: give a positive sum"
         )
 
 

@@ -62,9 +62,10 @@ def check_dissipates(damping: Matrix, names: tuple[str, ...]) -> None:
     size = abs(damping).max() if diagonal.size else 0.0
     if size == 0.0:
         return
-    if scipy.sparse.issparse(damping):
+    sparse = bool(scipy.sparse.issparse(damping))
+    if sparse:
         shift = ROUNDING * size * scipy.sparse.eye_array(len(names), format="csc")
-        found = indefinite_factors(scipy.sparse.csc_array(damping) + shift)
+        found = indefinite_factors(damping.tocsc() + shift)
         gains = found is not None and bool((found.pivots < 0.0).any())
         where = "some motion"
     else:

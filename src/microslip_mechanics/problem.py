@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.structure import Structure
 
@@ -30,14 +30,17 @@ class Probes:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """M ü + C u̇ + K u + Lᵀ f(L u, L u̇) = preload + drive · sin(excitation phase)."""
+    """M ü + C u̇ + K u + Lᵀ f(L u, L u̇) = preload + Im(drive · e^(i excitation phase)).
+
+    A real drive acts in phase with the sine.
+    """
 
     structure: Structure
     interface: Interface
     preload: Array
     """static load [N], shape (dofs,)"""
-    drive: Array
-    """amplitude of the harmonic load [N], shape (dofs,)"""
+    drive: Array | ComplexArray
+    """amplitude of the harmonic load [N], complex where phases differ, shape (dofs,)"""
     probes: Probes
 
     def __post_init__(self) -> None:
@@ -56,6 +59,20 @@ class Problem:
                 )
         if not (np.all(np.isfinite(self.preload)) and np.all(np.isfinite(self.drive))):
             raise ValueError("a load holds a value that is not finite")
+
+    @property
+    def in_phase(self) -> bool:
+        """Whether everything is driven in phase with one sine."""
+        return not np.iscomplexobj(self.drive)
+
+    @property
+    def loads(self) -> Array:
+        """Preload and drive [N], shape (2, dofs); with phases (3, dofs).
+
+        The last row is then what goes with the cosine, a quarter of a period ahead.
+        """
+        rows = [self.preload, self.drive.real]
+        return np.stack(rows if self.in_phase else [*rows, self.drive.imag])
 
     @property
     def force_scale(self) -> float:

@@ -100,17 +100,17 @@ def quantity(
     highest: float = math.inf,
     positive: bool = False,
     optional: bool = False,
-    default: Any = MISSING,  # noqa: ANN401  (of the field's own type)
+    default: object = MISSING,
 ) -> Any:  # noqa: ANN401  (a dataclass field, like dataclasses.field)
     """Declare a number with its SI unit and its range.
 
     ``positive`` sets the lower bound to zero and excludes the bound itself;
-    ``optional`` makes None of a number that is left out, ``default`` a value.
+    ``optional`` makes None of a number that is left out, ``default`` another value.
     """
     low = max(lowest, 0.0) if positive else lowest
     metadata = {"quantity": Quantity(unit, low, highest, positive)}
     if optional:
-        return field(default=None, metadata=metadata)
+        default = None
     return field(default=default, metadata=metadata)
 
 

@@ -107,7 +107,12 @@ def reduced(problem: Problem, highest: float) -> Reduction:
         stuck.free.T @ (matrix @ stuck.static)
         for matrix in (problem.structure.mass, problem.structure.damping)
     )
-    loads = stuck.free.T @ np.stack([problem.preload, problem.drive], axis=1)
+    drive = (
+        [problem.drive.real]
+        if problem.in_phase
+        else [problem.drive.real, problem.drive.imag]
+    )
+    loads = stuck.free.T @ np.stack([problem.preload, *drive], axis=1)
     residual, energy = residual_vectors(
         stuck, modes, np.hstack([loads, inertia, friction])
     )

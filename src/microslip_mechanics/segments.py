@@ -35,6 +35,8 @@ class Segments(NamedTuple):
 def load_factors(segments: Segments, time: float, hint: int, factors: Array) -> int:
     """Write the factors of preload and drive at a time; return its segment.
 
+    With room for a third one, that of the drive's part a quarter of a period ahead is
+    written too, which has the sine's cosine and no offset.
     ``hint`` is a segment at or near which the search begins, such as the last one.
     Times before 0 count as 0.
     """
@@ -43,8 +45,13 @@ def load_factors(segments: Segments, time: float, hint: int, factors: Array) -> 
     amplitude = _line(segments.amplitude[place], elapsed)
     factors[0] = _line(segments.preload[place], elapsed)
     factors[1] = _line(segments.offset[place], elapsed)
+    if factors.size > 2:
+        factors[2] = 0.0
     if amplitude != 0.0:
-        factors[1] += amplitude * math.sin(phase_of(segments.sine[place], elapsed))
+        phase = phase_of(segments.sine[place], elapsed)
+        factors[1] += amplitude * math.sin(phase)
+        if factors.size > 2:
+            factors[2] = amplitude * math.cos(phase)
     return place
 
 
@@ -89,9 +96,9 @@ def after_ramp(ramp: float, start: float, rows: Array) -> Segments:
     return Segments(*(np.ascontiguousarray(part) for part in parts))
 
 
-def factors_over(segments: Segments, time: Array) -> Array:
-    """Return the factors of preload and drive at many times, shape (times, 2)."""
-    factors = np.empty((time.size, 2))
+def factors_over(segments: Segments, time: Array, loads: int = 2) -> Array:
+    """Return the factors of preload and drive at many times, shape (times, loads)."""
+    factors = np.empty((time.size, loads))
     _fill(segments, np.asarray(time, dtype=float), factors)
     return factors
 

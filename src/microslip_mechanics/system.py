@@ -11,7 +11,7 @@ import numpy as np
 import scipy.sparse
 from numpy.typing import ArrayLike
 
-from microslip_mechanics.arrays import Array, Matrix
+from microslip_mechanics.arrays import Array, ComplexArray, Matrix
 from microslip_mechanics.damping import check_dissipates, modal, rayleigh
 from microslip_mechanics.element import Element, interface_of
 from microslip_mechanics.forms import Form, Pair, form, place_of, relative
@@ -83,7 +83,8 @@ def system(
 
 def _matrix(given: Matrix, what: str) -> Matrix:
     """Return a square matrix, of floating point numbers."""
-    if scipy.sparse.issparse(given):
+    sparse = bool(scipy.sparse.issparse(given))
+    if sparse:
         return scipy.sparse.csc_array(given, dtype=float)
     try:
         matrix = np.array(given, dtype=float)
@@ -97,6 +98,11 @@ def _matrix(given: Matrix, what: str) -> Matrix:
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or matrix.size == 0:
         raise ValueError(
             f"{what} has shape {matrix.shape}: give a square matrix, or its diagonal"
+        )
+    if not np.isfinite(matrix).all():
+        row, column = np.argwhere(~np.isfinite(matrix))[0] + 1
+        raise ValueError(
+            f"{what} holds a value that is not finite, in row {row}, column {column}"
         )
     return matrix
 
@@ -166,8 +172,10 @@ def _damping(
 
 
 def _loads(
-    given: Mapping[str, float | complex], names: tuple[str, ...], what: str
-) -> Array:
+    given: Mapping[str, float] | Mapping[str, complex],
+    names: tuple[str, ...],
+    what: str,
+) -> ComplexArray:
     """Return loads over the degrees of freedom."""
     loads = np.zeros(len(names), dtype=complex)
     for name, force in given.items():
@@ -178,7 +186,7 @@ def _loads(
     return loads
 
 
-def _driven(given: Drive, names: tuple[str, ...]) -> Array:
+def _driven(given: Drive, names: tuple[str, ...]) -> Array | ComplexArray:
     """Return the drive: real if everything is driven in phase with the sine."""
     waves = {}
     for name, wave in given.items():

@@ -8,7 +8,7 @@ import pytest
 
 import rigs
 from microslip.quantity import SceneError
-from microslip.scene_file import RIGS, Scene, built_in_text, load_scene
+from microslip.scene_file import BUILT_IN, Scene, built_in_text, load_scene
 from microslip.scenes.two_blades.tables import TwoBlades
 
 
@@ -25,11 +25,11 @@ def copied(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("name", RIGS)
+@pytest.mark.parametrize("name", BUILT_IN)
 def test_built_in_scene_loads(name: str) -> None:
     scene = load_scene(name)
 
-    assert isinstance(scene.rig, RIGS[name])
+    assert isinstance(scene.rig, TwoBlades) == (name == "two-blades")
     assert scene.text == built_in_text(name)
 
 

@@ -30,12 +30,14 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
-    from microslip.studies.explain import pruned
+    from microslip.studies.explain import obeyed, pruned
 
     scene = load_scene(options.scene, options.overrides)
     print(f"{'':36s}  kept  left out  reason")
     for each in pruned(scene):
         left = each.whole - each.kept
         print(f"{each.what:36s} {each.kept:5d} {left:9d}  {each.reason}")
+    for name, law, equation in obeyed(scene):
+        print(f"{name:20s} {law:18s} {equation}")
     print(IMPORTS)
     return 0

@@ -7,13 +7,10 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
+from microslip.commands.columns import SHOWN, headed, titled
 
 if TYPE_CHECKING:
     from microslip_mechanics.response import ResponseCurve
-
-HEADER = """\
-     parameter  first harmonic [mm]             friction    largest
-          [SI]    excited   follower    element  [mJ/period]  multiplier"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -66,7 +63,6 @@ def _run(options: argparse.Namespace) -> int:
     save(data, Stored(curve, followed.scene.text, options.command))
     title = f"{arguments.title(options)}, {options.frequency:g} Hz"
     save_figure(picture, curve_figure(curve, title))
-    print(HEADER)
     print(_table(curve))
     print(f"{curve.frequency.size} points in {data}, picture in {picture}")
     return arguments.ended(curve.ending)
@@ -77,11 +73,18 @@ def _table(curve: ResponseCurve) -> str:
     evenly = range(0, curve.parameter.size, max(1, curve.parameter.size // 12))
     places = {*evenly, curve.parameter.size - 1}
     places |= {place for place, name in enumerate(curve.event) if name}
-    lines = []
+    lines = [
+        f"     parameter {titled(' first harmonic [mm]', curve.probes)}     friction"
+        "    largest",
+        f"          [SI] {headed(curve.probes)}  [mJ/period]  multiplier",
+    ]
     for place in sorted(places):
         values = (
             f"{curve.parameter[place]:14.6g}",
-            *(f"{1e3 * amplitude:10.5f}" for amplitude in curve.amplitude[place, :3]),
+            *(
+                f"{1e3 * amplitude:10.5f}"
+                for amplitude in curve.amplitude[place, :SHOWN]
+            ),
             f"{1e3 * curve.friction_energy[place]:12.6f}",
             f"{curve.multiplier[place]:11.5f}",
         )

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
+from microslip.commands.columns import SHOWN, headed, titled
 
 if TYPE_CHECKING:
     from microslip.progress import Watch
@@ -14,10 +15,6 @@ if TYPE_CHECKING:
     from microslip.studies.curve import Traced
     from microslip_mechanics.response import ResponseCurve
     from microslip_mechanics.static import StaticState
-
-HEADER = """\
-frequency  first harmonic [mm]              friction      normal force [N]
-     [Hz]    excited   follower    element  [mJ/period]     least      most"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -70,7 +67,8 @@ def _run(options: argparse.Namespace) -> int:
     save(data, Stored(traced.curve, scene.text, options.command))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     print(_table(traced))
-    print(_rest(problem.interface.names, traced.rest))
+    if problem.interface.count:
+        print(_rest(problem.interface.names, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
     print(_resolution(traced.curve))
@@ -138,16 +136,29 @@ def _table(traced: Traced) -> str:
     """Return the curve at about a dozen points, among them its largest amplitude."""
     from microslip.studies.curve import shown_points
 
-    curve, lines = traced.curve, [HEADER]
+    curve = traced.curve
+    lines = [
+        f"frequency {titled(' first harmonic [mm]', curve.probes)}     friction      "
+        "normal force [N]",
+        f"     [Hz] {headed(curve.probes)}  [mJ/period]     least      most",
+    ]
     largest = int(curve.amplitude[:, 0].argmax())
     for place in shown_points(curve, largest):
         values = (
             f"{curve.frequency[place] / math.tau:9.4f}",
-            *(f"{1e3 * amplitude:10.5f}" for amplitude in curve.amplitude[place, :3]),
+            *(
+                f"{1e3 * amplitude:10.5f}"
+                for amplitude in curve.amplitude[place, :SHOWN]
+            ),
             f"{1e3 * curve.friction_energy[place]:12.6f}",
-            f"{curve.normal_smallest[place].min(initial=math.inf):9.3f}",
-            f"{curve.normal_largest[place].max(initial=-math.inf):9.3f}",
+            _force(curve.normal_smallest[place].min(initial=math.inf)),
+            _force(curve.normal_largest[place].max(initial=-math.inf)),
         )
         mark = "  largest" if place == largest else ""
         lines.append(" ".join(values) + mark)
     return "\n".join(lines)
+
+
+def _force(force: float) -> str:
+    """Return a normal force, or nothing where no contact is."""
+    return f"{force:9.3f}" if math.isfinite(force) else f"{'-':>9s}"

@@ -13,7 +13,15 @@ two-blades   two turbine blades coupled at their shrouds by a friction element
     contact.sigma=3e-9 | 3e-7     stiff or soft contact
     contact.damping_ratio=0.05    normal contact damping
     rope.stiffness=0              no rope
-  microslip scenes two-blades > mine.toml    makes a copy to change"""
+systems of any matrices and elements (scene = "system"):
+  duffing        a mass on a linear and a cubic spring
+  jenkins        a mass on a spring and an elastic dry-friction slider
+  gap            a mass that meets a stop behind a gap
+  chain          three masses with sliders, cubic springs and a stop (NLvib, example 07)
+  friction-beam  a cantilever with dry friction at its tip
+  tip-damper     a blade with a pin pressed to its tip, contact in three dimensions
+  variants by --set element.NAME.KEY=VALUE, drive.DOF=VALUE, structure.damping_ratio=…
+microslip scenes two-blades > mine.toml    makes a copy to change"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -34,11 +42,12 @@ def _run(options: argparse.Namespace) -> int:
         print(VARIANTS)
         return 0
     from microslip.quantity import SceneError
-    from microslip.scene_file import RIGS, built_in_text
+    from microslip.scene_file import BUILT_IN, built_in_text
 
-    if options.scene not in RIGS:
+    if options.scene not in BUILT_IN:
         raise SceneError(
-            f"there is no built-in scene {options.scene}: give one of {', '.join(RIGS)}"
+            f"there is no built-in scene {options.scene}: give one of "
+            f"{', '.join(BUILT_IN)}"
         )
     print(built_in_text(options.scene), end="")
     return 0

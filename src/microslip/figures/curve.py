@@ -67,7 +67,7 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
         axes,
         x=abscissa_name(curve),
         y="amplitude [mm]",
-        title="First harmonic, along z",
+        title="First harmonic",
     )
     axes.set_ylim(bottom=0.0)
     _events(axes, curve)
@@ -103,8 +103,13 @@ def _events(axes: Axes, curve: ResponseCurve) -> None:
 
 
 def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
-    """Draw the largest relative velocity in time, logarithmically."""
-    for colour, place in zip(COLOURS, relative(curve.probes), strict=False):
+    """Draw the largest relative velocity in time, logarithmically.
+
+    The largest velocity of the probes, where none of them is a relative motion.
+    """
+    slips = relative(curve.probes)
+    shown = slips or absolute(curve.probes)
+    for colour, place in zip(COLOURS, shown, strict=False):
         axes.plot(
             abscissa(curve),
             curve.velocity_peak[:, place],
@@ -112,13 +117,13 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
             linewidth=WIDTH * 1.5,
             label=readable(curve.probes[place]),
         )
-    if not (curve.velocity_peak[:, relative(curve.probes)] <= 0.0).any():
+    if not (curve.velocity_peak[:, shown] <= 0.0).any():
         axes.set_yscale("log")
     framed(
         axes,
         x=abscissa_name(curve),
         y="velocity [m/s]",
-        title="Largest relative velocity",
+        title="Largest relative velocity" if slips else "Largest velocity",
     )
     axes.legend(frameon=False)
 
@@ -161,7 +166,8 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
     highest = float(np.nanmax(curve.normal_largest, initial=0.0))
     axes.set_ylim(lowest, 1.05 * highest if highest > 0.0 else None)
-    axes.legend(frameon=False, ncols=2)
+    if curve.contacts:
+        axes.legend(frameon=False, ncols=2)
 
 
 def abscissa(curve: ResponseCurve) -> np.ndarray:

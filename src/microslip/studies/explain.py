@@ -10,10 +10,14 @@ from hbm.active import extended, moving
 from hbm.relative import relative_problem
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene
+from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.contact.law import (
+    BRISTLE,
     COULOMB,
+    ELASTIC,
     FRICTIONLESS,
     GENERAL_KINETIC,
+    TANH,
     tangent_pattern,
 )
 from microslip_mechanics.problem import Problem
@@ -25,7 +29,11 @@ FRICTION_LAWS = {
     COULOMB: "Coulomb",
     GENERAL_KINETIC: "GKF",
     FRICTIONLESS: "no friction",
+    TANH: "smooth Coulomb",
+    ELASTIC: "elastic friction",
+    BRISTLE: "bristles",
 }
+LOADS = "friction uses the computed normal force, or a constant"
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,34 +49,79 @@ class Pruned:
 def pruned(scene: Scene) -> list[Pruned]:
     """Count what a scene's solvers carry, and of how much."""
     problem = problem_of(scene)
-    dofs, points = problem.structure.dofs, problem.interface.points
-    count = problem.interface.count
-    _, selection = problem.interface.relative_motion()
-    harmonics = scene.curve.harmonics or HARMONICS
-    size = 2 * harmonics + 1
-    entries = sum(
-        int(pattern.sum())
-        for point in range(count)
-        for pattern in tangent_pattern(points, point)
-    )
+    rig = isinstance(scene.rig, TwoBlades)
+    return [
+        *(_rig(scene, problem) if rig else _system(problem)),
+        *_contacts(problem, _load_reason(scene) if rig else LOADS),
+        *_unknowns(problem, scene),
+    ]
+
+
+def obeyed(scene: Scene) -> list[tuple[str, str, str]]:
+    """Return name, law and equation of each element; none of a scene without them."""
+    if isinstance(scene.rig, TwoBlades):
+        return []
+    from microslip_mechanics.laws.catalogue import law_name
+
+    return [
+        (name, law_name(type(law)), str(type(law).__doc__).splitlines()[0])
+        for name, law in scene.rig.element.items()
+    ]
+
+
+def _rig(scene: Scene, problem: Problem) -> list[Pruned]:
+    """Count what the two-blade rig leaves out."""
     rotations = "none locked" if scene.rig.model == "full" else "rotations locked"
-    loads = int(np.sum(~points.constant_load & (points.friction != FRICTIONLESS)))
+    count = problem.interface.count
     return [
         Pruned(
             "degrees of freedom",
-            dofs,
+            problem.structure.dofs,
             _unlocked(scene),
             f"{rotations} ({scene.rig.model})",
         ),
         Pruned("springs to ground", int(_roped(scene)), 1, _rope_reason(scene)),
         Pruned("contact points", count, 8, f"four a face in full, here {count // 2}"),
-        Pruned("variable normal loads of friction", loads, count, _load_reason(scene)),
+    ]
+
+
+def _system(problem: Problem) -> list[Pruned]:
+    """Count what a system has; it leaves nothing out."""
+    dofs, count = problem.structure.dofs, problem.interface.count
+    sparse = "sparse" if problem.structure.sparse else "dense"
+    return [
+        Pruned("degrees of freedom", dofs, dofs, f"all of the scene's; {sparse}"),
+        Pruned("contact points", count, count, "rows that the elements' laws become"),
+    ]
+
+
+def _contacts(problem: Problem, why: str) -> list[Pruned]:
+    """Count what the contacts' laws need."""
+    points, count = problem.interface.points, problem.interface.count
+    entries = sum(
+        int(pattern.sum())
+        for point in range(count)
+        for pattern in tangent_pattern(points, point)
+    )
+    loads = int(np.sum(~points.constant_load & (points.friction != FRICTIONLESS)))
+    return [
+        Pruned("variable normal loads of friction", loads, count, why),
         Pruned(
             "friction laws called", *_laws(problem), "only those of the scene's points"
         ),
         Pruned(
             "tangents per sample", entries, 18 * count, "the others are always zero"
         ),
+    ]
+
+
+def _unknowns(problem: Problem, scene: Scene) -> list[Pruned]:
+    """Count what the solvers solve for."""
+    dofs = problem.structure.dofs
+    _, selection = problem.interface.relative_motion()
+    harmonics = scene.curve.harmonics or HARMONICS
+    size = 2 * harmonics + 1
+    return [
         Pruned(
             "unknowns of a time step",
             len(selection),
@@ -91,7 +144,7 @@ def pruned(scene: Scene) -> list[Pruned]:
 
 
 def _unlocked(scene: Scene) -> int:
-    return 2 * 6 * scene.rig.blade.elements + 6
+    return 2 * 6 * int(scene.rig.blade.elements) + 6
 
 
 def _roped(scene: Scene) -> bool:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
+from microslip.studies import numbers
 from microslip_mechanics.problem import Problem
 
 
@@ -18,30 +19,21 @@ class Parameter:
 
     scene: Scene
     """at the first value"""
-    table: str
-    key: str
+    name: str
+    """tables and key, with dots"""
     first: float
     """in SI units"""
     last: float
 
     @property
-    def name(self) -> str:
-        """Table and key."""
-        return f"{self.table}.{self.key}"
-
-    @property
     def label(self) -> str:
         """Name and unit."""
-        table = type(getattr(self.scene.rig, self.table))
-        fields = {field.name: field for field in dataclasses.fields(table)}
-        unit = fields[self.key].metadata["quantity"].unit
+        unit = numbers.unit(self.scene.rig, numbers.parts(self.name))
         return f"{self.name} [{unit}]" if unit else self.name
 
     def problem_at(self, value: float) -> Problem:
         """Return the problem at a value [SI units]."""
-        rig = self.scene.rig
-        table = dataclasses.replace(getattr(rig, self.table), **{self.key: value})
-        changed = dataclasses.replace(rig, **{self.table: table})
+        changed = numbers.replaced(self.scene.rig, numbers.parts(self.name), value)
         return problem_of(dataclasses.replace(self.scene, rig=changed))
 
 
@@ -67,16 +59,14 @@ def parameter(
     begun, ended = (
         load_scene(scene, [*overrides, f"{name}={value}"]) for value in (first, last)
     )
-    table, _, key = name.partition(".")
-    values = [
-        getattr(getattr(each.rig, table, None), key, None) for each in (begun, ended)
-    ]
-    numbers = [value for value in values if type(value) is float]
-    if len(numbers) < len(values):
+    values = [numbers.reached(each.rig, numbers.parts(name)) for each in (begun, ended)]
+    found = [value for value in values if type(value) is float]
+    if len(found) < len(values):
         raise SceneError(
             f"{name} cannot be followed: give a number of the structure, its contacts "
-            "or its loads, such as excitation.force or friction.mu_dynamic"
+            "or its loads, such as excitation.force, friction.mu_dynamic or, of a "
+            "system, element.NAME.KEY"
         )
-    if numbers[0] == numbers[1]:
+    if found[0] == found[1]:
         raise SceneError(f"{name} from {first} to {last}: give two different values")
-    return Parameter(begun, table, key, *numbers)
+    return Parameter(begun, name, *found)

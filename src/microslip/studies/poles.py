@@ -21,6 +21,7 @@ from hbm.poles import NONE, followed, poles
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
+from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -103,7 +104,13 @@ class Question:
 
     def _ratio(self) -> float:
         """Return µs/µd."""
-        friction = load_scene(self.scene, self.overrides).rig.friction
+        rig = load_scene(self.scene, self.overrides).rig
+        if not isinstance(rig, TwoBlades):
+            raise SceneError(
+                f"{self.scene}: a system has no one friction coefficient: give a key "
+                "and values, such as element.NAME.mu 0.1 0.3 1"
+            )
+        friction = rig.friction
         if friction.law == "none" or friction.mu_dynamic == 0.0:
             raise SceneError(
                 f"{self.scene}: [friction] law = {friction.law}, mu_dynamic = "

@@ -14,9 +14,9 @@ from microslip_mechanics.quantity import check_quantities, quantity
 
 @dataclass(frozen=True)
 class Iwan:
-    """Jenkins elements with the density R φ^χ + S δ(φ − φ_max) of slip displacements.
+    """F = ∫ ρ(φ) (w − x_φ) dφ with ρ = R φ^χ + S δ(φ − φ_max) (Segalman, 2005).
 
-    F = ∫ ρ(φ) (w − x_φ) dφ, where slider φ slips while |w − x_φ| = φ (Segalman, 2005).
+    Slider φ slips while |w − x_φ| = φ, its slip displacement.
     The density up to φ_max is cut into geometric intervals, each of them one slider of
     the interval's stiffness that slips at its mean slip displacement. So K_T and F_S
     are exact, as are force and stiffness on first loading at the edges of all
@@ -58,9 +58,8 @@ class Iwan:
         """R [N/m^(χ+2)]."""
         chi = self.chi
         shape = self.beta + (chi + 1.0) / (chi + 2.0)
-        return (
-            self.slip_force * (chi + 1.0) / (self.largest_slip ** (chi + 2.0) * shape)
-        )
+        power = float(self.largest_slip ** (chi + 2.0))
+        return self.slip_force * (chi + 1.0) / (power * shape)
 
     @property
     def edges(self) -> Array:

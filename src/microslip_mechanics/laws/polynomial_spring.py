@@ -18,7 +18,7 @@ class PolynomialSpring:
     An odd or fractional power takes the sign of w, an even one is the same both ways.
     """
 
-    coefficients: Mapping[float, float]
+    coefficients: Mapping[float, float] = quantity("N/m^p")
     """k_p [N/m^p] for each power p ≥ 1, such as {1: 100, 3: 2e6}"""
 
     def __post_init__(self) -> None:

@@ -112,3 +112,12 @@ class TwoBlades:
     excitation: Excitation
     model: Literal["full", "B", "A"] = quantity()
     rope: Rope | None = None
+
+    def __post_init__(self) -> None:
+        """Check what more than one number decides."""
+        wedge = self.contact.angle_excited + self.contact.angle_follower
+        if wedge <= 0.0:
+            raise ValueError(
+                f"[contact] angle_excited + angle_follower = {wedge:g} rad: the faces "
+                "must form a wedge that the preload pushes into: give a positive sum"
+            )

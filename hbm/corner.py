@@ -1,0 +1,94 @@
+"""Corners of a curve: where a contact changes its state, it may turn back sharply (§6).
+
+Where a slider begins to slip or a stop to touch, the derivative of the residual jumps.
+If the curve before and behind makes an acute angle, no plane across the first part
+meets the second, however short the step. The second part has its tangent from the
+derivative on its own side, and leads away against what continuity would have.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from hbm.continuation import tangent
+from hbm.newton import Correction, Outcome, SingularError, System, correct
+from microslip_mechanics.arrays import Array
+
+BEYOND = (0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)
+"""arc lengths past the last point, at which the other side is sought"""
+FAR = 1e-3
+"""arc length of the way to the corner, by which its direction is known"""
+STEPS = (1e-3, 1e-4, 1e-2, 1e-5)
+"""arc lengths along the other side, tried in turn"""
+STRAIGHT = 0.9999
+"""cosine of the angle to the way back, from which on it is the way back"""
+Metric: TypeAlias = Callable[[Array], Array]
+
+
+def round_corner(
+    system: System, way: Sequence[Correction], metric: Metric, tolerance: float
+) -> tuple[Array, Array] | None:
+    """Return a point behind a corner and the direction in which the curve goes on.
+
+    Parameters
+    ----------
+    system
+        Residual and Jacobian.
+    way
+        Points up to the corner, with their tangents.
+    metric
+        Scale of each component near a point.
+    tolerance
+        Of the largest residual.
+
+    Returns
+    -------
+    Both of shape ``(n + 1,)``; None if there is no corner.
+    """
+    last = way[-1]
+    scale = metric(last.point)
+    back = _back(way, scale)
+    if back is None or not last.along.any():
+        return None
+    along = last.along / float(np.linalg.norm(last.along / scale))
+    for beyond in BEYOND:
+        try:
+            _, linearised = system(last.point + beyond * along)
+            onwards = -tangent(linearised, along, scale)
+        except SingularError:
+            continue
+        if float((onwards / scale) @ back) > STRAIGHT:
+            continue
+        found = _stepped(system, last.point, onwards, scale, tolerance)
+        if found is not None:
+            return found, onwards
+    return None
+
+
+def _back(way: Sequence[Correction], scale: Array) -> Array | None:
+    """Return the unit direction of the way back, in the metric; None if it is short."""
+    for before in reversed(way):
+        chord = (before.point - way[-1].point) / scale
+        length = float(np.linalg.norm(chord))
+        if length >= FAR:
+            direction: Array = chord / length
+            return direction
+    return None
+
+
+def _stepped(
+    system: System, start: Array, direction: Array, scale: Array, tolerance: float
+) -> Array | None:
+    """Return a point of the curve a little way in a direction; None if none is near."""
+    normal = direction / scale**2
+    normal /= np.abs(normal).max()
+    for step in STEPS:
+        predicted = start + step * direction
+        found = correct(system, predicted, normal, tolerance=tolerance)
+        moved = float(np.linalg.norm((found.point - predicted) / scale))
+        if found.outcome is Outcome.CONVERGED and moved <= 0.2 * step:
+            return found.point
+    return None

@@ -1,0 +1,29 @@
+"""Columns of a table that stand for probes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+WIDTH = 10
+SHOWN = 3
+"""probes in a table"""
+
+
+def headed(names: Sequence[str]) -> str:
+    """Return the heads of the first probes' columns, in ten characters each."""
+    names = names[:SHOWN]
+    ends = [name.split("-")[-1] for name in names]
+    heads = [
+        name
+        if len(name) <= WIDTH
+        else end
+        if ends.count(end) == 1
+        else name.split("-")[0]
+        for name, end in zip(names, ends, strict=True)
+    ]
+    return " ".join(f"{head[:WIDTH]:>{WIDTH}}" for head in heads)
+
+
+def titled(text: str, names: Sequence[str]) -> str:
+    """Return a title in the width of the probes' columns."""
+    return f"{text:<{(WIDTH + 1) * len(names[:SHOWN]) - 1}}"

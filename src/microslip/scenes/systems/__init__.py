@@ -1,0 +1,1 @@
+"""Scenes of kind ``system``: any structure, any elements; the built-in ones beside."""

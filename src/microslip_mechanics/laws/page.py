@@ -1,0 +1,71 @@
+"""The page of the documentation on laws, made from the catalogue."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+from typing import Any
+
+from microslip_mechanics.laws.catalogue import LAWS
+
+HEAD = """\
+# Laws of elements
+
+An element of a scene (`law = "jenkins"`) or of Python (`microslip.Jenkins`) obeys one
+of these laws. Symbols: w is the displacement of the element's first end relative to its
+second, w_n that along a contact's normal (positive in penetration), w_t that along its
+tangents, ẇ and v their rates. Directions are given as `between`, or as `normal`,
+`tangents` and `rotations`; each is a pair of ends, and the ground is written as
+`"ground"`.
+
+`python -m microslip_mechanics.laws.page > docs/laws.md` writes this page.
+"""
+
+
+def laws_page() -> str:
+    """Return the page as Markdown."""
+    return "\n".join([HEAD, *(_law(name, law) for name, law in LAWS.items())])
+
+
+def _law(name: str, law: type[Any]) -> str:
+    """Return the section of one law."""
+    equation, _, more = inspect.cleandoc(str(law.__doc__)).partition("\n")
+    lines = [f"## `{name}`", "", f"Python: `microslip.{law.__name__}`", "", equation]
+    if more.strip():
+        lines += ["", more.strip()]
+    lines += ["", "| key | unit | value | if left out |", "|---|---|---|---|"]
+    lines += [_row(field) for field in dataclasses.fields(law)]
+    return "\n".join([*lines, ""])
+
+
+def _row(field: dataclasses.Field[Any]) -> str:
+    """Return the line of one number."""
+    kind = field.metadata["quantity"]
+    if field.default is dataclasses.MISSING:
+        missing = "must be given"
+    elif field.default is None:
+        missing = "none"
+    else:
+        missing = str(field.default).lower()
+    return f"| `{field.name}` | {kind.unit} | {_range(field)} | {missing} |"
+
+
+def _range(field: dataclasses.Field[Any]) -> str:
+    """Return what a number may be."""
+    kind = field.metadata["quantity"]
+    if field.type == "bool":
+        return "`true` or `false`"
+    if "Mapping" in str(field.type):
+        return "a table: number for each power"
+    parts = []
+    if kind.lowest > float("-inf"):
+        parts.append(f"{'above' if kind.positive else 'at least'} {kind.lowest:g}")
+    if kind.highest < float("inf"):
+        parts.append(f"at most {kind.highest:g}")
+    return ", ".join(parts) or "any"
+
+
+if __name__ == "__main__":
+    import sys
+
+    sys.stdout.write(laws_page())

@@ -1,0 +1,99 @@
+"""Corners of a curve: turned round where its halves make an acute angle."""
+
+import numpy as np
+import pytest
+
+from hbm.continuation import ContinuationError, trace
+from hbm.corner import round_corner
+from hbm.newton import Correction, Outcome
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
+from hbm.step_control import StepControl
+from microslip.rigs import problem_of
+from microslip.scene_file import load_scene
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.static import static_equilibrium
+from systems import Dense
+
+CONTROL = StepControl(initial=0.05, largest=0.1)
+
+
+def bent(slope: float, point: Array) -> tuple[Array, Dense]:
+    """Return λ − x before x = 0, and λ + slope x behind."""
+    x, parameter = point
+    factor = -1.0 if x < 0.0 else slope
+    return np.array([parameter + factor * x]), Dense([[factor, 1.0]])
+
+
+def unit(point: Array) -> Array:
+    return np.ones_like(point)
+
+
+def traced(slope: float) -> list[Correction]:
+    """Return the points of the curve up to where plain continuation ends."""
+    start = np.array([-1.0, -1.0])
+    points = trace(
+        lambda point: bent(slope, point), start, 1.0, metric=unit, control=CONTROL
+    )
+    found: list[Correction] = []
+    try:
+        for each in points:
+            found.append(each)  # noqa: PERF402  (what is there must be kept)
+    except ContinuationError:
+        return found
+    raise AssertionError("plain continuation gets round the corner")
+
+
+@pytest.mark.parametrize("slope", [1.5, 3.0, 10.0])
+def test_a_sharp_corner_is_turned_onto_its_second_half(slope: float) -> None:
+    way = traced(slope)
+    assert way[-1].point == pytest.approx([0.0, 0.0], abs=1e-4)
+
+    turned = round_corner(lambda point: bent(slope, point), way, unit, 1e-12)
+
+    assert turned is not None
+    point, direction = turned
+    assert point[0] > 0.0
+    assert point[1] == pytest.approx(-slope * point[0], rel=1e-9)
+    expected = np.array([1.0, -slope]) / np.hypot(1.0, slope)
+    np.testing.assert_allclose(direction, expected, rtol=1e-9)
+
+
+def test_there_is_no_corner_where_the_curve_ends() -> None:
+    """A curve that stops has a tangent of one side only."""
+
+    def ending(point: Array) -> tuple[Array, Dense]:
+        x, parameter = point
+        jump = 0.0 if x < 0.0 else 1.0
+        return np.array([parameter - x + jump]), Dense([[-1.0, 1.0]])
+
+    along = np.array([1.0, 1.0]) / np.sqrt(2.0)
+    way = [
+        Correction(
+            np.array([place, place]),
+            np.zeros(1),
+            Dense([[-1.0, 1.0]]),
+            Outcome.CONVERGED,
+            (0.0,),
+            along,
+        )
+        for place in (-0.1, -1e-6)
+    ]
+
+    assert round_corner(ending, way, unit, 1e-12) is None
+
+
+@pytest.mark.slow
+def test_chain_of_sliders_and_a_stop_is_traced_from_end_to_end() -> None:
+    """NLvib's example 07: three masses, two sliders, two cubic springs, a stop."""
+    scene = load_scene("chain")
+    problem = problem_of(scene)
+    options = CurveOptions(0.5, 2.0, harmonics=7, samples=1024)
+
+    found = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    assert found[0].frequency == 0.5
+    assert found[-1].frequency == 2.0
+    events = [each.event for each in found]
+    assert "restart" not in events
+    assert events.count("fold") >= 3

@@ -1,0 +1,90 @@
+"""The catalogue: every law has examples; its tangents are those of differences."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from law_examples import CASES, NAMES, element
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.memory import remembers, traction
+from microslip_mechanics.element import interface_of
+from microslip_mechanics.laws.catalogue import LAWS, law_name
+
+STEP = 1e-6
+
+
+def points_of(case: str) -> ContactPoints:
+    return interface_of([element(case)], NAMES).points
+
+
+def force(points: ContactPoints, point: int, motion: Array) -> tuple[Array, Array]:
+    """Return the force of (displacement, velocity) and its derivatives, (3, 6)."""
+    made, by_displacement, by_velocity = np.empty(3), np.empty((3, 3)), np.empty((3, 3))
+    contact_force(
+        points, point, motion[:3], motion[3:], made, by_displacement, by_velocity
+    )
+    return made, np.hstack([by_displacement, by_velocity])
+
+
+def pulled(points: ContactPoints, point: int, state: Array) -> tuple[Array, Array]:
+    """Return the traction of (slide, velocity, load, old) and its derivatives."""
+    new, by = np.empty(2), np.empty((2, 7))
+    traction(points, point, state[:2], state[2:4], state[4], state[5:], new, by)
+    return new, by
+
+
+def test_every_law_of_the_catalogue_has_an_example() -> None:
+    assert {name for name, *_ in CASES.values()} == set(LAWS)
+    for name, law in LAWS.items():
+        assert law_name(law) == name
+
+
+def test_laws_say_what_they_are_in_one_line_with_an_equation() -> None:
+    for law in LAWS.values():
+        assert dataclasses.is_dataclass(law)
+        line = str(law.__doc__).splitlines()[0]
+        assert "=" in line, law
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_tangents_are_central_differences_of_the_force(case: str) -> None:
+    points, random = points_of(case), np.random.default_rng(3)
+    acted = False
+    for point in range(points.load.size):
+        for motion in random.uniform(-0.5, 0.5, (40, 6)):
+            _, exact = force(points, point, motion)
+            for column, push in enumerate(STEP * np.eye(6)):
+                high, _ = force(points, point, motion + push)
+                low, _ = force(points, point, motion - push)
+                slope = (high - low) / (2.0 * STEP)
+                scale = max(1.0, float(np.abs(exact).max()))
+                np.testing.assert_allclose(exact[:, column], slope, atol=1e-6 * scale)
+            acted |= bool(exact.any())
+    assert acted or remembers(points).all()
+
+
+@pytest.mark.parametrize(
+    "case", [each for each in CASES if remembers(points_of(each)).any()]
+)
+def test_tangents_of_what_remembers_are_central_differences(case: str) -> None:
+    points, random = points_of(case), np.random.default_rng(4)
+    for point in range(points.load.size):
+        limit = points.dynamic[point] * max(points.load[point], 1.0)
+        reach = limit / points.tangential[point]
+        scale = np.array([reach, reach, 1.0, 1.0, 0.0, limit, limit])
+        for draw in random.uniform(-0.7, 0.7, (40, 7)):
+            state = scale * draw
+            state[4] = points.load[point] if points.constant_load[point] else 1.0
+            _, exact = pulled(points, point, state)
+            for column in range(7):
+                push = np.zeros(7)
+                push[column] = 1e-6 * (scale[column] or 1.0)
+                high, _ = pulled(points, point, state + push)
+                low, _ = pulled(points, point, state - push)
+                slope = (high - low) / (2.0 * push[column])
+                size = max(float(np.abs(exact[:, column]).max()), 1e-3)
+                np.testing.assert_allclose(
+                    exact[:, column], slope, atol=1e-6 * size, rtol=1e-6
+                )

@@ -1,0 +1,273 @@
+"""Scenes of kind ``system``: built-in ones, matrices, overrides, malformed files."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from microslip.quantity import SceneError
+from microslip.rigs import problem_of
+from microslip.scene_file import SYSTEMS, built_in_text, load_scene
+from microslip.studies.explain import obeyed
+from microslip.studies.parameter import parameter
+from microslip_mechanics.beam import RectangularSection
+from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.problem import Problem
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+BEGIN = """\
+scene = "system"
+[sweep]
+ramp = 0
+start = 0
+end = "1 s"
+duration = "1 s"
+lowest = 4
+highest = 7
+[curve]
+lowest = 4
+highest = 7
+tolerance = 1e-3
+[march]
+time_step = "1 ms"
+store_every = 1
+"""
+PAIR = """\
+[structure]
+names = ["a", "b"]
+mass = [1, 2]
+stiffness = [[3000, -1000], [-1000, 1000]]
+damping_ratio = 0.01
+[[element]]
+name = "slider"
+law = "jenkins"
+between = ["a", "b"]
+stiffness = "2 N/mm"
+limit = "500 mN"
+[drive]
+a = "2 N"
+b = {amplitude = 1, phase = "90 deg"}
+[preload]
+b = "0.5 N"
+[probes]
+slip = ["a", "b"]
+"""
+
+
+def written(folder: Path, text: str) -> str:
+    path = folder / "mine.toml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def made(folder: Path, text: str = PAIR, *overrides: str) -> Problem:
+    return problem_of(load_scene(written(folder, BEGIN + text), overrides))
+
+
+def test_tables_become_the_problem(tmp_path: Path) -> None:
+    problem = made(tmp_path)
+
+    assert problem.structure.names == ("a", "b")
+    np.testing.assert_array_equal(problem.structure.mass, np.diag([1.0, 2.0]))
+    assert problem.interface.points.tangential.tolist() == [2000.0]
+    assert problem.interface.points.load.tolist() == [0.5]
+    np.testing.assert_array_equal(problem.interface.displacement[1], [1.0, -1.0])
+    np.testing.assert_allclose(problem.drive, [2.0, 1.0j], atol=1e-15)
+    np.testing.assert_array_equal(problem.preload, [0.0, 0.5])
+    assert problem.probes.names == ("slip",)
+
+
+def test_overrides_reach_elements_loads_and_damping(tmp_path: Path) -> None:
+    problem = made(
+        tmp_path,
+        PAIR,
+        "element.slider.limit=2 N",
+        "drive.a=3",
+        "drive.b.phase=0",
+        "preload.b=1",
+        "structure.damping_ratio=0",
+    )
+
+    assert problem.interface.points.load.tolist() == [2.0]
+    assert problem.drive.tolist() == [3.0, 1.0]
+    assert problem.preload.tolist() == [0.0, 1.0]
+    assert not problem.structure.damping.any()
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("element.slider.limit", "N"),
+        ("element.slider.stiffness", "N/m"),
+        ("drive.a", "N"),
+        ("preload.b", "N"),
+        ("structure.damping_ratio", ""),
+    ],
+)
+def test_numbers_can_be_followed(tmp_path: Path, name: str, unit: str) -> None:
+    source = written(tmp_path, BEGIN + PAIR)
+
+    followed = parameter(source, (), name, "0.2", "0.4")
+
+    assert followed.label == (f"{name} [{unit}]" if unit else name)
+    by_override = problem_of(load_scene(source, [f"{name}=0.3"]))
+    by_number = followed.problem_at(0.3)
+    for mine, other in (
+        (by_number.drive, by_override.drive),
+        (by_number.preload, by_override.preload),
+        (by_number.structure.damping, by_override.structure.damping),
+        (by_number.interface.points.load, by_override.interface.points.load),
+        (
+            by_number.interface.points.tangential,
+            by_override.interface.points.tangential,
+        ),
+    ):
+        np.testing.assert_array_equal(mine, other)
+
+
+def test_matrices_come_from_an_archive_beside_the_scene(tmp_path: Path) -> None:
+    stiffness = np.array([[3000.0, -1000.0], [-1000.0, 1000.0]])
+    np.savez(
+        tmp_path / "pair.npz", M=np.diag([1.0, 2.0]), K=stiffness, names=["a", "b"]
+    )
+    inline = PAIR.index("[[element]]")
+    head = '[structure]\nmass = "pair.npz:M"\nstiffness = "pair.npz:K"\n'
+
+    problem = made(tmp_path, head + "damping_ratio = 0.01\n" + PAIR[inline:])
+
+    expected = made(tmp_path)
+    assert problem.structure.names == expected.structure.names
+    for name in ("mass", "damping", "stiffness"):
+        np.testing.assert_allclose(
+            getattr(problem.structure, name), getattr(expected.structure, name)
+        )
+
+
+def test_cantilever_has_eulers_first_frequency() -> None:
+    overrides = ["structure.beam.elements=20", "structure.beam.thickness=2 mm"]
+    problem = problem_of(load_scene("friction-beam", overrides))
+
+    squares = np.linalg.eigvals(
+        np.linalg.solve(problem.structure.mass, problem.structure.stiffness)
+    )
+
+    section = RectangularSection(20e-3, 2e-3, 210e9, 0.3, 7800.0)
+    bending = section.young_modulus * 20e-3 * (2e-3) ** 3 / 12.0
+    line = section.density * 20e-3 * 2e-3
+    closed = 1.875104069**2 * np.sqrt(bending / line / 0.3**4)
+    assert np.sqrt(squares.real.min()) == pytest.approx(closed, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_built_in_systems_load_and_say_their_laws(name: str) -> None:
+    scene = load_scene(name)
+    problem = problem_of(scene)
+
+    laws = obeyed(scene)
+    assert len(laws) == len(scene.rig.element)
+    assert all("=" in equation for _, _, equation in laws)
+    assert problem.drive.any()
+    assert scene.curve.lowest < scene.curve.highest
+
+
+def test_chain_is_nlvibs_example() -> None:
+    problem = problem_of(load_scene("chain"))
+
+    row = np.array([[2.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 2.0]])
+    np.testing.assert_array_equal(problem.structure.stiffness, row)
+    np.testing.assert_allclose(problem.structure.damping, 0.02 * row, rtol=1e-14)
+    points = problem.interface.points
+    assert remembers(points).tolist() == [True, True, False, False, False]
+    assert points.tangential[:2].tolist() == [20.0, 20.0]
+    assert (points.dynamic * points.load)[:2].tolist() == [1.0, 1.0]
+    assert points.exponent[2:].tolist() == [3.0, 3.0, 1.0]
+    assert points.gap[4] == 0.25
+    curve = load_scene("chain").curve
+    assert 2.0 * np.pi * curve.lowest == pytest.approx(0.5, rel=1e-14)
+    assert 2.0 * np.pi * curve.highest == pytest.approx(2.0, rel=1e-14)
+
+
+def test_frc_draws_and_prints_a_system(run: Run) -> None:
+    status, output, error = run("frc", "duffing", "--set", "curve.tolerance=1e-2")
+
+    assert (status, error) == (0, "")
+    assert "     [Hz]          x  [mJ/period]" in output
+    assert "fold" in output
+    assert Path("duffing-frc.png").is_file()
+    assert Path("duffing-frc.nc").is_file()
+
+
+def test_explain_lists_each_element_with_its_equation(run: Run) -> None:
+    status, output, _ = run("explain", "chain")
+
+    assert status == 0
+    for name in load_scene("chain").rig.element:
+        (line,) = (each for each in output.splitlines() if each.startswith(f"{name} "))
+        assert "=" in line
+
+
+def test_march_refuses_forces_of_different_phase(run: Run, tmp_path: Path) -> None:
+    path = written(tmp_path, BEGIN + PAIR.replace("jenkins", "linear-damper").replace(
+        'stiffness = "2 N/mm"\nlimit = "500 mN"', "damping = 3"))  # fmt: skip
+
+    status, _, error = run("sweep", path)
+
+    assert status == 1
+    assert "different phases" in error
+    assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('law = "jenkins"', 'law = "jenkin"', ("slider", "jenkin", "jenkins?")),
+        ('law = "jenkins"\n', "", ("slider", "law = None")),
+        ('limit = "500 mN"', "limt = 1", ("slider", "limt = 1", "limit?")),
+        ('limit = "500 mN"\n', "", ("slider", "limit", "missing")),
+        ('limit = "500 mN"', 'limit = "1 kg"', ("slider", "1 kg", "unit")),
+        ('["a", "b"]\nstiff', '["a", "c"]\nstiff', ("slider", "'c'", "a, b")),
+        ('["a", "b"]\nstiff', '["a"]\nstiff', ("slider", "two ends", '"ground"')),
+        ('["a", "b"]\nstiff', '"a"\nstiff', ("slider", "two ends")),
+        ('between = ["a", "b"]\n', "", ("slider", "between", "needs 1")),
+        ("[[element]]", "[element]", ("[element]", "[[element]]")),
+        ("mass = [1, 2]", "mass = [1, 0]", ("mass of b is 0",)),
+        ("mass = [1, 2]", "mass = [1, 2, 3]", ("names", "(3, 3)")),
+        ("mass = [1, 2]", "mass = [1, nan]", ("mass", "finite")),
+        ("mass = [1, 2]", "mass = 1", ("[structure] mass = 1", "rows")),
+        ("mass = [1, 2]\n", "", ("[structure] mass", "missing")),
+        ("mass = [1, 2]", 'mass = "none.npz"', ("alike",)),
+        ("[-1000, 1000]]", "[1000, 1000]]", ("stiffness is not symmetric",)),
+        ("damping_ratio = 0.01", "damping_ratio = -1", ("damping_ratio", "at least 0")),
+        ("damping_ratio = 0.01", "damping = [1, -1]", ("damping of b", "negative")),
+        ("damping_ratio = 0.01", "dampin = 1", ("dampin", "damping?")),
+        ('a = "2 N"', 'c = "2 N"', ("drive", "'c'")),
+        ('a = "2 N"', 'a = "2 m"', ("[drive] a", "2 m", "unit")),
+        ('b = "0.5 N"', "b = [1]", ("[preload] b", "not a number")),
+        ('slip = ["a", "b"]', 'slip = "d"', ("probe slip", "'d'")),
+        ("[drive]", "[driv]", ("driv", "drive?")),
+    ],
+)
+def test_malformed_scene_ends_with_one_line_that_names_the_file(
+    tmp_path: Path, old: str, new: str, words: tuple[str, ...]
+) -> None:
+    assert PAIR.count(old) == 1
+    with pytest.raises(SceneError) as raised:
+        made(tmp_path, PAIR.replace(old, new))
+
+    message = str(raised.value)
+    assert message.startswith(str(tmp_path / "mine.toml"))
+    assert "\n" not in message
+    for word in words:
+        assert word in message
+
+
+def test_override_of_an_unknown_element_names_those_there_are() -> None:
+    with pytest.raises(SceneError, match=r"no element slider: do you mean slider-\d\?"):
+        load_scene("chain", ["element.slider.limit=1"])
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_built_in_text_names_the_ground(name: str) -> None:
+    assert '"ground"' in built_in_text(name)

@@ -6,7 +6,6 @@ import pytest
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from law_examples import CASES, driven
-from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.static import static_equilibrium
 from timedomain.verify import agreement, march_periods
 
@@ -14,26 +13,10 @@ FREQUENCIES = (6.5, 8.6)
 """below and near resonances [rad/s]"""
 SETTLED = 60
 """periods in which what begins on an orbit that is none leaves it"""
-MEMORY_MARCHES = True
-"""whether time integration knows the laws that remember"""
-UNKNOWN = pytest.mark.skip(reason="time integration does not know what remembers yet")
-
-
-def cases() -> list[object]:
-    """Return the cases; those that cannot be marched yet are left out by a mark."""
-    return [
-        pytest.param(
-            case,
-            marks=UNKNOWN
-            if remembers(driven(case).interface.points).any() and not MEMORY_MARCHES
-            else (),
-        )
-        for case in CASES
-    ]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", cases())
+@pytest.mark.parametrize("case", CASES)
 def test_amplitudes_agree_within_half_a_percent(case: str) -> None:
     problem = driven(case)
     options = CurveOptions(*FREQUENCIES, error=1e-4)

@@ -154,7 +154,7 @@ def first_order(
         np.ascontiguousarray(seen * motion),
         np.ascontiguousarray(seen.T / motion),
         modes.T @ problem.preload / motion,
-        modes.T @ problem.drive / motion,
+        modes.T @ problem.drive.real / motion,
         scale,
         motion,
         energy,

@@ -6,7 +6,7 @@ one is made from the package index. Both sides are given the same matrices, elem
 loads, harmonics and samples, and run in turn on one thread; times are of the processor
 per accepted point, warm. pyHarm solves each curve by all of its solvers that are named
 here, and the fastest counts. Events are located on microslip's curves, Floquet
-multipliers are not. At pyHarm's points microslip solves anew, and amplitudes are
+multipliers and errors are not computed. At pyHarm's points microslip solves anew, and amplitudes are
 compared. Exit status 1 if a target is missed or amplitudes differ.
 """
 
@@ -123,6 +123,7 @@ def traced(python: Path, folder: Path, case: Case) -> Measured:
         harmonics=case.harmonics,
         samples=case.samples,
         stability=False,
+        errors=False,
     )
     rest = static_equilibrium(case.problem)
     curve = list(frequency_response(case.problem, rest, options))  # compiles

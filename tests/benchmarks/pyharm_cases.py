@@ -111,7 +111,7 @@ def chain() -> Case:
         ("PenaltyUnilateralGap", [2], {"k": 1.0, "g": 0.25}),
     ]
     problem = problem_of(load_scene("chain"))
-    return Case(problem, elements, 0.5, 2.0, 7, 1024, 0.1)
+    return Case(problem, elements, 0.5, 2.0, 7, 1024, 0.2, ("scipyroot",))
 
 
 SECTORS, ORDER = 24, 3

@@ -143,9 +143,9 @@ class AlternatingFrequencyTime:
         Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
         """
         last, motion = self._last, (frequency, decay)
-        if last is not None and last.number == self.calls and last.motion == motion:
-            if np.array_equal(last.coefficients, coefficients):
-                return last.result
+        lies = last is not None and (last.number, last.motion) == (self.calls, motion)
+        if lies and np.array_equal(last.coefficients, coefficients):
+            return last.result
         result = self._evaluated(coefficients, frequency, decay)
         self._last = Call(self.calls, motion, coefficients.copy(), result)
         return result

@@ -13,7 +13,6 @@ from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 
-
 WIDE = 12
 """coordinates from which matrix products are faster than loops that use symmetry"""
 

@@ -6,8 +6,8 @@ one is made from the package index. Both sides are given the same matrices, elem
 loads, harmonics and samples, and run in turn on one thread; times are of the processor
 per accepted point, warm. pyHarm solves each curve by all of its solvers that are named
 here, and the fastest counts. Events are located on microslip's curves, Floquet
-multipliers and errors are not computed. At pyHarm's points microslip solves anew, and amplitudes are
-compared. Exit status 1 if a target is missed or amplitudes differ.
+multipliers and errors are not computed. At pyHarm's points microslip solves anew, and
+amplitudes are compared. Exit status 1 if a target is missed or amplitudes differ.
 """
 
 from __future__ import annotations

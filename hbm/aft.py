@@ -47,6 +47,13 @@ class Call(NamedTuple):
     coefficients: Array
     result: tuple[Array, Array]
 
+    def answers(
+        self, number: int, motion: tuple[float, float], coefficients: Array
+    ) -> bool:
+        """Return whether the same is asked, and nothing else since."""
+        same = (self.number, self.motion) == (number, motion)
+        return same and np.array_equal(self.coefficients, coefficients)
+
 
 class AlternatingFrequencyTime:
     """Contact points evaluated over the samples of one period.
@@ -143,8 +150,7 @@ class AlternatingFrequencyTime:
         Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
         """
         last, motion = self._last, (frequency, decay)
-        lies = last is not None and (last.number, last.motion) == (self.calls, motion)
-        if lies and np.array_equal(last.coefficients, coefficients):
+        if last is not None and last.answers(self.calls, motion, coefficients):
             return last.result
         result = self._evaluated(coefficients, frequency, decay)
         self._last = Call(self.calls, motion, coefficients.copy(), result)

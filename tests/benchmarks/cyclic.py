@@ -15,6 +15,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -44,10 +45,10 @@ def main() -> int:
     good = True
     for count in SECTORS:
         problem, options = case(count)
-        own, curve = timed(lambda p=problem, o=options: cyclic_response(p, o))
+        own, curve = timed(partial(cyclic_response, problem, options))
         disk = problem.disk()
         rest = static_equilibrium(disk)
-        other, _ = timed(lambda d=disk, r=rest, o=options: frequency_response(d, r, o))
+        other, _ = timed(partial(frequency_response, disk, rest, options))
         apart = max(deviation(problem, disk, point) for point in curve[::EVERY])
         print(
             f"{count:7d} {len(curve):7d} {1e3 * own:12.2f} {1e3 * other:10.2f}"

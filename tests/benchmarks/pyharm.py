@@ -75,8 +75,7 @@ def installed(folder: Path) -> Path:
     """Return the interpreter of a new environment with pyHarm."""
     venv.create(folder / "pyharm", with_pip=True)
     python = folder / "pyharm" / "bin" / "python"
-    command = [python, "-m", "pip", "install", "--quiet", PACKAGE]
-    subprocess.run(command, check=True)
+    subprocess.run([python, "-m", "pip", "install", "--quiet", PACKAGE], check=True)
     return python
 
 

@@ -69,12 +69,12 @@ class Mistuning:
 class BladedDisk:
     """A bladed disk."""
 
-    solve: Literal["sector", "disk"] = quantity()
-    sectors: int = quantity(lowest=2, highest=200)
     sector: Sector
     friction: Friction
     drive: Drive
     mistuning: Mistuning
+    solve: Literal["sector", "disk"] = quantity()
+    sectors: int = quantity(lowest=2, highest=200)
 
     def __post_init__(self) -> None:
         """Check that one sector can stand for all."""

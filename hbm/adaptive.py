@@ -40,17 +40,20 @@ class AdaptiveBalance:
         *,
         tolerance: float | None,
         most: int = HARMONICS,
+        errors: bool = True,
     ) -> None:
         """Begin with ``start``; without ``tolerance`` stay there.
 
         ``tolerance`` is the relative error of the amplitude at each point; ``most`` the
-        number of harmonics that are not exceeded.
+        number of harmonics that are not exceeded. Without ``errors`` those of a fixed
+        resolution are not estimated.
         """
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
         self.fourier = self.settled = self._kept = start
         self._wait = 0
+        self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
-        """of the last settled point; None if it lies on a fold"""
+        """of the last settled point; None if it lies on a fold or none is asked for"""
         orders = 2 * (start.harmonics if tolerance is None else most) + 1
         self.size = (2 * orders + 1) * resolution.rank + 1
 
@@ -93,6 +96,8 @@ class AdaptiveBalance:
         while True:
             self.settled = self.fourier
             correction = replace(correction, point=self._truncated(correction.point))
+            if not self._estimates:
+                return correction
             try:
                 self.estimate = self._estimated(correction, normal)
             except SingularError:
@@ -125,6 +130,8 @@ class AdaptiveBalance:
         With a tolerance it is the corrected one; fixed harmonics stay what they are,
         their error being up to twice the change that the correction would bring.
         """
+        if not self._estimates:
+            return point, self.settled, math.nan
         if self.estimate is None:
             return point, self.settled, math.inf
         if self._tolerance is None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +36,23 @@ class ContactCycle:
     """energy that friction takes out per period [J]"""
     normal_damping: float
     """energy that normal damping takes out per period [J]"""
+
+
+class Call(NamedTuple):
+    """What was asked last, and the answer: its samples still lie in the buffers."""
+
+    number: int
+    motion: tuple[float, float]
+    """frequency and decay"""
+    coefficients: Array
+    result: tuple[Array, Array]
+
+    def answers(
+        self, number: int, motion: tuple[float, float], coefficients: Array
+    ) -> bool:
+        """Return whether the same is asked, and nothing else since."""
+        same = (self.number, self.motion) == (number, motion)
+        return same and np.array_equal(self.coefficients, coefficients)
 
 
 class AlternatingFrequencyTime:
@@ -89,6 +107,7 @@ class AlternatingFrequencyTime:
         self._hat = hat(fourier.harmonics, samples)[:, None]
         self._mixing = _mixing(basis, self._entries)
         self._calls = [0]
+        self._last: Call | None = None
         self._moved: tuple[Array, Array] = (
             np.zeros((rows, samples)),
             np.zeros((rows, samples)),
@@ -107,7 +126,7 @@ class AlternatingFrequencyTime:
         if not all(map(np.array_equal, kinds, known)):
             raise ValueError("the contacts are of another kind: plan for them anew")
         other = copy.copy(self)
-        other._points, other._offset = points, offset
+        other._points, other._offset, other._last = points, offset, None
         return other
 
     def __call__(
@@ -130,6 +149,17 @@ class AlternatingFrequencyTime:
         -------
         Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
         """
+        last, motion = self._last, (frequency, decay)
+        if last is not None and last.answers(self.calls, motion, coefficients):
+            return last.result
+        result = self._evaluated(coefficients, frequency, decay)
+        self._last = Call(self.calls, motion, coefficients.copy(), result)
+        return result
+
+    def _evaluated(
+        self, coefficients: Array, frequency: float, decay: float
+    ) -> tuple[Array, Array]:
+        """Return force and its derivative by ω, and fill the buffers."""
         self._calls[0] += 1
         displacement, velocity = self._motion(coefficients, frequency, decay)
         self._moved = displacement, velocity
@@ -178,14 +208,18 @@ class AlternatingFrequencyTime:
         mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, len(kept))
         return mixed[0], mixed[1]
 
-    def remembered(self, frequency: float) -> Array | None:
-        """Return ∂force/∂y of the last call by what the contacts remember.
+    def add_remembered(
+        self, frequency: float, places: NDArray[np.int64], jacobian: Array
+    ) -> None:
+        """Add ∂force/∂y of the last call by what the contacts remember.
 
-        Shape ``(2H + 1, rank, 2H + 1, rank)``; None if no contact remembers.
+        ``places``, shape ``(2H + 1, rank)``, are the rows and columns of the
+        coefficients in ``jacobian``; negative ones are left out.
         """
-        if self._memory is None:
-            return None
-        return self._memory.jacobian(self._points, self._moved, frequency)
+        if self._memory is not None:
+            self._memory.add_jacobian(
+                self._points, self._moved, frequency, places, jacobian
+            )
 
     @property
     def samples(self) -> int:
@@ -214,7 +248,7 @@ class AlternatingFrequencyTime:
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
         """Return normal forces and energies over one period."""
         self(coefficients, frequency)
-        displacement, velocity = self._motion(coefficients, frequency)
+        displacement, velocity = self._moved
         half = self._symmetry.signs.size > 0
         seen = self._fourier.samples // (2 if half else 1)
         forces = self._regular.force + self._extra.force

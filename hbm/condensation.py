@@ -13,6 +13,9 @@ from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 
+WIDE = 12
+"""coordinates from which matrix products are faster than loops that use symmetry"""
+
 
 class Condensed(Protocol):
     """A structure as the relative coordinates y of its contacts see it."""
@@ -140,6 +143,9 @@ class CondensedStructure:
         """
         if wanted is None:
             wanted = np.ones((variable.size, len(self.stiffness)), dtype=bool)
+        if len(self.stiffness) >= WIDE and wanted.all() and not self.gyroscopic:
+            parts = [self._whole(s) for s in variable]
+            return np.array([one for one, _ in parts]), np.array([d for _, d in parts])
         return _stiffness(
             self.stiffness,
             self.damping,
@@ -153,6 +159,25 @@ class CondensedStructure:
             wanted,
             self.gyroscopic,
         )
+
+    def _whole(self, s: complex) -> tuple[ComplexArray, ComplexArray]:
+        """Return S(s) and dS/ds of all coordinates, both symmetric, by one product.
+
+        With B D A, the sum over the poles, dA/ds = I and dD/ds = −D², symmetry makes
+        d(B D A)/ds = X + Xᵀ of X = B (D I − D² A/2).
+        """
+        rank, used = len(self.stiffness), self.coupled
+        pole = (1.0 / (s - self.poles[used]))[:, None]
+        inertial = self.inertial[used]
+        into = (self.viscous[used] + s * inertial) * pole
+        turn = (inertial - 0.5 * into) * pole
+        back = self.viscous_back[:, used] + s * self.inertial_back[:, used]
+        product = back @ np.hstack([into, turn])
+        held, half = product[:, :rank], product[:, rank:]
+        value = self.stiffness + s * (self.damping + s * (self.mass - held))
+        slope = half + half.T
+        change = self.damping + 2.0 * s * (self.mass - held) - s * s * slope
+        return value, change
 
     def load(
         self, variable: ComplexArray, force: ComplexArray

@@ -71,12 +71,15 @@ def assemble(
     """
     size = terms.unknowns.size
     jacobian = np.zeros((size, size))
+    linked = _linked(stiffness, damping)
     for row in range(terms.order.size):
         a, j = terms.coordinate[row], terms.order[row]
         top, bottom = terms.cosine[row], terms.sine[row]
         for column in range(terms.order.size):
             b, k = terms.coordinate[column], terms.order[column]
             left, right = terms.cosine[column], terms.sine[column]
+            if not linked[a, b] and j != k:
+                continue
             cc, cs, sc, ss = _product(stiffness[a, b], j, k)
             vcc, vcs, vsc, vss = _product(damping[a, b], j, k)
             # the rate of cos kθ is −kω sin kθ, that of sin kθ is kω cos kθ
@@ -92,6 +95,20 @@ def assemble(
                 if right >= 0:
                     jacobian[bottom, right] = ss + rate * vsc + real
     return jacobian
+
+
+@kernel
+def _linked(stiffness: Array, damping: Array) -> NDArray[np.bool_]:
+    """Return which coordinates see each other in a contact, (rank, rank)."""
+    rank, _, terms = stiffness.shape
+    linked = np.zeros((rank, rank), dtype=np.bool_)
+    for a in range(rank):
+        for b in range(rank):
+            for term in range(terms):
+                if stiffness[a, b, term] != 0.0 or damping[a, b, term] != 0.0:
+                    linked[a, b] = True
+                    break
+    return linked
 
 
 @kernel

@@ -9,6 +9,8 @@ coefficients of each direction in which the point itself moves.
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,6 +19,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
+from microslip_mechanics.jit import kernel
 
 
 class FrictionMemory:
@@ -61,12 +64,19 @@ class FrictionMemory:
             force[3 * point + 1 : 3 * point + 3] += made
             change[3 * point + 1 : 3 * point + 3] += by_frequency
 
-    def jacobian(
-        self, points: ContactPoints, moved: tuple[Array, Array], frequency: float
-    ) -> Array:
-        """Return ∂traction/∂y, shape (2H + 1, rank, 2H + 1, rank)."""
-        count, rank = self._waves.value.shape[1], self._basis.shape[1]
-        result = np.zeros((count, rank, count, rank))
+    def add_jacobian(
+        self,
+        points: ContactPoints,
+        moved: tuple[Array, Array],
+        frequency: float,
+        places: NDArray[np.int64],
+        jacobian: Array,
+    ) -> None:
+        """Add ∂traction/∂y to a Jacobian.
+
+        ``places``, shape ``(2H + 1, rank)``, are the rows and columns of the
+        coefficients; negative ones are left out.
+        """
         gradient = np.empty((2, 3, *self._waves.value.shape))
         for point in np.flatnonzero(remembers(points)).tolist():
             rows, axes = slice(3 * point, 3 * point + 3), self._axes(point)
@@ -74,8 +84,14 @@ class FrictionMemory:
                 points, point, moved[0][rows], moved[1][rows], self._waves, frequency,
                 axes, gradient,
             )  # fmt: skip
-            self._gather(point, axes, gradient, result)
-        return result
+            for row, column in itertools.product((1, 2), range(3)):
+                if axes[row] and axes[column]:
+                    block = self._analysis @ gradient[row - 1, column]
+                    left, right = (
+                        self._basis[3 * point + row],
+                        self._basis[rows][column],
+                    )
+                    _scatter(block, left, right, places, jacobian)
 
     def _axes(self, point: int) -> NDArray[np.bool_]:
         """Return along which directions a point moves, shape (3,)."""
@@ -83,16 +99,22 @@ class FrictionMemory:
         moves: NDArray[np.bool_] = (rows != 0.0).any(axis=1)
         return moves
 
-    def _gather(
-        self, point: int, axes: NDArray[np.bool_], gradient: Array, result: Array
-    ) -> None:
-        """Add the derivatives of one point, brought to y."""
-        rows = self._basis[3 * point : 3 * point + 3]
-        for row in (1, 2):
-            for column in range(3):
-                if not (axes[row] and axes[column]):
+
+@kernel
+def _scatter(
+    block: Array,
+    left: Array,
+    right: Array,
+    places: NDArray[np.int64],
+    jacobian: Array,
+) -> None:
+    """Add the derivatives of one traction by one direction, brought to y."""
+    for a in np.flatnonzero(left):
+        for b in np.flatnonzero(right):
+            factor = left[a] * right[b]
+            for j in range(block.shape[0]):
+                if places[j, a] < 0:
                     continue
-                block = self._analysis @ gradient[row - 1, column]
-                for a in np.flatnonzero(rows[row]):
-                    for b in np.flatnonzero(rows[column]):
-                        result[:, a, :, b] += rows[row, a] * rows[column, b] * block
+                for k in range(block.shape[1]):
+                    if places[k, b] >= 0:
+                        jacobian[places[j, a], places[k, b]] += factor * block[j, k]

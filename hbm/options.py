@@ -30,6 +30,8 @@ class CurveOptions:
     """relative change of the response, or share of a tenth of the range"""
     stability: bool = True
     """whether Floquet multipliers are computed"""
+    errors: bool = True
+    """whether the error of fixed harmonics is estimated, at twice as many"""
     highest: float | None = None
     """frequency up to which a sparse structure is resolved [rad/s], see
     :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger one if left out"""

@@ -56,6 +56,8 @@ class HarmonicBalance:
         self._take(problem)
         self._orders = 1j * np.arange(fourier.harmonics + 1)
         self._terms = terms(self._active)
+        self._places = np.full(shape, -1)
+        self._places[self._active] = np.arange(self._terms.unknowns.size)
         self._wanted = np.vstack([self._active[:1], self._active[1::2]])
 
     def with_problem(self, problem: RelativeProblem) -> HarmonicBalance:
@@ -112,11 +114,7 @@ class HarmonicBalance:
             frequency,
             self._terms,
         )
-        remembered = self.contact.remembered(frequency)
-        if remembered is not None:
-            places = self._terms.unknowns
-            size = self.fourier.coefficients * self.rank
-            jacobian += remembered.reshape(size, size)[np.ix_(places, places)]
+        self.contact.add_remembered(frequency, self._places, jacobian)
         slope = (to_real(change) + by_frequency).ravel()[self._terms.unknowns]
         return jacobian, slope
 

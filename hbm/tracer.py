@@ -29,6 +29,7 @@ class Tracer:
             resolution,
             options.first,
             tolerance=None if options.harmonics else options.error,
+            errors=options.errors,
         )
         self.control = options.control(problem.force_scale)
         motions = path.motions if options.stability else None

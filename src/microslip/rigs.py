@@ -2,16 +2,43 @@
 
 from __future__ import annotations
 
+from microslip.quantity import SceneError
 from microslip.scene_file import Scene
+from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades import build
 from microslip.scenes.two_blades.tables import TwoBlades
+from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
 
 
 def problem_of(scene: Scene) -> Problem:
-    """Return the problem of a scene."""
+    """Return the problem of a scene.
+
+    Raises
+    ------
+    SceneError
+        If the scene is one sector of a disk, which :func:`sector_of` makes.
+    """
     if isinstance(scene.rig, TwoBlades):
         return build.problem(scene.rig)
+    if isinstance(scene.rig, BladedDisk):
+        from microslip.scenes.bladed_disk.build import disk
+
+        if scene.rig.solve == "sector":
+            raise SceneError(
+                'solve = "sector": frc alone solves one sector of a disk: give '
+                "--set solve=disk"
+            )
+        return disk(scene.rig)
     from microslip.scenes.systems.rig import problem
 
     return problem(scene.rig)
+
+
+def sector_of(scene: Scene) -> CyclicProblem | None:
+    """Return the sector that stands for a disk; None if the scene is no such thing."""
+    if not isinstance(scene.rig, BladedDisk) or scene.rig.solve != "sector":
+        return None
+    from microslip.scenes.bladed_disk.build import sector
+
+    return sector(scene.rig)

@@ -14,12 +14,13 @@ from pathlib import Path
 
 from microslip.force_file import Force, read_force
 from microslip.quantity import Quantity, SceneError, quantity
+from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
 
-KINDS = ("two-blades", "system")
+KINDS = ("two-blades", "system", "bladed-disk")
 """what ``scene = "…"`` may name"""
 SYSTEMS = ("duffing", "jenkins", "gap", "chain", "friction-beam", "tip-damper")
-BUILT_IN = ("two-blades", *SYSTEMS)
+BUILT_IN = ("two-blades", "bladed-disk", *SYSTEMS)
 """names of built-in scenes"""
 NESTED = (["element"], ["drive"], ["structure"])
 """tables of a system with tables in them"""
@@ -69,7 +70,7 @@ class Scene:
     """A rig, and what is done with it."""
 
     rig: typing.Any
-    """tables of its kind: TwoBlades, or System"""
+    """tables of its kind: TwoBlades, BladedDisk or System"""
     sweep: Sweep
     curve: Curve
     march: March
@@ -203,8 +204,9 @@ def _rig(
         from microslip.scenes.systems.read import read_system
 
         return read_system(source, document, known)
+    table = BladedDisk if kind == "bladed-disk" else TwoBlades
     try:
-        return read_table(source, "", TwoBlades, document, known)
+        return read_table(source, "", table, document, known)
     except ValueError as error:
         raise SceneError(f"{source}: {error}") from None
 

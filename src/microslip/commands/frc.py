@@ -52,23 +52,26 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.curve import curve_figure
-    from microslip.rigs import problem_of
+    from microslip.rigs import problem_of, sector_of
     from microslip.scene_file import load_scene
     from microslip.store import Stored, save, save_figure
-    from microslip.studies.curve import LOST, Wanted, trace_curve
+    from microslip.studies.curve import LOST, Wanted, trace_curve, trace_sector
 
     data, picture = arguments.outputs(options, "frc")
     if options.tolerance is not None:
         options.overrides.append(f"curve.tolerance={options.tolerance}")
     scene = load_scene(options.scene, options.overrides)
-    problem = problem_of(scene)
-    wanted = Wanted(options.branches, options.detached)
-    traced = trace_curve(problem, scene.curve, watched(scene.curve), wanted)
+    wanted, watch = Wanted(options.branches, options.detached), watched(scene.curve)
+    sector = sector_of(scene)
+    if sector is None:
+        traced = trace_curve(problem_of(scene), scene.curve, watch, wanted)
+    else:
+        traced = trace_sector(sector, scene.curve, watch, wanted)
     save(data, Stored(traced.curve, scene.text, options.command))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     print(_table(traced))
-    if problem.interface.count:
-        print(_rest(problem.interface.names, traced.rest))
+    if traced.curve.contacts:
+        print(_rest(traced.curve.contacts, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
     print(_resolution(traced.curve))

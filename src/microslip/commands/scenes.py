@@ -13,6 +13,11 @@ two-blades   two turbine blades coupled at their shrouds by a friction element
     contact.sigma=3e-9 | 3e-7     stiff or soft contact
     contact.damping_ratio=0.05    normal contact damping
     rope.stiffness=0              no rope
+bladed-disk  a disk of lumped sectors, tips of neighbouring blades rub on each other
+  variants:
+    solve=sector | disk           one sector by cyclic symmetry, or the whole disk
+    mistuning.deviation=0.01      random stiffness of the sectors, of the whole disk
+    friction.law=jenkins | coulomb, sectors=…, drive.engine_order=…
 systems of any matrices and elements (scene = "system"):
   duffing        a mass on a linear and a cubic spring
   jenkins        a mass on a spring and an elastic dry-friction slider

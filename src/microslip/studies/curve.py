@@ -8,10 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from hbm.continuation import ContinuationError
+from hbm.cyclic import cyclic_response
 from hbm.options import CurveOptions
 from hbm.solve import branches, detached, frequency_response
 from microslip.progress import Watch
+from microslip.quantity import SceneError
 from microslip.scene_file import Curve
+from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
 from microslip_mechanics.static import StaticState, static_equilibrium
@@ -49,14 +52,48 @@ def trace_curve(
     ``wanted`` says what is sought beside it.
     """
     rest = static_equilibrium(problem)
-    options = CurveOptions(
+    traced = _all(problem, rest, _options(curve), wanted)
+    return _gathered(problem, rest, traced, watch)
+
+
+def trace_sector(
+    problem: CyclicProblem, curve: Curve, watch: Watch = iter, wanted: Wanted = ALONE
+) -> Traced:
+    """Trace the curve of one sector that stands for a disk, as :func:`trace_curve`.
+
+    Raises
+    ------
+    SceneError
+        If more than the curve is wanted.
+    """
+    if wanted != ALONE:
+        raise SceneError(
+            "branches and detached curves of a disk may break its symmetry, which one "
+            "sector cannot show: give --set solve=disk"
+        )
+    standing = problem.standing()
+    traced = cyclic_response(problem, _options(curve))
+    return _gathered(standing, static_equilibrium(standing), traced, watch)
+
+
+def _options(curve: Curve) -> CurveOptions:
+    """Return what a scene asks of a curve."""
+    return CurveOptions(
         2.0 * np.pi * curve.lowest,
         2.0 * np.pi * curve.highest,
         error=curve.tolerance,
         harmonics=curve.harmonics,
         samples=curve.samples,
     )
-    traced = _all(problem, rest, options, wanted)
+
+
+def _gathered(
+    problem: Problem,
+    rest: StaticState,
+    traced: Iterator[PeriodicResponse],
+    watch: Watch,
+) -> Traced:
+    """Return what was traced until it ended or was stopped."""
     responses, ending = gathered(watch(traced))
     made = response_curve(problem, responses, ending)
     return Traced(made, tuple(responses), rest)

@@ -10,6 +10,7 @@ from hbm.active import extended, moving
 from hbm.relative import relative_problem
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene
+from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.contact.law import (
     BRISTLE,
@@ -59,7 +60,7 @@ def pruned(scene: Scene) -> list[Pruned]:
 
 def obeyed(scene: Scene) -> list[tuple[str, str, str]]:
     """Return name, law and equation of each element; none of a scene without them."""
-    if isinstance(scene.rig, TwoBlades):
+    if isinstance(scene.rig, TwoBlades | BladedDisk):
         return []
     from microslip_mechanics.laws.catalogue import law_name
 

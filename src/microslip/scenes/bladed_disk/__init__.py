@@ -1,0 +1,1 @@
+"""A lumped bladed disk with friction between neighbouring blades."""

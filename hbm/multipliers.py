@@ -88,7 +88,8 @@ class Multipliers:
 
 
 def _rattles(normal_smallest: Array) -> bool:
-    return bool(np.mean(normal_smallest <= 0.0) >= RATTLING)
+    lifts = np.count_nonzero(normal_smallest <= 0.0)
+    return bool(lifts > 0 and lifts >= RATTLING * normal_smallest.size)
 
 
 def _finer(fourier: FourierBasis) -> FourierBasis:

@@ -7,13 +7,13 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from benchmarks.dop853 import DOP853, integrated, real_limit
-from benchmarks.first_order import FirstOrder, first_order, flow, jacobian
 from convergence import observed_order
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from rigs import rig_problem
 from small_problems import from_rest, marched, oscillator
+from timedomain.first_order import FirstOrder, first_order, flow, jacobian
 from timedomain.integrate import MarchOptions
 from timedomain.start import Start, first_state
 

@@ -177,7 +177,7 @@ def steady(
         if best.left <= CLOSED or since >= STALLED or not math.isfinite(left):
             break
         state = state + change
-    assert best is not None  # noqa: S101
+    assert best is not None
     return best
 
 

@@ -1,9 +1,10 @@
-"""What all methods of a comparison are given: a problem, a frequency, where to begin."""
+"""What all methods of a comparison are given: problem, frequency, where to begin."""
 
 from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -24,7 +25,7 @@ from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start, at_end, on_orbit
-from timedomain.steady import Coordinates, Slope, slope_of
+from timedomain.steady import Coordinates, Slope, slope_of, steady
 
 SHARE = 0.99
 """of the highest peak's frequency: on the flank, where contacts slide"""
@@ -49,6 +50,19 @@ class Carried:
     """the last of the periods"""
     seconds: float
     """of one thread's processor, per period"""
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What a method finds at one setting."""
+
+    orbit: Orbit
+    seconds: float
+    """of one thread's processor; of a march those of one period"""
+    marches: bool
+    """whether that is of one period, of many that pass before the motion is steady"""
+    left: float = 0.0
+    """estimated distance from the method's own steady state, over the vibration"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,13 +120,38 @@ def case_of(scene: Scene, hertz: float | None = None) -> Case:
         _first(problem, traced.rest, guess.frequency)
         begun = time.process_time() - begun
     start = on_orbit(problem, guess)
+    march(
+        problem,
+        guess.frequency,
+        MarchOptions(math.tau / guess.frequency / PHASES, 1),
+        1,
+        start,
+    )  # compiled from here on
     return Case(
         problem, traced.rest, guess, begun, start, _slope(problem, guess, start)
     )
 
 
+def steady_result(case: Case, carried: Callable[[Start], Carried]) -> Result:
+    """Return what a march finds in its steady state."""
+    fastest = math.inf
+
+    def timed(start: Start) -> Carried:
+        nonlocal fastest
+        made = carried(start)
+        fastest = min(fastest, made.seconds)
+        return made
+
+    found = steady(case.slope, timed, case.start, PERIODS)
+    return Result(found.made.orbit, fastest, marches=True, left=found.left)
+
+
 def march(
-    problem: Problem, frequency: float, options: MarchOptions, periods: int, start: Start
+    problem: Problem,
+    frequency: float,
+    options: MarchOptions,
+    periods: int,
+    start: Start,
 ) -> Carried:
     """March some periods from a motion; the last one is measured."""
     duration = periods * math.tau / frequency
@@ -129,7 +168,7 @@ def march(
     energy = float(taken[-1] - taken[-1 - PHASES])
     first = problem.probes.rows @ start.displacement
     shown = np.vstack([first, history.displacement])[-1 - PHASES : -1]
-    assert history.checkpoint is not None  # noqa: S101
+    assert history.checkpoint is not None
     return Carried(at_end(problem, history.checkpoint), Orbit(shown, energy), seconds)
 
 

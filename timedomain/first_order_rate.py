@@ -125,7 +125,8 @@ def _loads(system: System, time: float) -> Array:
     """Return the load on each mode over the motion unit, shape (modes,)."""
     factors = np.empty(system.loads.shape[0])
     load_factors(system.history, time, 0, factors)
-    return np.dot(factors, system.loads)
+    loads: Array = np.dot(factors, system.loads)
+    return loads
 
 
 @kernel

@@ -13,16 +13,17 @@ from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from timedomain.start import Start
 
-ITERATIONS = 12
+ITERATIONS = 25
 CLOSED = 1e-10
 """last change of the state over the vibration, at which the iteration ends"""
-STALLED = 3
+STALLED = 6
 """iterations without a smaller change, at which it ends too"""
 NEUTRAL = 1e-9
 """of the largest singular value of 1 − Φ: below it a direction stays where it is"""
@@ -49,7 +50,7 @@ class Coordinates:
     """R, shape (dofs, dofs)"""
     frequency: float
     """ω [rad/s]"""
-    sliders: Array
+    sliders: NDArray[np.int64]
     """places of the points that remember"""
     unit: float
     """of a traction [N], over that of a state"""

@@ -11,6 +11,7 @@ from microslip.commands import arguments, precision_tables
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from microslip.figures.precision import Line
     from microslip.studies.precision import Run
     from microslip.studies.precision_reference import Reference
 
@@ -87,11 +88,34 @@ def _keep(
     from microslip.figures.precision import precision_figure
     from microslip.store import save_figure, save_table
     from microslip.studies.orbit import QUANTITIES
-    from microslip.studies.precision_fronts import lines
 
     print(precision_tables.summary(found, exact))
     save_table(table, precision_tables.COLUMNS, precision_tables.rows(found))
     doubts = dict(zip(QUANTITIES, exact.spread, strict=True))
-    drawn = lines(found, exact)
-    save_figure(picture, precision_figure(drawn, doubts, arguments.title(options)))
+    drawn = precision_figure(_lines(found, exact), doubts, arguments.title(options))
+    save_figure(picture, drawn)
     print(f"table in {table}, picture in {picture}")
+
+
+def _lines(found: list[Run], exact: Reference) -> dict[str, Line]:
+    """Return what is drawn of each method that has a complete run."""
+    import numpy as np
+
+    from microslip.figures.precision import Line
+    from microslip.studies.precision_fronts import front, slope
+
+    made: dict[str, Line] = {}
+    for method in dict.fromkeys(run.method for run in found):
+        own = [r for r in found if r.method == method and r.ending == "complete"]
+        if not own:
+            continue
+        made[method] = Line(
+            np.array([run.seconds for run in own]),
+            np.array([run.errors for run in own]),
+            tuple(
+                [own.index(run) for run in front(own, place)]
+                for place in range(len(exact.spread))
+            ),
+            tuple(slope(own, place, doubt) for place, doubt in enumerate(exact.spread)),
+        )
+    return made

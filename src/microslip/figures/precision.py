@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +13,18 @@ from matplotlib.figure import Figure
 from microslip.figures.style import COLOURS, WIDTH, framed, literal
 from microslip_mechanics.arrays import Array
 
-MARKERS = "osD^vP*X"
+LOOKS = {
+    "harmonic balance": (COLOURS[0], "o", "-"),
+    "harmonic balance by tolerance": (COLOURS[5], "s", "-"),
+    "reference march": (COLOURS[1], "D", "-"),
+    "fast march": (COLOURS[4], "^", "-"),
+    "fast march by tolerance": (COLOURS[3], "v", "-"),
+    "shooting": (COLOURS[2], "P", "-"),
+    "scipy Radau": ("0.15", "*", "--"),
+    "scipy BDF": ("0.4", "X", "--"),
+    "scipy LSODA": ("0.6", "h", "--"),
+}
+"""colour, marker and line of each method; outsiders are grey"""
 TITLES = {
     "amplitude": "Peak amplitude",
     "energy": "Energy per period",
@@ -55,8 +67,8 @@ def precision_figure(
     for place, (axes, (quantity, doubt)) in enumerate(
         zip(panels, doubts.items(), strict=True)
     ):
-        for number, (method, line) in enumerate(lines.items()):
-            _draw(axes, line, place, number, method)
+        for method, line in lines.items():
+            _draw(axes, line, place, method)
         axes.set_xscale("log")
         axes.set_yscale("log")
         framed(axes, x="CPU time [s]", y="", title=TITLES[quantity])
@@ -81,17 +93,16 @@ def precision_figure(
     return figure
 
 
-def _draw(axes: Axes, line: Line, place: int, number: int, method: str) -> None:
+def _draw(axes: Axes, line: Line, place: int, method: str) -> None:
     """Draw all runs of a method, and a line through the best."""
     errors = np.maximum(line.errors[:, place], LOWEST)
-    look = {
-        "color": COLOURS[number % len(COLOURS)],
-        "marker": MARKERS[number % len(MARKERS)],
-        "linewidth": WIDTH,
-    }
+    colour, marker, style = LOOKS[method]
+    look: dict[str, Any] = {"color": colour, "marker": marker, "linewidth": WIDTH}
     axes.plot(line.seconds, errors, linestyle="", markersize=2.0, alpha=0.5, **look)
     best = list(line.fronts[place])
-    axes.plot(line.seconds[best], errors[best], markersize=4.5, label=method, **look)
+    axes.plot(
+        line.seconds[best], errors[best], style, markersize=4.5, label=method, **look
+    )
 
 
 def _doubt(axes: Axes, doubt: float) -> None:

@@ -19,7 +19,9 @@ ASKED = (1e-2, 1e-3, 1e-6)
 """errors at which costs are compared"""
 SURE = 10.0
 """times by which an error must exceed what the reference is known to"""
-BUDGET, QUICK = 8.0, 1.0
+LEFT = 0.1
+"""distance from its own steady state at which a march says nothing"""
+BUDGET, QUICK = 6.0, 1.0
 """seconds that a march of two periods may take, and refining a reference"""
 
 
@@ -32,7 +34,7 @@ class Run:
     seconds: float
     """of one thread's processor, from nothing to the steady state; NaN if it failed"""
     errors: tuple[float, ...]
-    """relative, of each of the quantities"""
+    """relative, of each of the quantities; of a march with what is left to go"""
     period: float
     """seconds of a march of one period; NaN if the method marches none"""
     periods: int
@@ -63,7 +65,7 @@ def runs(
         except (MicroslipError, ValueError, ArithmeticError, RuntimeWarning) as cause:
             yield _failed(setting, " ".join(str(cause).split()))
         else:
-            if time.process_time() - began > 3.0 * budget:
+            if time.process_time() - began > 2.0 * budget:
                 over.add(ladder)
             yield _run(case, exact, setting, result)
 
@@ -77,25 +79,32 @@ def _run(case: Case, exact: Reference, setting: Setting, result: Result) -> Run:
     """Return what a result costs and how wrong it is.
 
     A march from rest has its transient to wait for: as many periods as the slowest
-    multiplier needs to bring it below the error of the orbit.
+    multiplier needs to bring it below the error of the orbit. What is left to go to
+    the method's own steady state counts as error.
     """
     errors = result.orbit.errors(exact.orbit)
     if not result.marches:
         return Run(
-            setting.method, setting.name, result.seconds, errors, np.nan, 0, 0.0,
+            setting.method,
+            setting.name,
+            result.seconds,
+            errors,
+            np.nan,
+            0,
+            0.0,
             "complete",
-        )  # fmt: skip
-    periods = case.slope.periods(errors[2])
-    ending = "complete"
-    if not result.left <= errors[2]:
-        ending = f"not steady: {result.left:.1e} of the vibration is left to go"
+        )
+    if not result.left < LEFT:
+        return _failed(setting, f"not steady: {result.left:.1e} is left to go")
+    amplitude, energy, distance = (each + result.left for each in errors)
+    periods = case.slope.periods(distance)
     return Run(
         setting.method,
         setting.name,
         periods * result.seconds,
-        errors,
+        (amplitude, energy, distance),
         result.seconds,
         periods,
         result.left,
-        ending,
+        "complete",
     )

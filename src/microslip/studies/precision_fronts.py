@@ -7,9 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from microslip.figures.precision import Line
 from microslip.studies.precision import SURE, Run
-from microslip.studies.precision_reference import Reference
 
 LARGE = 0.1
 """error from which on nothing is said of convergence"""
@@ -45,12 +43,12 @@ def cost_at(runs: Sequence[Run], quantity: int, asked: float, doubt: float) -> f
     return float(np.exp(np.interp(math.log(asked), errors, costs)))
 
 
-def slope(runs: Sequence[Run], exact: Reference, quantity: int) -> float:
+def slope(runs: Sequence[Run], quantity: int, doubt: float) -> float:
     """Return the exponent by which the error falls with cost, along the front.
 
     NaN where fewer than three runs are above the reference's doubt and below 10 %.
     """
-    lowest = SURE * exact.spread[quantity]
+    lowest = SURE * doubt
     seen = [
         run for run in front(runs, quantity) if lowest < run.errors[quantity] < LARGE
     ]
@@ -59,20 +57,3 @@ def slope(runs: Sequence[Run], exact: Reference, quantity: int) -> float:
     costs = np.log([run.seconds for run in seen])
     errors = np.log([run.errors[quantity] for run in seen])
     return float(-np.polyfit(costs, errors, 1)[0])
-
-
-def lines(found: Sequence[Run], exact: Reference) -> dict[str, Line]:
-    """Return what is drawn of each method that has a complete run."""
-    made: dict[str, Line] = {}
-    for method in dict.fromkeys(run.method for run in found):
-        own = [r for r in found if r.method == method and r.ending == "complete"]
-        if not own:
-            continue
-        places = range(len(exact.spread))
-        made[method] = Line(
-            np.array([run.seconds for run in own]),
-            np.array([run.errors for run in own]),
-            tuple([own.index(run) for run in front(own, place)] for place in places),
-            tuple(slope(own, exact, place) for place in places),
-        )
-    return made

@@ -67,7 +67,7 @@ class Coordinates:
 
     def state(self, start: Start) -> Array:
         """Return a motion as a state."""
-        held = np.zeros(2 * self.sliders.size)
+        held: Array = np.zeros(2 * self.sliders.size)
         if start.traction is not None:
             held = start.traction[self.sliders].ravel() / self.unit
         moved = self.frequency * (self.root @ start.displacement)

@@ -115,7 +115,7 @@ def test_the_command_writes_a_table_and_a_picture(
     assert (tmp_path / "work.png").stat().st_size > 10_000
     with (tmp_path / "work.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    best = {}
+    best: dict[str, float] = {}
     for row in rows:
         # what the loosest of the tightest settings promises: 1e-3 of both
         error = max(float(row["amplitude_error"]), float(row["energy_error"]))

@@ -200,6 +200,39 @@ def periodic_response(
     return replace(response(small, balance, correction), shapes=shapes)
 
 
+def settled_response(
+    problem: Problem,
+    rest: StaticState,
+    guess: PeriodicResponse,
+    *,
+    error: float,
+    highest: float | None = None,
+) -> PeriodicResponse:
+    """Return the response at the frequency of ``guess`` to a stated error.
+
+    Harmonics and samples grow from one harmonic of the guess until the estimated
+    relative error of the amplitude is below ``error``, or until there are no more.
+
+    Raises
+    ------
+    ContinuationError
+        If the point does not converge.
+    """
+    frequency = guess.frequency
+    small, still, shapes = _small(problem, rest, highest or RESOLVED * frequency)
+    path = along_frequency(small, still, frequency, frequency)
+    around = CurveOptions(frequency, 2.0 * frequency, error=error, stability=False)
+    tracer = Tracer(small, path, around)
+    rows = path.problem.basis.T @ problem.interface.displacement
+    first = guess.seen(rows)[:3].ravel()
+    start = np.zeros(tracer.system.size)
+    start[: first.size], start[-1] = first, frequency
+    with threadpool_limits(1, "blas"):
+        found = correct_at(tracer.system, start, tracer.control, tracer.system)
+        made = next(tracer.curve.followed([found], tracer.pieces.metric))
+    return replace(made, shapes=shapes)
+
+
 def _most(options: CurveOptions) -> float:
     """Return the frequency up to which a sparse structure is resolved [rad/s]."""
     return RESOLVED * max(options.start, options.end)

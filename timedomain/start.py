@@ -13,7 +13,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_energy, contact_force
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
-from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.segments import factors_over
@@ -64,6 +64,19 @@ def on_orbit(problem: Problem, response: PeriodicResponse) -> Start:
             )  # fmt: skip
             tractions[point] = loop[:, 0]
     return Start(displacement[0], velocity[0], tractions)
+
+
+def at_end(problem: Problem, end: Checkpoint) -> Start:
+    """Return the motion at the end of a march, with what contacts remember.
+
+    Those that remember are marched by the reference method alone, whose checkpoint
+    holds their tractions.
+    """
+    if not remembers(problem.interface.points).any():
+        return Start(end.displacement, end.velocity)
+    state = first_state(problem, Dwell(1.0, 1.0), at_rest(problem))
+    restore(state, meters(problem, problem.loads.T.copy()), end)
+    return Start(end.displacement, end.velocity, state.past[:, 1].copy())
 
 
 def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:

@@ -38,6 +38,16 @@ def bare_kernel(function: Function) -> Function:
     return _compiled(function, counted=False)
 
 
+def closure(function: Function) -> Function:
+    """Compile a function with all that it closes over as constants; not kept on disk.
+
+    What a solver written in Python has to hand over at every call is then little.
+    """
+    if config.__dict__["DISABLE_JIT"]:
+        return function
+    return cast("Function", numba.njit(error_model="numpy", nogil=True)(function))
+
+
 def _compiled(function: Function, *, counted: bool) -> Function:
     """Return the kernel with its disk cache."""
     options = config.__dict__

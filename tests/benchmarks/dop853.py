@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate._ivp import dop853_coefficients as published
 
-from benchmarks.first_order import System, flow
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
+from timedomain.first_order_rate import System, flow
 
 STAGES = 12
 SAFETY, SMALLEST, LARGEST = 0.9, 0.2, 10.0

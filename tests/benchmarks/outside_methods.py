@@ -17,12 +17,12 @@ import sksundae
 from scipy.integrate import odeint, solve_ivp
 
 from benchmarks.dop853 import DOP853, integrated
-from benchmarks.first_order import FirstOrder, Flow, Jacobian
 from benchmarks.work_precision import Setting
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import joined
+from timedomain.first_order import FirstOrder, Flow, Jacobian
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
 

@@ -27,7 +27,6 @@ sys.path.append(str(Path(__file__).parents[1]))
 import numpy as np
 
 from benchmarks.dop853 import DOP853, real_limit
-from benchmarks.first_order import first_order
 from benchmarks.outside_methods import (
     METHODS,
     REFERENCES,
@@ -43,6 +42,7 @@ from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.static import static_equilibrium
+from timedomain.first_order import first_order
 from timedomain.start import Start
 
 HERTZ = 2.0 * np.pi

@@ -11,7 +11,7 @@ from hbm.fourier import FourierBasis, to_complex
 from hbm.options import CurveOptions
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
-from hbm.solve import frequency_response, periodic_response
+from hbm.solve import frequency_response, periodic_response, settled_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
@@ -177,6 +177,25 @@ def test_a_response_is_solved_again_with_more_harmonics() -> None:
         finer.coefficients[1:], direct.coefficients[1:], atol=1e-6 * size
     )
     assert again.iterations == 0
+
+
+def test_a_response_settles_to_the_error_asked_for() -> None:
+    problem = rig_problem(model="A")
+    rest = static_equilibrium(problem)
+    options = CurveOptions(TURN * 134.0, TURN * 135.0, error=1e-2, stability=False)
+    guess = next(frequency_response(problem, rest, options))
+    exact = periodic_response(problem, rest, guess, harmonics=511, samples=16384)
+
+    found = [
+        settled_response(problem, rest, guess, error=error) for error in (1e-2, 1e-4)
+    ]
+
+    seen = [each.seen(problem.probes.rows)[1:3, 0] for each in (*found, exact)]
+    loose, tight, right = (float(np.hypot(*each)) for each in seen)
+    assert found[0].harmonics < found[1].harmonics
+    assert found[1].error <= 1e-4
+    assert abs(loose / right - 1.0) < 1e-2
+    assert abs(tight / right - 1.0) < 1e-4
 
 
 def test_a_response_that_cannot_be_reached_says_so() -> None:

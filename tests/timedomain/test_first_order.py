@@ -7,13 +7,14 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from benchmarks.dop853 import DOP853, integrated, real_limit
-from benchmarks.first_order import FirstOrder, first_order, flow, jacobian
 from convergence import observed_order
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ELASTIC, PointLaw, contact_table
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from rigs import rig_problem
-from small_problems import from_rest, marched, oscillator
+from small_problems import from_rest, marched, mass_on_contact, oscillator
+from timedomain.first_order import FirstOrder, first_order, flow, jacobian
 from timedomain.integrate import MarchOptions
 from timedomain.start import Start, first_state
 
@@ -103,6 +104,51 @@ def test_the_jacobian_is_the_derivative_of_the_rate(
         difference = (ahead - back) / 2e-10
         size = np.abs(matrix[:, column]).max() + 1.0
         assert np.abs(matrix[:, column] - difference).max() < 1e-3 * size
+
+
+def slider() -> Problem:
+    """Return a mass on an elastic slider of 0.2 N behind 500 N/m."""
+    points = contact_table(
+        [PointLaw(friction=ELASTIC, tangential=500.0, dynamic=0.4, constant_load=True,
+                  load=0.5)]
+    )  # fmt: skip
+    return mass_on_contact(points, direction=1, stiffness=300.0, drive=1.5)
+
+
+def test_a_slider_s_traction_comes_back() -> None:
+    start = Start(np.array([1e-3]), np.array([0.2]), np.array([[0.15, 0.0]]))
+
+    form = formed(slider(), SMOOTH)
+    back = form.start(form.state(start))
+
+    assert back.traction is not None
+    np.testing.assert_allclose(back.displacement, start.displacement)
+    np.testing.assert_allclose(back.velocity, start.velocity)
+    assert back.traction[0, 0] == pytest.approx(0.15)
+    assert back.traction[0, 1] == 0.0
+
+
+@pytest.mark.parametrize("traction", [0.15, 0.2])
+def test_the_jacobian_knows_whether_a_slider_slides(traction: float) -> None:
+    form = formed(slider(), SMOOTH)
+    held = np.array([[traction, 0.0]])
+    state = form.state(Start(np.array([1e-3]), np.array([0.2]), held))
+    matrix = np.empty((state.size, state.size))
+
+    jacobian(form.system, 0.007, state, matrix)
+
+    # along the motion: across the slider's limit the rate has a step
+    for column in (0, 1):
+        change = np.zeros_like(state)
+        change[column] = 1e-6
+        ahead, back = (
+            rate_of(form, 0.007, state + sign * change) for sign in (1.0, -1.0)
+        )
+        np.testing.assert_allclose(
+            matrix[:, column], (ahead - back) / 2e-6, rtol=1e-5, atol=1e-6
+        )
+    rate = rate_of(form, 0.007, state)
+    assert (rate[2] == 0.0) == (traction == 0.2)
 
 
 def test_tight_tolerances_close_the_energy_balance() -> None:

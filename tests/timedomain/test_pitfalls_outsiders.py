@@ -11,7 +11,6 @@ import pytest
 from scipy.integrate import odeint, solve_ivp
 
 from benchmarks.dop853 import DOP853, integrated, real_limit
-from benchmarks.first_order import FirstOrder, first_order, flow, jacobian
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
@@ -19,6 +18,7 @@ from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
+from timedomain.first_order import FirstOrder, first_order, flow, jacobian
 from timedomain.start import Start
 
 HERTZ = 2.0 * np.pi

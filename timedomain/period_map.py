@@ -89,7 +89,9 @@ class PeriodMap:
         dofs = self.problem.structure.dofs
         seen = Probes(tuple(str(place) for place in range(dofs)), np.eye(dofs))
         duration, start = 2.0 * np.pi / self.frequency, self.start(state)
-        options = MarchOptions(duration / self.steps, 1, tolerance=TOLERANCE)
+        options = MarchOptions(
+            duration / self.steps, 1, method="reference", residual=TOLERANCE
+        )
         (history,) = integrate(
             replace(self.problem, probes=seen),
             Dwell(self.frequency, duration),

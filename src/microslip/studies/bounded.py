@@ -1,0 +1,167 @@
+"""Tasks in processes of their own, each with an end to its time."""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import signal
+import time
+import warnings
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import SpawnProcess
+from typing import Any, Generic, TypeVar
+
+Item = TypeVar("Item")
+Task = Callable[[Any], Iterator[Any]]
+"""yields better and better results of an item; the last one counts"""
+STARTING = 600.0
+"""seconds that a process may take until it is ready: machine code is made"""
+READY, RESULT, DONE = "ready", "result", "done"
+
+
+@dataclass(frozen=True, slots=True)
+class Ended(Generic[Item]):
+    """What became of an item."""
+
+    item: Item
+    result: Any
+    """the last one there was; None if there was none"""
+    cause: str
+    """why there is no better one; empty if the task came to its end"""
+    seconds: float
+
+
+def bounded(
+    task: Task,
+    items: Sequence[Item],
+    *,
+    seconds: float,
+    processes: int,
+    prepare: Callable[[], None],
+) -> Iterator[Ended[Item]]:
+    """Yield what becomes of each item, in the order in which they end.
+
+    A process that takes longer, or that dies, is replaced; the others go on. Nothing
+    interrupts a kernel but the end of its process.
+
+    Parameters
+    ----------
+    task, prepare
+        Functions of a module, which the processes import; ``prepare`` is called once in
+        each, before the time of its first item begins.
+    items
+        What the task is given, one after the other.
+    seconds
+        Of wall time for each item.
+    processes
+        That work at the same time.
+    """
+    waiting = deque(items)
+    crew: list[_Worker[Item]] = []
+    try:
+        while waiting or any(worker.busy for worker in crew):
+            while len(crew) < min(processes, len(crew) + len(waiting)):
+                crew.append(_Worker(task, prepare))
+            for worker in crew:
+                if not worker.busy and waiting:
+                    worker.begin(waiting.popleft(), seconds)
+            soonest = min(worker.deadline for worker in crew if worker.busy)
+            wait([each.pipe for each in crew if each.busy], _left(soonest))
+            for worker in [each for each in crew if each.busy]:
+                ended = worker.listened()
+                if worker.lost:
+                    crew.remove(worker)
+                if ended is not None:
+                    yield ended
+    finally:
+        for worker in crew:
+            worker.stop()
+
+
+class _Worker(Generic[Item]):
+    """One process, and what it is doing."""
+
+    def __init__(self, task: Task, prepare: Callable[[], None]) -> None:
+        context = multiprocessing.get_context("spawn")
+        self.pipe, theirs = context.Pipe()
+        self._process: SpawnProcess = context.Process(
+            target=_serve, args=(theirs, task, prepare), daemon=True
+        )
+        self._process.start()
+        theirs.close()
+        self._items: list[Item] = []
+        self._result: Any = None
+        self._began, self._seconds = time.monotonic(), 0.0
+        self._ready = self.lost = False
+        self.deadline = 0.0
+
+    @property
+    def busy(self) -> bool:
+        """Whether it has an item."""
+        return bool(self._items)
+
+    def begin(self, item: Item, seconds: float) -> None:
+        """Give it an item."""
+        self._items, self._result, self._seconds = [item], None, seconds
+        self.pipe.send(item)
+        self._start()
+
+    def _start(self) -> None:
+        self._began = time.monotonic()
+        self.deadline = self._began + (self._seconds if self._ready else STARTING)
+
+    def listened(self) -> Ended[Item] | None:
+        """Take what it tells; return how its item ended, if it has."""
+        try:
+            while self.pipe.poll():
+                word, told = self.pipe.recv()
+                if word == READY:
+                    self._ready = True
+                    self._start()
+                elif word == DONE:
+                    return self._ended(told)
+                else:
+                    self._result = told
+        except (EOFError, ConnectionError):
+            self.stop()
+            return self._ended(f"its process ended with {self._process.exitcode}")
+        if time.monotonic() < self.deadline:
+            return None
+        self.stop()
+        return self._ended(f"out of time after {self.deadline - self._began:.0f} s")
+
+    def _ended(self, cause: str) -> Ended[Item]:
+        (item,), self._items = self._items, []
+        return Ended(item, self._result, cause, time.monotonic() - self._began)
+
+    def stop(self) -> None:
+        """End the process."""
+        self.lost = True
+        self._process.kill()
+        self._process.join()
+        self.pipe.close()
+
+
+def _left(deadline: float) -> float:
+    return max(0.0, deadline - time.monotonic())
+
+
+def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
+    """Work on items until the other end closes."""
+    # the interruption is the parent's to handle: it ends this process
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    warnings.simplefilter("error", RuntimeWarning)
+    with contextlib.suppress(EOFError, ConnectionError):
+        prepare()
+        pipe.send((READY, None))
+        while True:
+            item, cause = pipe.recv(), ""
+            try:
+                for result in task(item):
+                    pipe.send((RESULT, result))
+            except Exception as error:  # noqa: BLE001  (whatever it is, the matrix goes on)
+                cause = f"{type(error).__name__}: {' '.join(str(error).split())}"
+            pipe.send((DONE, cause))

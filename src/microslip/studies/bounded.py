@@ -63,22 +63,28 @@ def bounded(
     crew: list[_Worker[Item]] = []
     try:
         while waiting or any(worker.busy for worker in crew):
-            while len(crew) < min(processes, len(crew) + len(waiting)):
-                crew.append(_Worker(task, prepare))
-            for worker in crew:
-                if not worker.busy and waiting:
-                    worker.begin(waiting.popleft(), seconds)
-            soonest = min(worker.deadline for worker in crew if worker.busy)
-            wait([each.pipe for each in crew if each.busy], _left(soonest))
-            for worker in [each for each in crew if each.busy]:
-                ended = worker.listened()
-                if worker.lost:
-                    crew.remove(worker)
-                if ended is not None:
-                    yield ended
+            idle = [worker for worker in crew if not worker.busy]
+            while waiting and (idle or len(crew) < processes):
+                if not idle:
+                    idle.append(_Worker(task, prepare))
+                    crew.append(idle[-1])
+                idle.pop().begin(waiting.popleft(), seconds)
+            yield from _heard(crew)
+            crew = [worker for worker in crew if not worker.lost]
     finally:
         for worker in crew:
             worker.stop()
+
+
+def _heard(crew: Sequence[_Worker[Item]]) -> Iterator[Ended[Item]]:
+    """Wait until one of them tells something or is late; yield what has ended."""
+    busy = [worker for worker in crew if worker.busy]
+    soonest = min(worker.deadline for worker in busy)
+    wait([each.pipe for each in busy], max(0.0, soonest - time.monotonic()))
+    for worker in busy:
+        ended = worker.listened()
+        if ended is not None:
+            yield ended
 
 
 class _Worker(Generic[Item]):
@@ -145,10 +151,6 @@ class _Worker(Generic[Item]):
         self.pipe.close()
 
 
-def _left(deadline: float) -> float:
-    return max(0.0, deadline - time.monotonic())
-
-
 def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
     """Work on items until the other end closes."""
     # the interruption is the parent's to handle: it ends this process
@@ -162,6 +164,6 @@ def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
             try:
                 for result in task(item):
                     pipe.send((RESULT, result))
-            except Exception as error:  # noqa: BLE001  (whatever it is, the matrix goes on)
+            except Exception as error:
                 cause = f"{type(error).__name__}: {' '.join(str(error).split())}"
             pipe.send((DONE, cause))

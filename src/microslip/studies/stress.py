@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import partial
@@ -147,7 +147,7 @@ def _studied(
     except EXPECTED as error:
         yield Finding(cause=f"harmonic balance: {_line(error)}")
         return
-    yield from _compared(problem, traced, clock)
+    yield from _compared(problem, traced)
 
 
 class _Clock:
@@ -170,7 +170,7 @@ class _Clock:
                 raise ContinuationError("out of time on the curve")
 
 
-def _compared(problem: Problem, traced: Traced, clock: _Clock) -> Iterator[Finding]:
+def _compared(problem: Problem, traced: Traced) -> Iterator[Finding]:
     """Yield what the other solver makes of points of a curve."""
     curve = traced.curve
     places = _places(curve.amplitude.max(axis=1), curve.event)
@@ -182,13 +182,11 @@ def _compared(problem: Problem, traced: Traced, clock: _Clock) -> Iterator[Findi
         iterations=float(curve.iterations.mean()),
         condition=_condition(problem, traced, places[0]),
     )
-    yield replace(finding, cause=f"{finding.cause or 'shooting has not ended'}")
-    outcome = Outcome.AGREES
+    outcome = Outcome.AGREES if whole else Outcome.HONEST
     for place in places:
+        yield finding
         finding, worse = _beside(problem, traced.responses[place], finding)
         outcome = max(outcome, worse, key=list(Outcome).index)
-    if not whole and outcome is not Outcome.DISAGREES:
-        outcome = Outcome.HONEST
     yield replace(finding, outcome=outcome)
 
 

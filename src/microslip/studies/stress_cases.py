@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import typing
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-from microslip.quantity import Quantity, SceneError
+from microslip.quantity import SceneError
 from microslip.scene_file import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
 
@@ -44,7 +43,6 @@ NOMINAL = 2e-3
 """damping ratio that the rig's α and β make at its frequencies"""
 BAD = ("nan", "inf", "-inf", "1e999", "1e308")
 """the last one is a number: what is made of it must be finite, or one line"""
-QUICK = "quick"
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,13 +163,14 @@ def _structure(rig: TwoBlades) -> list[Case]:
         )
         for factor in MASSES
     ]
+    terms = ("mass_damping", "stiffness_damping")
     dampings = [
         Case(
             "damping ratio",
             f"{ratio:g}",
-            (
-                f"blade.mass_damping={blade.mass_damping * ratio / NOMINAL!r}",
-                f"blade.stiffness_damping={blade.stiffness_damping * ratio / NOMINAL!r}",
+            tuple(
+                f"blade.{name}={getattr(blade, name) * ratio / NOMINAL!r}"
+                for name in terms
             ),
         )
         for ratio in RATIOS
@@ -186,35 +185,26 @@ def _structure(rig: TwoBlades) -> list[Case]:
 
 def _refused() -> list[Case]:
     """Return, for each table, every number of it replaced by each bad value."""
-    found = []
-    tables = typing.get_type_hints(TwoBlades)
-    for table, hint in tables.items():
-        kind = next(
-            (each for each in _kinds(hint) if dataclasses.is_dataclass(each)), None
-        )
-        if kind is None:
-            continue
-        keys = [key for key in numbers(kind) if key != "elements"]
-        found += [
-            Case(
-                f"{bad}" if bad != "1e308" else "1e308",
-                table,
-                (),
-                refusals=tuple((f"{table}.{key}={bad}",) for key in keys),
-            )
-            for bad in BAD
-        ]
-    return sorted(found, key=lambda case: BAD.index(case.parameter))
+    tables = {}
+    for table, hint in typing.get_type_hints(TwoBlades).items():
+        kinds = [each for each in _kinds(hint) if dataclasses.is_dataclass(each)]
+        tables[table] = [key for kind in kinds for key in numbers(kind)]
+    return [
+        Case(bad, table, (), refusals=tuple((f"{table}.{key}={bad}",) for key in keys))
+        for bad in BAD
+        for table, keys in tables.items()
+        if keys
+    ]
 
 
-def numbers(table: type) -> Mapping[str, Quantity]:
-    """Return the numbers of a table of scenes."""
+def numbers(table: typing.Any) -> list[str]:  # noqa: ANN401  (a dataclass)
+    """Return the names of the numbers in a table of scenes."""
     hints = typing.get_type_hints(table)
-    return {
-        field.name: field.metadata["quantity"]
+    return [
+        field.name
         for field in dataclasses.fields(table)
         if "quantity" in field.metadata and hints[field.name] in (float, int)
-    }
+    ]
 
 
 def _kinds(hint: object) -> tuple[object, ...]:

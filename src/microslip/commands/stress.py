@@ -22,7 +22,7 @@ SHARE = 0.95
 """of the cases that must converge in both solvers and agree within 1 %"""
 LONGEST = 60.0
 """seconds for a case"""
-QUICK = 15.0
+QUICK = 8.0
 """the same in a quick look"""
 
 
@@ -34,8 +34,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Take each number of a scene of two blades to its extremes; trace "
         "the curve, find its largest orbit again by shooting, and compare; give every "
         "number a value that is none. Write SCENE-stress.png and SCENE-stress.csv. "
-        "Exit status 1 if a value disagrees, or if less than "
-        f"{100.0 * SHARE:g} %% of the cases converge in both and agree within 1 %%.",
+        "Exit status 1 if a value disagrees, or if, of all cases, less than "
+        f"{100.0 * SHARE:g} %% converge in both and agree within 1 %%.",
         epilog="example: microslip stress two-blades --set model=B",
     )
     arguments.add_scene(parser)
@@ -93,7 +93,7 @@ def _run(options: argparse.Namespace) -> int:
         return arguments.ended("interrupted")
     finally:
         _write(options, picture, chosen, found)
-    return _verdict(found)
+    return _verdict(found, 0.0 if options.quick else SHARE)
 
 
 def _line(tried: Tried) -> str:
@@ -106,7 +106,7 @@ def _line(tried: Tried) -> str:
     )
 
 
-def _verdict(found: Sequence[Tried]) -> int:
+def _verdict(found: Sequence[Tried], share: float) -> int:
     """Print the rates and each case that falls short; return the exit status."""
     from microslip.studies.stress import Outcome, rate
 
@@ -126,7 +126,7 @@ def _verdict(found: Sequence[Tried]) -> int:
         f"{len(bad)} disagree; {refused} rows of bad values are refused; "
         f"longest case {longest:.0f} s"
     )
-    return 0 if not bad and good >= SHARE * solved else 1
+    return 0 if not bad and good >= share * solved else 1
 
 
 def _write(

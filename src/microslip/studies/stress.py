@@ -28,12 +28,13 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
 from timedomain.comparison import Comparison, compared
+from timedomain.shooting import ShootingOptions
 from timedomain.verify import agreement, march_periods
 
 AGREED = 0.01
 """relative difference of amplitudes up to which the solvers agree"""
-TRACING = 0.5
-"""share of a case's time after which its curve is left where it is"""
+TRACING, SHOOTING = 0.4, 0.15
+"""shares of a case's time after which its curve, and each orbit, is left"""
 PERIODS, STEPS = 30, 600
 """of the march that decides where shooting finds no orbit, and in a period of it"""
 EXPECTED = (MicroslipError, ValueError, ArithmeticError, RuntimeWarning, MemoryError)
@@ -147,7 +148,7 @@ def _studied(
     except EXPECTED as error:
         yield Finding(cause=f"harmonic balance: {_line(error)}")
         return
-    yield from _compared(problem, traced)
+    yield from _compared(problem, traced, SHOOTING * seconds)
 
 
 class _Clock:
@@ -170,7 +171,7 @@ class _Clock:
                 raise ContinuationError("out of time on the curve")
 
 
-def _compared(problem: Problem, traced: Traced) -> Iterator[Finding]:
+def _compared(problem: Problem, traced: Traced, seconds: float) -> Iterator[Finding]:
     """Yield what the other solver makes of points of a curve."""
     curve = traced.curve
     places = _places(curve.amplitude.max(axis=1), curve.event)
@@ -185,7 +186,7 @@ def _compared(problem: Problem, traced: Traced) -> Iterator[Finding]:
     outcome = Outcome.AGREES if whole else Outcome.HONEST
     for place in places:
         yield finding
-        finding, worse = _beside(problem, traced.responses[place], finding)
+        finding, worse = _beside(problem, traced.responses[place], finding, seconds)
         outcome = max(outcome, worse, key=list(Outcome).index)
     yield replace(finding, outcome=outcome)
 
@@ -199,12 +200,12 @@ def _places(amplitude: Array, event: Sequence[str]) -> list[int]:
 
 
 def _beside(
-    problem: Problem, response: PeriodicResponse, finding: Finding
+    problem: Problem, response: PeriodicResponse, finding: Finding, seconds: float
 ) -> tuple[Finding, Outcome]:
     """Return what one point adds to a finding."""
     where = f"at {response.frequency / math.tau:.6g} Hz"
     try:
-        comparison = compared(problem, response)
+        comparison = compared(problem, response, ShootingOptions(seconds=seconds))
     except ShootingError as error:
         return _marched(problem, response, finding, f"{where}: {_line(error)}")
     except EXPECTED as error:

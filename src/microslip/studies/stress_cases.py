@@ -7,7 +7,7 @@ import typing
 from dataclasses import dataclass
 
 from microslip.quantity import SceneError
-from microslip.scene_file import Scene
+from microslip.scene_file import Curve, March, Scene, Sweep
 from microslip.scenes.two_blades.tables import TwoBlades
 
 SIGMAS = (3e-6, 3e-7, 3e-8, 3e-9, 3e-10, 3e-11)
@@ -42,7 +42,7 @@ STOPS = (1e3, 1e4, 1e5, 1e6, 1e7)
 NOMINAL = 2e-3
 """damping ratio that the rig's α and β make at its frequencies"""
 BAD = ("nan", "inf", "-inf", "1e999", "1e308")
-"""the last one is a number: what is made of it must be finite, or one line"""
+"""the last is a number: the curve that is made of it must be finite, or one line"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,7 +185,7 @@ def _structure(rig: TwoBlades) -> list[Case]:
 
 def _refused() -> list[Case]:
     """Return, for each table, every number of it replaced by each bad value."""
-    tables = {}
+    tables = {"sweep": numbers(Sweep), "curve": numbers(Curve), "march": numbers(March)}
     for table, hint in typing.get_type_hints(TwoBlades).items():
         kinds = [each for each in _kinds(hint) if dataclasses.is_dataclass(each)]
         tables[table] = [key for kind in kinds for key in numbers(kind)]
@@ -198,12 +198,13 @@ def _refused() -> list[Case]:
 
 
 def numbers(table: typing.Any) -> list[str]:  # noqa: ANN401  (a dataclass)
-    """Return the names of the numbers in a table of scenes."""
+    """Return the names of the numbers, and lists of them, in a table of scenes."""
     hints = typing.get_type_hints(table)
     return [
         field.name
         for field in dataclasses.fields(table)
-        if "quantity" in field.metadata and hints[field.name] in (float, int)
+        if "quantity" in field.metadata
+        and {float, int} & {hints[field.name], *_kinds(hints[field.name])}
     ]
 
 

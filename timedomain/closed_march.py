@@ -49,7 +49,7 @@ class ClosedMarch:
 def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedMarch:
     """Return the orbit of one number of steps by Newton's iteration.
 
-    It is given up where :func:`time.monotonic` has passed ``until`` [s].
+    It is given up where :func:`time.process_time` has passed ``until`` [s].
 
     Directions along which 1 − Φ has a singular value below :data:`NEUTRAL` of the
     largest, such as the mean position of a body that nothing but friction holds, are
@@ -113,7 +113,7 @@ def _closer(
 
 def _marched(carried: PeriodMap, state: Array, until: float) -> tuple[Period, Array]:
     """Return one period from a state, and end less beginning."""
-    if time.monotonic() > until:
+    if time.process_time() > until:
         raise ShootingError(f"{_at(carried)} is out of time")
     with np.errstate(over="ignore", invalid="ignore"):
         try:

@@ -24,7 +24,7 @@ class ShootingOptions:
     most: int = 8192
     """steps of the finest orbit"""
     seconds: float = math.inf
-    """after which the search is given up, between two marches"""
+    """of processor time after which the search is given up, between two marches"""
 
     def __post_init__(self) -> None:
         """Check that orbits can be compared, and that a number of steps ends it."""
@@ -74,7 +74,7 @@ def periodic_orbit(
     if not 0.0 < frequency < math.inf:
         raise ValueError(f"frequency {frequency:g} rad/s: give a positive finite one")
     chosen = options or ShootingOptions()
-    until = time.monotonic() + chosen.seconds
+    until = time.process_time() + chosen.seconds
     coarse = _first(problem, frequency, start, chosen, until)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import multiprocessing
 import signal
+import sys
 import time
 import warnings
 from collections import deque
@@ -19,6 +21,12 @@ Task = Callable[[Any], Iterator[Any]]
 """yields better and better results of an item; the last one counts"""
 STARTING = 600.0
 """seconds that a process may take until it is ready: machine code is made"""
+CROWDED = 10.0
+"""times its processor time that an item may take where others use the processors"""
+LATE = () if sys.platform == "win32" else (-signal.SIGXCPU,)
+"""exit codes of a process that has used its time"""
+GONE = 5.0
+"""seconds for a process that has closed its end to be gone"""
 READY, RESULT, DONE = "ready", "result", "done"
 
 
@@ -55,7 +63,7 @@ def bounded(
     items
         What the task is given, one after the other.
     seconds
-        Of wall time for each item.
+        Of processor time for each item; of wall time where the system sets no limit.
     processes
         That work at the same time.
     """
@@ -112,12 +120,13 @@ class _Worker(Generic[Item]):
     def begin(self, item: Item, seconds: float) -> None:
         """Give it an item."""
         self._items, self._result, self._seconds = [item], None, seconds
-        self.pipe.send(item)
+        self.pipe.send((item, seconds))
         self._start()
 
     def _start(self) -> None:
         self._began = time.monotonic()
-        self.deadline = self._began + (self._seconds if self._ready else STARTING)
+        most = self._seconds if sys.platform == "win32" else CROWDED * self._seconds
+        self.deadline = self._began + (most if self._ready else STARTING)
 
     def listened(self) -> Ended[Item] | None:
         """Take what it tells; return how its item ended, if it has."""
@@ -133,11 +142,17 @@ class _Worker(Generic[Item]):
                     self._result = told
         except (EOFError, ConnectionError):
             self.stop()
-            return self._ended(f"its process ended with {self._process.exitcode}")
+            late = self._process.exitcode in LATE
+            died = f"its process ended with {self._process.exitcode}"
+            return self._ended(self._late if late else died)
         if time.monotonic() < self.deadline:
             return None
         self.stop()
-        return self._ended(f"out of time after {self.deadline - self._began:.0f} s")
+        return self._ended(self._late)
+
+    @property
+    def _late(self) -> str:
+        return f"out of time after {self._seconds:g} s"
 
     def _ended(self, cause: str) -> Ended[Item]:
         (item,), self._items = self._items, []
@@ -145,7 +160,10 @@ class _Worker(Generic[Item]):
 
     def stop(self) -> None:
         """End the process."""
+        if self.lost:
+            return
         self.lost = True
+        self._process.join(GONE if self.pipe.poll() else 0.0)
         self._process.kill()
         self._process.join()
         self.pipe.close()
@@ -160,10 +178,21 @@ def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
         prepare()
         pipe.send((READY, None))
         while True:
-            item, cause = pipe.recv(), ""
+            (item, seconds), cause = pipe.recv(), ""
+            _limit(seconds)
             try:
                 for result in task(item):
                     pipe.send((RESULT, result))
             except Exception as error:
                 cause = f"{type(error).__name__}: {' '.join(str(error).split())}"
             pipe.send((DONE, cause))
+
+
+def _limit(seconds: float) -> None:
+    """Have the system end this process when it has used its time."""
+    if sys.platform != "win32":
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_CPU)
+        used = math.ceil(time.process_time() + seconds)
+        resource.setrlimit(resource.RLIMIT_CPU, (used, most))

@@ -155,13 +155,13 @@ class _Clock:
     """Ends a curve at its share of the time, between two points."""
 
     def __init__(self, seconds: float) -> None:
-        self._end = time.monotonic() + seconds
-        self._traced = time.monotonic() + TRACING * seconds
+        self._end = time.process_time() + seconds
+        self._traced = time.process_time() + TRACING * seconds
 
     @property
     def over(self) -> bool:
         """Whether the curve's share is over."""
-        return time.monotonic() > self._traced
+        return time.process_time() > self._traced
 
     def watch(self, items: Any) -> Iterator[Any]:  # noqa: ANN401  (what a watch takes)
         """Pass items through until the time is over."""

@@ -14,7 +14,7 @@ import pytest
 from microslip.quantity import SceneError
 from microslip.scene_file import load_scene
 from microslip.studies import stress
-from microslip.studies.bounded import bounded
+from microslip.studies.bounded import Ended, bounded
 from microslip.studies.stress import Finding, Outcome, Tried, judged, rate, tried
 from microslip.studies.stress_cases import BAD, Case, cases
 from microslip_mechanics.response import PeriodicResponse
@@ -165,7 +165,7 @@ def test_what_hangs_dies_or_fails_does_not_stop_the_others() -> None:
 def test_a_defect_is_no_honest_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
     def ended(*_: object, **__: object) -> Iterator[object]:
         for cause in ("", "out of time after 3 s", "TypeError: none"):
-            yield stress.Ended(Case("mu", cause, ()), Finding(Outcome.AGREES), cause, 1)
+            yield Ended(Case("mu", cause, ()), Finding(Outcome.AGREES), cause, 1)
 
     monkeypatch.setattr(stress, "bounded", ended)
 

@@ -72,7 +72,9 @@ def bounded(
     try:
         while waiting or any(worker.busy for worker in crew):
             idle = [worker for worker in crew if not worker.busy]
-            while waiting and (idle or len(crew) < processes):
+            # the first makes the machine code that the others then find
+            most = processes if any(worker.ready for worker in crew) else 1
+            while waiting and (idle or len(crew) < most):
                 if not idle:
                     idle.append(_Worker(task, prepare))
                     crew.append(idle[-1])
@@ -109,7 +111,7 @@ class _Worker(Generic[Item]):
         self._items: list[Item] = []
         self._result: Any = None
         self._began, self._seconds = time.monotonic(), 0.0
-        self._ready = self.lost = False
+        self.ready = self.lost = False
         self.deadline = 0.0
 
     @property
@@ -126,7 +128,7 @@ class _Worker(Generic[Item]):
     def _start(self) -> None:
         self._began = time.monotonic()
         most = self._seconds if sys.platform == "win32" else CROWDED * self._seconds
-        self.deadline = self._began + (most if self._ready else STARTING)
+        self.deadline = self._began + (most if self.ready else STARTING)
 
     def listened(self) -> Ended[Item] | None:
         """Take what it tells; return how its item ended, if it has."""
@@ -134,7 +136,7 @@ class _Worker(Generic[Item]):
             while self.pipe.poll():
                 word, told = self.pipe.recv()
                 if word == READY:
-                    self._ready = True
+                    self.ready = True
                     self._start()
                 elif word == DONE:
                     return self._ended(told)

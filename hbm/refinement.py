@@ -15,10 +15,6 @@ from microslip_mechanics.jit import kernel
 
 GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
-INSET = 1e-15
-"""share of a piece by which its ends are looked at from inside"""
-PLACES = np.append(GAUSS_PLACES, [INSET, 1.0 - INSET])
-"""where a piece is looked at"""
 
 
 class Samples(NamedTuple):
@@ -59,76 +55,41 @@ def refine(
 ) -> None:
     """Replace the trapezoidal rule in one cell by Gauss rules between its events.
 
-    What a node sees is shared out to the two samples as a linear function would be. The
-    longer a piece, the more of it is the straight line between its ends: the rule turns
-    into that of whole cells when an event passes a sample.
+    What a node sees is shared out to the two samples as a linear function would be.
     """
     wraps = place + 1 == made.forces.shape[1] // 2 and symmetry.signs.size > 0
     target = 0 if wraps else after
-    for side in range(2):
-        # what the trapezoidal rule has put there is taken back
-        share = float(side)
-        _evaluate(points, point, displacement, velocity, place, after, share, work)
-        near, far = -0.5 * (1.0 - share), -0.5 * share
-        blur = (1.0 - 2.0 * share) / 6.0
+    for piece in range(-2, 3 * (events.size - 1)):
+        if piece < 0:
+            # what the trapezoidal rule has put there is taken back
+            share = piece + 2.0
+            near, far = -0.5 * (1.0 - share), -0.5 * share
+            blur = 1.0 / 6.0
+        else:
+            left, right = events[piece // 3], events[piece // 3 + 1]
+            share = left + (right - left) * GAUSS_PLACES[piece % 3]
+            weight = (right - left) * GAUSS_WEIGHTS[piece % 3]
+            near, far, blur = weight * (1.0 - share), weight * share, 0.0
+        for axis in range(3):
+            row = 3 * point + axis
+            work.moved[axis] = (1.0 - share) * displacement[row, place] + (
+                share * displacement[row, after]
+            )
+            work.moving[axis] = (1.0 - share) * velocity[row, place] + (
+                share * velocity[row, after]
+            )
+        contact_force(
+            points, point, work.moved, work.moving, work.force,
+            work.by_displacement, work.by_velocity,
+        )  # fmt: skip
         _deposit(
-            point, work, made, first, last, place, near, near + blur, False, symmetry
-        )
+            point, work, made, first, last, place, near,
+            near + blur * (1.0 - 2.0 * share), False, symmetry,
+        )  # fmt: skip
         _deposit(
-            point, work, made, first, last, target, far, far - blur, wraps, symmetry
-        )
-    for piece in range(events.size - 1):
-        left, length = events[piece], events[piece + 1] - events[piece]
-        straight = length * length
-        for node in range(5):
-            share = left + length * PLACES[node]
-            _evaluate(points, point, displacement, velocity, place, after, share, work)
-            if node < 3:
-                weight, kept = length * GAUSS_WEIGHTS[node], last
-                near, far = weight * (1.0 - share), weight * share
-                weight = 1.0 - straight
-                near_forced, far_forced = weight * near, weight * far
-            else:
-                # an end stands for its share in the line, and brings no tangent:
-                # that of a contact that closes is infinite there
-                near, far, kept = 0.0, 0.0, first
-                slope = length / (6.0 if node == 3 else 3.0)
-                near_forced = straight * length * (0.5 * (1.0 - left) - slope)
-                far_forced = straight * length * (0.5 * left + slope)
-            _deposit(
-                point, work, made, first, kept, place, near, near_forced, False,
-                symmetry,
-            )  # fmt: skip
-            _deposit(
-                point, work, made, first, kept, target, far, far_forced, wraps,
-                symmetry,
-            )  # fmt: skip
-
-
-@kernel
-def _evaluate(
-    points: ContactPoints,
-    point: int,
-    displacement: Array,
-    velocity: Array,
-    place: int,
-    after: int,
-    share: float,
-    work: Work,
-) -> None:
-    """Write force and tangents at a place between two samples."""
-    for axis in range(3):
-        row = 3 * point + axis
-        work.moved[axis] = (1.0 - share) * displacement[row, place] + (
-            share * displacement[row, after]
-        )
-        work.moving[axis] = (1.0 - share) * velocity[row, place] + (
-            share * velocity[row, after]
-        )
-    contact_force(
-        points, point, work.moved, work.moving, work.force,
-        work.by_displacement, work.by_velocity,
-    )  # fmt: skip
+            point, work, made, first, last, target, far,
+            far - blur * (1.0 - 2.0 * share), wraps, symmetry,
+        )  # fmt: skip
 
 
 @kernel

@@ -56,31 +56,12 @@ def passes(
     one, two = velocity[row + 1, place], velocity[row + 2, place]
     next_one, next_two = velocity[row + 1, after], velocity[row + 2, after]
     square, next_square = one * one + two * two, next_one**2 + next_two**2
-    if max(square, next_square) <= threshold**2:
-        return False
-    by_one, by_two = next_one - one, next_two - two
-    if one * by_one + two * by_two < 0.0 < next_one * by_one + next_two * by_two:
-        return True
-    slowest = slowest_square(one, two, by_one, by_two)
-    least = max(slowest, threshold**2)
-    for speed in (threshold**2, wide**2, 4.0 * least, 64.0 * least):
-        if (square <= speed) != (next_square <= speed):
+    turns = one * next_one + two * next_two < 0.0
+    for speed in (threshold, wide):
+        slow, next_slow = square <= speed**2, next_square <= speed**2
+        if slow != next_slow or (turns and not slow):
             return True
     return False
-
-
-@kernel
-def slowest_square(one: float, two: float, by_one: float, by_two: float) -> float:
-    """Return the square of the least speed on the straight line of a velocity.
-
-    It comes from a cross product: a difference of squares would lose a threshold that
-    is 1e-8 of the speeds at the samples.
-    """
-    square = by_one * by_one + by_two * by_two
-    if square == 0.0:
-        return one * one + two * two
-    across = one * by_two - two * by_one
-    return across * across / square
 
 
 @kernel
@@ -141,22 +122,20 @@ def _slow(
     ``one`` and ``two`` are the sliding velocity at the first sample, ``by_one`` and
     ``by_two`` what the second has more.
     """
-    if max(math.hypot(one, two), math.hypot(one + by_one, two + by_two)) <= threshold:
-        return 0
     found = _crossings(one, two, by_one, by_two, threshold, events, 0)
     if wide > threshold:
         found = _crossings(one, two, by_one, by_two, wide, events, found)
     square = by_one * by_one + by_two * by_two
     if square == 0.0:
         return found
-    slowest = math.sqrt(slowest_square(one, two, by_one, by_two))
     middle = -(one * by_one + two * by_two) / square
-    if 0.0 < middle < 1.0 and slowest > threshold:
+    if 0.0 < middle < 1.0:
         found += 1
         events[found] = middle
-    for times in (2.0, 8.0):
-        speed = times * max(slowest, threshold)
-        found = _crossings(one, two, by_one, by_two, speed, events, found)
+        slowest = math.hypot(one + middle * by_one, two + middle * by_two)
+        for times in (2.0, 8.0):
+            speed = times * max(slowest, threshold)
+            found = _crossings(one, two, by_one, by_two, speed, events, found)
     return found
 
 
@@ -175,8 +154,10 @@ def _crossings(
     if square == 0.0:
         return found
     middle = -(one * by_one + two * by_two) / square
-    least = slowest_square(one, two, by_one, by_two)
-    inside = (speed * speed - least) / square
+    # The least speed on the way, from a cross product: a difference of squares would
+    # lose a threshold that is 1e-8 of the speeds at the samples.
+    least = one * by_two - two * by_one
+    inside = (speed * speed - least * least / square) / square
     if inside <= 0.0:
         return found
     root = math.sqrt(inside)

@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 
+from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import TimeHistory
 
+CLOSES = 1e-2
+"""closing error from which on no march is believed"""
+MATTERS = 1e-3
+"""share of the input from which on friction is what the error is compared with"""
 
-def closes(history: TimeHistory, tolerance: float) -> bool:
-    """Return whether the closing error stays below a share of the energy put in.
 
-    A march that is wrong may still close, one that does not close is wrong.
+def closes(result: TimeHistory | Envelope, tolerance: float = CLOSES) -> bool:
+    """Return whether the closing error stays below a share of the energies.
+
+    They are what friction takes out, where that is a thousandth of the input or more,
+    and the input else. A march that is wrong may still close; one that does not close
+    is wrong.
     """
-    put_in = np.abs(history.of("input")).max() + abs(history.stored_at_start)
-    return bool(np.abs(history.closing_error).max() <= tolerance * put_in)
+    put_in = np.abs(result.of("input")).max() + abs(result.stored_at_start)
+    rubbed = np.abs(result.of("friction")).max()
+    size = rubbed if rubbed > MATTERS * put_in else put_in
+    return bool(np.abs(result.closing_error).max() <= tolerance * size)

@@ -141,6 +141,11 @@ class FastMarch:
                 raise self._failure()
             if status >= 0:
                 self._fill(*divmod(status, LEVELS))
+        if not np.isfinite(rows).all():
+            raise IntegrationError(
+                f"numbers overflow before t = {times[-1]:.6g} s: give a structure, "
+                "contacts and loads of realistic sizes"
+            )
         return self._table(times, rows, counts - before)
 
     def _fill(self, place: int, level: int) -> None:

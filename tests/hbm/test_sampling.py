@@ -5,10 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from contact_tables import FRICTION_LAWS, contact_points
+from contact_tables import contact_points
 from convergence import observed_order
 from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis, derivative, to_complex, to_real
+from hbm.fourier import FourierBasis, derivative, to_complex
 from hbm.refinement import GAUSS_PLACES, GAUSS_WEIGHTS
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import (
@@ -175,27 +175,3 @@ def test_the_mean_damping_is_the_share_of_the_period_that_sticks(ratio: float) -
     # The velocity is linear within a cell: its slope is off by (h / 2)² / 6, 4e-4.
     exact = 2.0 * np.arcsin(ratio) / np.pi
     np.testing.assert_allclose(shares, exact, rtol=2e-3)
-
-
-@pytest.mark.parametrize("law", ["coulomb", "gkf"])
-def test_the_force_does_not_jump_when_an_event_passes_a_sample(law: str) -> None:
-    points = contact_points(
-        friction=FRICTION_LAWS[law], threshold=0.02, viscous=0.0, damping_exponent=1.0
-    )
-    contact = AlternatingFrequencyTime(
-        points, np.eye(3), FourierBasis(HARMONICS, SAMPLES)
-    )
-    amplitudes = np.zeros((HARMONICS + 1, 3), complex)
-    amplitudes[0, 0] = 0.003
-    amplitudes[1] = 0.02 - 0.004j, 0.1 - 0.3j, 0.2 + 0.1j
-    amplitudes[2] = -0.006 - 0.003j, 0.05 + 0.02j, 0.03 - 0.04j
-
-    places = np.linspace(0.0, 2.0 * TURN / SAMPLES, 4001)
-    found = np.array(
-        [contact(to_real(turned(amplitudes, each)), 1.0)[0] for each in places]
-    )
-
-    # Measured 4e-6; with Gauss's rule alone in cells with events, jumps of 5e-5 to 3e-4
-    # held Newton's iteration up where contacts rattle.
-    bends = np.abs(np.diff(found, 2, axis=0)).max(axis=(0, 1))
-    assert (bends < 1e-5 * np.abs(found).max(axis=(0, 1))).all()

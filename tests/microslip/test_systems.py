@@ -208,17 +208,6 @@ def test_explain_lists_each_element_with_its_equation(run: Run) -> None:
         assert "=" in line
 
 
-def test_march_refuses_forces_of_different_phase(run: Run, tmp_path: Path) -> None:
-    path = written(tmp_path, BEGIN + PAIR.replace("jenkins", "linear-damper").replace(
-        'stiffness = "2 N/mm"\nlimit = "500 mN"', "damping = 3"))  # fmt: skip
-
-    status, _, error = run("sweep", path)
-
-    assert status == 1
-    assert "different phases" in error
-    assert error.count("\n") == 1
-
-
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [

@@ -75,9 +75,14 @@ def _run(options: argparse.Namespace) -> int:
     with recording:
         ending = kept(watched(loads.duration)(blocks), recording.keep)
         recording.end(ending)
-    _show(options, data, picture)
+    closed = _show(options, data, picture)
     unit = "cycles" if envelope else "times"
     print(f"{recording.rows} {unit} in {data}, picture in {picture}")
+    if ending == "complete" and not closed:
+        ending = (
+            "the energy balance does not close, so the march is wrong: give a smaller "
+            "--tolerance, or a shorter march.time_step with --tolerance 0"
+        )
     return arguments.ended(ending)
 
 
@@ -134,15 +139,17 @@ def _resumed(
     return recording, end.checkpoint, envelope
 
 
-def _show(options: argparse.Namespace, data: Path, picture: Path) -> None:
-    """Print and draw what the file holds."""
+def _show(options: argparse.Namespace, data: Path, picture: Path) -> bool:
+    """Print and draw what the file holds; return whether its energies balance."""
     from microslip.figures.result import result_figure
     from microslip.store import load, save_figure
+    from timedomain.closure import closes
 
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)
     save_figure(picture, result_figure(result, arguments.title(options)))
     print(energy_table(result))
     print("\n".join([*_estimates(result), *_extremes(result)]))
+    return closes(result)
 
 
 def watched(duration: float, name: str = "sweep") -> Watch:

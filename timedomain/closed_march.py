@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,8 +46,10 @@ class ClosedMarch:
     iterations: int
 
 
-def closed(carried: PeriodMap, state: Array) -> ClosedMarch:
+def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedMarch:
     """Return the orbit of one number of steps by Newton's iteration.
+
+    It is given up where :func:`time.process_time` has passed ``until`` [s].
 
     Directions along which 1 − Φ has a singular value below :data:`NEUTRAL` of the
     largest, such as the mean position of a body that nothing but friction holds, are
@@ -57,7 +60,7 @@ def closed(carried: PeriodMap, state: Array) -> ClosedMarch:
     ShootingError
         If it does not converge.
     """
-    marched = _marched(carried, state)
+    marched = _marched(carried, state, until)
     for iteration in range(1, ITERATIONS + 1):
         period, gap = marched
         monodromy = carried.monodromy(period)
@@ -75,7 +78,7 @@ def closed(carried: PeriodMap, state: Array) -> ClosedMarch:
             return ClosedMarch(
                 carried, state, period, monodromy, neutral, share, iteration
             )
-        state, marched = _closer(carried, state, change, apart)
+        state, marched = _closer(carried, state, change, apart, until)
     raise ShootingError(
         f"{_at(carried)} does not converge in {ITERATIONS} iterations: "
         "give a closer start or more steps"
@@ -91,13 +94,13 @@ def _change(monodromy: Array, gap: Array) -> tuple[Array, int]:
 
 
 def _closer(
-    carried: PeriodMap, state: Array, change: Array, apart: float
+    carried: PeriodMap, state: Array, change: Array, apart: float, until: float
 ) -> tuple[Array, tuple[Period, Array]]:
     """Return the state after a change, halved until the period closes better."""
     for halvings in range(HALVINGS):
         trial = state + 0.5**halvings * change
         try:
-            marched = _marched(carried, trial)
+            marched = _marched(carried, trial, until)
         except ShootingError:
             continue
         if np.linalg.norm(marched[1]) < apart:
@@ -108,8 +111,10 @@ def _closer(
     )
 
 
-def _marched(carried: PeriodMap, state: Array) -> tuple[Period, Array]:
+def _marched(carried: PeriodMap, state: Array, until: float) -> tuple[Period, Array]:
     """Return one period from a state, and end less beginning."""
+    if time.process_time() > until:
+        raise ShootingError(f"{_at(carried)} is out of time")
     with np.errstate(over="ignore", invalid="ignore"):
         try:
             period = carried.march(state)

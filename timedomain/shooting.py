@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import dataclass
 
 from microslip_mechanics.problem import Problem
@@ -22,6 +23,8 @@ class ShootingOptions:
     """steps are doubled until the amplitude's estimated relative error is below it"""
     most: int = 8192
     """steps of the finest orbit"""
+    seconds: float = math.inf
+    """of processor time after which the search is given up, between two marches"""
 
     def __post_init__(self) -> None:
         """Check that orbits can be compared, and that a number of steps ends it."""
@@ -34,6 +37,8 @@ class ShootingOptions:
             )
         if not 0.0 < self.error < math.inf:
             raise ValueError(f"error {self.error:g}: give a positive finite number")
+        if not self.seconds > 0.0:
+            raise ValueError(f"{self.seconds:g} seconds: give a positive number")
 
 
 def periodic_orbit(
@@ -69,10 +74,11 @@ def periodic_orbit(
     if not 0.0 < frequency < math.inf:
         raise ValueError(f"frequency {frequency:g} rad/s: give a positive finite one")
     chosen = options or ShootingOptions()
-    coarse = _first(problem, frequency, start, chosen)
+    until = time.process_time() + chosen.seconds
+    coarse = _first(problem, frequency, start, chosen, until)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
-        fine = closed(finer, coarse.state)
+        fine = closed(finer, coarse.state, until)
         orbit = extrapolated(coarse, fine)
         if orbit.error <= chosen.error or 2 * finer.steps > chosen.most:
             return orbit
@@ -80,7 +86,11 @@ def periodic_orbit(
 
 
 def _first(
-    problem: Problem, frequency: float, start: Start, chosen: ShootingOptions
+    problem: Problem,
+    frequency: float,
+    start: Start,
+    chosen: ShootingOptions,
+    until: float,
 ) -> ClosedMarch:
     """Return the orbit of the fewest steps that have one.
 
@@ -90,7 +100,7 @@ def _first(
     while True:
         carried = PeriodMap.of(problem, frequency, steps)
         try:
-            return closed(carried, carried.state(start))
+            return closed(carried, carried.state(start), until)
         except ShootingError:
             steps *= 2
             if 2 * steps > chosen.most:

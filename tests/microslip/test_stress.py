@@ -1,0 +1,247 @@
+"""Stiff and extreme cases: what the matrix covers, how each is judged and ends."""
+
+import csv
+import math
+import os
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from microslip.quantity import SceneError
+from microslip.scene_file import load_scene
+from microslip.studies import stress
+from microslip.studies.bounded import Ended, bounded
+from microslip.studies.stress import Finding, Outcome, Tried, judged, rate, tried
+from microslip.studies.stress_cases import BAD, Case, cases
+from microslip_mechanics.response import PeriodicResponse
+from timedomain.comparison import Comparison
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+ENDS = {
+    "sigma": ("3e-06", "3e-11"),
+    "V_lim [m/s]": ("0.01", "1e-08"),
+    "mu": ("0", "1e+06"),
+    "preload [N]": ("0", "1000"),
+    "drive [N]": ("1e-06", "1000"),
+    "contact damping": ("0", "1"),
+    "rope [N/m]": ("0", "1e+06"),
+    "element mass x": ("0.001", "1000"),
+    "exponent": ("1", "3"),
+    "GKF V_str [m/s]": ("0.5", "0.001"),
+    "GKF µs/µd": ("1", "10"),
+    "damping ratio": ("0", "0.2"),
+    "harmonics": ("1", "63"),
+}
+"""first and last value of rows"""
+
+
+def test_rows_go_from_one_extreme_to_the_other() -> None:
+    rows: dict[str, list[str]] = {}
+    for case in cases(load_scene("two-blades")):
+        rows.setdefault(case.parameter, []).append(case.value)
+
+    assert {name: (rows[name][0], rows[name][-1]) for name in ENDS} == ENDS
+
+
+def test_every_case_is_a_scene_of_its_own() -> None:
+    chosen = [case for case in cases(load_scene("two-blades")) if not case.refusals]
+    rigs = {
+        (case.scene, repr((loaded.rig, loaded.curve)))
+        for case in chosen
+        for loaded in [load_scene(case.scene or "two-blades", case.overrides)]
+    }
+
+    # the scene's own value lies within many a row
+    assert len(rigs) > len(chosen) - len(ENDS)
+
+
+def test_a_quick_look_has_each_row_and_each_bad_value() -> None:
+    scene = load_scene("two-blades")
+
+    short, whole = cases(scene, quick=True), cases(scene)
+
+    assert {case.parameter for case in short} == {case.parameter for case in whole}
+    assert sum(not case.refusals for case in short) < 20
+
+
+def test_bad_values_are_given_to_each_number() -> None:
+    given = {
+        each[0] for case in cases(load_scene("two-blades")) for each in case.refusals
+    }
+
+    for name in ("contact.sigma", "rope.stiffness", "sweep.levels", "curve.harmonics"):
+        assert given >= {f"{name}={bad}" for bad in BAD}
+
+
+def test_a_system_is_not_put_under_stress() -> None:
+    with pytest.raises(SceneError, match="two blades"):
+        cases(load_scene("duffing"))
+
+
+def comparison(difference: float, estimated: float, multiplier: float) -> Comparison:
+    """Return one with amplitudes that differ, as harmonic balance estimates or not."""
+    nothing = np.zeros(0)
+    response = PeriodicResponse(
+        1.0, np.zeros((3, 1)), nothing, nothing, 0.0, 0.0, 0.0, "converged", 1
+    )
+    return Comparison(
+        response,
+        np.array([1.0 - difference]),
+        np.array([1.0]),
+        estimated / 3.0,
+        0.0,
+        np.zeros(2),
+        0.9,
+        multiplier,
+        0.0,
+        1024,
+    )
+
+
+@pytest.mark.parametrize(
+    ("difference", "estimated", "multiplier", "outcome"),
+    [
+        (1e-4, 1e-3, 0.9, Outcome.AGREES),
+        (5e-3, 1e-3, 0.9, Outcome.WITHIN),
+        (1e-4, 1e-3, 1.5, Outcome.WITHIN),
+        (0.05, 0.1, 0.9, Outcome.HONEST),
+        (0.05, 1e-3, 0.9, Outcome.DISAGREES),
+    ],
+)
+def test_a_comparison_is_judged(
+    difference: float, estimated: float, multiplier: float, outcome: Outcome
+) -> None:
+    found, cause = judged(comparison(difference, estimated, multiplier))
+
+    assert found is outcome
+    assert bool(cause) is (outcome is not Outcome.AGREES)
+
+
+def test_the_rate_leaves_out_what_is_refused() -> None:
+    solved, refused = Case("mu", "1", ()), Case("nan", "rope", (), refusals=(("a",),))
+    found = [
+        Tried(solved, Finding(Outcome.AGREES), 1.0),
+        Tried(solved, Finding(Outcome.WITHIN), 1.0),
+        Tried(solved, Finding(Outcome.HONEST), 1.0),
+        Tried(refused, Finding(Outcome.REFUSED), 1.0),
+    ]
+
+    assert rate(found) == (2, 3)
+
+
+def ready() -> None:
+    """Prepare nothing."""
+
+
+def work(item: str) -> Iterator[str]:
+    """Do as an item says."""
+    yield f"half of {item}"
+    while item == "hangs":
+        time.process_time()
+    if item == "dies":
+        os._exit(3)
+    if item == "fails":
+        raise RuntimeError("a defect")
+    yield item
+
+
+def test_what_hangs_dies_or_fails_does_not_stop_the_others() -> None:
+    items = ["first", "hangs", "dies", "fails", "last"]
+    ended = bounded(work, items, seconds=3.0, processes=2, prepare=ready)
+
+    found = {each.item: (each.result, each.cause) for each in ended}
+
+    assert found["first"] == ("first", "")
+    assert found["hangs"] == ("half of hangs", "out of time after 3 s")
+    assert found["dies"] == ("half of dies", "its process ended with 3")
+    assert found["fails"] == ("half of fails", "RuntimeError: a defect")
+    assert found["last"] == ("last", "")
+
+
+def test_a_defect_is_no_honest_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
+    def ended(*_: object, **__: object) -> Iterator[object]:
+        for cause in ("", "out of time after 3 s", "TypeError: none"):
+            yield Ended(Case("mu", cause, ()), Finding(Outcome.AGREES), cause, 1)
+
+    monkeypatch.setattr(stress, "bounded", ended)
+
+    found = [each.finding for each in tried("gap", (), [], seconds=3.0, processes=1)]
+
+    assert [each.outcome for each in found] == [
+        Outcome.AGREES,
+        Outcome.HONEST,
+        Outcome.DISAGREES,
+    ]
+    assert found[2].cause == "TypeError: none"
+
+
+CHOSEN = [
+    Case("rope [N/m]", "10", ("rope.stiffness=10",)),
+    Case("harmonics", "1", ("curve.harmonics=1",)),
+    Case("sigma", "-1", ("contact.sigma=-1",)),
+    Case("nan", "rope", (), refusals=(("rope.stiffness=nan",),)),
+    Case("nan", "no number", (), refusals=(("preload.force=1",),)),
+]
+
+
+def test_cases_are_solved_compared_and_refused(compiled: None) -> None:  # noqa: ARG001
+    found = {
+        each.case: each.finding
+        for each in tried("two-blades", ("model=A",), CHOSEN, seconds=60.0, processes=2)
+    }
+
+    own, one, wrong, refused, taken = (found[case] for case in CHOSEN)
+    assert own.outcome is Outcome.AGREES
+    assert own.compared == 2
+    assert own.difference < 0.01
+    assert 1.0 < own.condition < 1e12
+    assert one.outcome in (Outcome.HONEST, Outcome.DISAGREES)
+    assert one.difference > 0.01
+    assert wrong.outcome is Outcome.HONEST
+    assert "[contact] sigma = -1" in wrong.cause
+    assert refused.outcome is Outcome.REFUSED
+    assert taken.outcome is Outcome.DISAGREES
+    assert "preload.force=1: taken as it is" in taken.cause
+
+
+def test_an_interrupted_matrix_keeps_table_and_picture(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(
+        _: str, __: Sequence[str], chosen: Sequence[Case], **___: object
+    ) -> Iterator[Tried]:
+        yield Tried(chosen[0], Finding(Outcome.AGREES, difference=1e-4), 1.5)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(stress, "tried", interrupted)
+
+    status, output, error = run("stress", "two-blades", "--quick")
+
+    assert status == 130
+    assert "what was computed is kept" in error
+    assert "sigma" in output
+    with (tmp_path / "two-blades-stress.csv").open(encoding="utf-8") as file:
+        (row,) = csv.DictReader(file)
+    assert row["outcome"] == "agrees"
+    assert math.isclose(float(row["difference"]), 1e-4)
+    assert (tmp_path / "two-blades-stress.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("outcome", "status"), [(Outcome.HONEST, 0), (Outcome.DISAGREES, 1)]
+)
+@pytest.mark.usefixtures("no_picture")
+def test_a_quick_look_fails_if_a_value_disagrees(
+    outcome: Outcome, status: int, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = [Tried(Case("mu", "1", ()), Finding(outcome, "a cause"), 1.0)]
+    monkeypatch.setattr(stress, "tried", lambda *_, **__: iter(made))
+
+    ended, output, _ = run("stress", "two-blades", "--quick")
+
+    assert ended == status
+    assert "mu = 1: a cause" in output

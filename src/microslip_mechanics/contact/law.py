@@ -24,7 +24,7 @@ from microslip_mechanics.contact.power_spring import (
     power_force,
 )
 from microslip_mechanics.contact.tanh_coulomb import tanh_coefficients
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel, kernel
 
 ONE_SIDED, TWO_SIDED = 0, 1
 """kinds of normal law: Hunt and Crossley's, and a spring that also pulls"""
@@ -173,13 +173,13 @@ def contact_force(
         by_velocity[1, 0], by_velocity[2, 0] = viscous * first, viscous * second
 
 
-@kernel
+@bare_kernel
 def rubs(points: ContactPoints, point: int) -> bool:
     """Return whether friction turns around within a threshold of the velocity."""
     return bool(FRICTIONLESS < points.friction[point] < ELASTIC)
 
 
-@kernel
+@bare_kernel
 def edge(points: ContactPoints, point: int) -> float:
     """Return the displacement [m] at which contact begins; −∞ if there is none."""
     if points.normal[point] == TWO_SIDED and points.friction[point] == FRICTIONLESS:
@@ -187,7 +187,7 @@ def edge(points: ContactPoints, point: int) -> float:
     return float(points.gap[point])
 
 
-@kernel
+@bare_kernel
 def contact_power(
     points: ContactPoints,
     point: int,
@@ -204,7 +204,7 @@ def contact_power(
     return friction, (force[0] - spring) * velocity[0]
 
 
-@kernel
+@bare_kernel
 def contact_energy(points: ContactPoints, point: int, penetration: float) -> float:
     """Return the elastic energy [J] stored in the normal spring of one point.
 
@@ -217,7 +217,7 @@ def contact_energy(points: ContactPoints, point: int, penetration: float) -> flo
     return float(spring * depth / (points.exponent[point] + 1.0))
 
 
-@kernel
+@bare_kernel
 def normal_response(
     points: ContactPoints, point: int, displacement: float, velocity: float
 ) -> tuple[float, float, float]:
@@ -228,7 +228,7 @@ def normal_response(
     return normal_force(normal_law(points, point), depth, velocity)
 
 
-@kernel
+@bare_kernel
 def spring_response(
     points: ContactPoints, point: int, displacement: float
 ) -> tuple[float, float]:
@@ -241,7 +241,7 @@ def spring_response(
     return force, points.exponent[point] * force / depth if force > 0.0 else 0.0
 
 
-@kernel
+@bare_kernel
 def power_law(points: ContactPoints, point: int) -> PowerSpring:
     """Return the two-sided law of one row of the table."""
     return PowerSpring(
@@ -252,7 +252,7 @@ def power_law(points: ContactPoints, point: int) -> PowerSpring:
     )
 
 
-@kernel
+@bare_kernel
 def normal_law(points: ContactPoints, point: int) -> HuntCrossley:
     """Return the one-sided law of one row of the table."""
     return HuntCrossley(

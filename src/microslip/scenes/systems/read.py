@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from microslip.quantity import Quantity, SceneError
-from microslip.scene_file import meant, read_table, shown
 from microslip.scenes.systems.rig import Matrices, Numbers, System, Wave
+from microslip.table import meant, read_table, shown
 from microslip_mechanics.element import KEYS
 from microslip_mechanics.laws.catalogue import LAWS
 

@@ -74,7 +74,8 @@ def _scalar(
     if typing.get_origin(hint) is Mapping:
         return _by_power(kind, value)
     if typing.get_origin(hint) is tuple:
-        return _several(kind, value)
+        texts = typing.get_args(hint)[0] is str
+        return _texts(value) if texts else _several(kind, value)
     if hint is str:
         if not isinstance(value, str) or not value:
             raise ValueError("is not a text: give one in quotes")
@@ -111,6 +112,13 @@ def _several(kind: Quantity, value: object) -> tuple[float, ...]:
     if not several:
         raise ValueError("is empty: give at least one number")
     return tuple(kind.read(each) for each in several)
+
+
+def _texts(value: object) -> tuple[str, ...]:
+    """Return a list of texts as a tuple."""
+    if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
+        raise ValueError("is no list of texts: give one")
+    return tuple(value)
 
 
 def shown(value: object) -> str:

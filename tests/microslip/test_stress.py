@@ -15,8 +15,9 @@ from microslip.quantity import SceneError
 from microslip.scene_file import load_scene
 from microslip.studies import stress
 from microslip.studies.bounded import Ended, bounded
-from microslip.studies.stress import Finding, Outcome, Tried, judged, rate, tried
+from microslip.studies.stress import tried
 from microslip.studies.stress_cases import BAD, Case, cases
+from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.comparison import Comparison
 

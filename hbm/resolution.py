@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -12,7 +12,12 @@ from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Linearised
 from hbm.path import Path
 from hbm.residual import Balance
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
+
+SMOOTHER = 1e-3
+"""relative change of a threshold velocity that tells what it does"""
+TURNING = 0.25
+"""share of a phasor's change that counts where its length just has an extremum"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +32,8 @@ class Estimate:
     """relative change of the amplitude by the harmonics that were left out"""
     sampling: float
     """and by the distance of the samples"""
+    smoothing: float
+    """and by friction that is not resolved"""
     corrected: Array
     """the point after the steps"""
     fourier: FourierBasis
@@ -34,8 +41,8 @@ class Estimate:
 
     @property
     def error(self) -> float:
-        """Sum of both."""
-        return self.truncation + self.sampling
+        """Sum of all."""
+        return self.truncation + self.sampling + self.smoothing
 
 
 class Resolved(Protocol):
@@ -62,6 +69,10 @@ class Resolution(ABC):
     def amplitudes(self, point: Array) -> Array:
         """Return the values by whose change an error is measured."""
 
+    def phasors(self, point: Array) -> ComplexArray:
+        """Return what these are the moduli of."""
+        return self.amplitudes(point).astype(complex)
+
     def estimate(
         self, correction: Correction, fourier: FourierBasis, normal: Array
     ) -> Estimate:
@@ -76,7 +87,7 @@ class Resolution(ABC):
             If the point lies on a fold.
         """
         point = correction.point
-        finer = FourierBasis(2 * fourier.harmonics + 1, 2 * fourier.samples)
+        finer = fourier.doubled
         residual, refined = self.at(finer)(point)
         step = refined.solve(normal, np.append(-residual, 0.0))
         again, _ = self.at(finer).residual(point + step)
@@ -95,7 +106,23 @@ class Resolution(ABC):
         sampling = float(np.abs(at_sampled - at_newton).max(initial=0.0)) / size
         truncation = float(np.abs(last - at_sampled).max(initial=0.0)) / size
         truncation += float(np.abs(last - after).max(initial=0.0)) / size
-        return Estimate(truncation, sampling, point + step + second, finer)
+        smoothing = 0.0
+        if fourier.threshold > 0.0:
+            change = self._resolved(correction, fourier, normal)
+            sharp, smooth = self.phasors(point + change), self.phasors(point)
+            turned = float(np.abs(sharp - smooth).max(initial=0.0))
+            moved = float(np.abs(np.abs(sharp) - np.abs(smooth)).max(initial=0.0))
+            smoothing = max(moved, TURNING * turned) / size
+        return Estimate(truncation, sampling, smoothing, point + step + second, finer)
+
+    def _resolved(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> Array:
+        """Return how a point changes, to first order, if friction is resolved."""
+        smoother = replace(fourier, threshold=(1.0 + SMOOTHER) * fourier.threshold)
+        other, _ = self.at(smoother).residual(correction.point)
+        slope = (other - correction.residual) / SMOOTHER
+        return correction.linearised.solve(normal, np.append(slope, 0.0))
 
 
 class PathResolution(Resolution):
@@ -118,7 +145,11 @@ class PathResolution(Resolution):
 
     def amplitudes(self, point: Array) -> Array:
         """Return the first-harmonic amplitude of each probe [m]."""
+        return np.abs(self.phasors(point))
+
+    def phasors(self, point: Array) -> ComplexArray:
+        """Return the first harmonic of each probe [m]."""
         rank = self.rank
         first = point[rank : 2 * rank] - 1j * point[2 * rank : 3 * rank]
         problem, frequency = self._path.at(float(point[-1]))
-        return np.abs(problem.first_harmonic(first, frequency, self._probes))
+        return problem.first_harmonic(first, frequency, self._probes)

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from microslip.studies.stress_cases import Case
+    from microslip.studies.stress_case import Case
     from microslip.studies.stress_finding import Tried
 
 HEADER = (

@@ -11,8 +11,8 @@ from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.bounded import Ended, bounded
 from microslip.studies.curve import trace_curve
-from microslip.studies.stress_cases import Case
-from microslip.studies.stress_clock import Clock
+from microslip.studies.stress_case import Case
+from microslip.studies.stress_clock import OutOfTimeError, limited
 from microslip.studies.stress_finding import (
     EXPECTED,
     Finding,
@@ -26,6 +26,8 @@ from microslip.studies.stress_witness import witnessed
 
 TOLERANCE = "curve.tolerance=5e-3"
 """half of what is asked, unless the curve is told otherwise"""
+TRACING = 0.55
+"""share of a case's time after which its curve is left"""
 
 
 def tried(
@@ -70,9 +72,8 @@ def _studied(
     scene: str, overrides: tuple[str, ...], seconds: float, case: Case
 ) -> Iterator[Finding]:
     """Yield what is found of a case, better and better."""
-    clock = Clock(seconds)
     if case.refusals:
-        yield from refusals(scene, overrides, case, clock)
+        yield from refusals(scene, overrides, case)
         return
     own = scene, (TOLERANCE, *overrides, *case.overrides)
     if case.scene is not None:
@@ -80,8 +81,9 @@ def _studied(
     try:
         loaded = load_scene(*own)
         problem = problem_of(loaded)
-        traced = trace_curve(problem, loaded.curve, clock.watch)
-    except EXPECTED as error:
+        with limited(TRACING * seconds):
+            traced = trace_curve(problem, loaded.curve)
+    except (*EXPECTED, OutOfTimeError) as error:
         yield Finding(cause=f"harmonic balance: {line(error)}")
         return
     yield from witnessed(problem, traced, seconds)

@@ -1,32 +1,39 @@
-"""The time that a curve under stress may take."""
+"""The time that a part of a case under stress may take."""
 
 from __future__ import annotations
 
-import time
+import contextlib
+import math
+import signal
 from collections.abc import Iterator
-from typing import Any
-
-from hbm.continuation import ContinuationError
-
-TRACING = 0.4
-"""share of a case's time after which its curve is left"""
 
 
-class Clock:
-    """Ends a curve at its share of the time, between two points."""
+class OutOfTimeError(KeyboardInterrupt):
+    """An interruption, which no solver takes for a failure of its own."""
 
-    def __init__(self, seconds: float) -> None:
-        self._end = time.process_time() + seconds
-        self._traced = time.process_time() + TRACING * seconds
 
-    @property
-    def over(self) -> bool:
-        """Whether the curve's share is over."""
-        return time.process_time() > self._traced
+@contextlib.contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """Interrupt what takes more processor time, at the next return from a kernel.
 
-    def watch(self, items: Any) -> Iterator[Any]:  # noqa: ANN401  (what a watch takes)
-        """Pass items through until the time is over."""
-        for item in items:
-            yield item
-            if self.over:
-                raise ContinuationError("out of time on the curve")
+    Where the system has no such timer it is not interrupted.
+
+    Raises
+    ------
+    OutOfTimeError
+        When the time is over.
+    """
+    if not hasattr(signal, "setitimer") or math.isinf(seconds):
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        raise OutOfTimeError("out of time")
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)

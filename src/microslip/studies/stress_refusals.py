@@ -7,26 +7,26 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.continuation import ContinuationError
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
 from microslip.studies.curve import trace_curve
-from microslip.studies.stress_cases import Case
-from microslip.studies.stress_clock import Clock
+from microslip.studies.stress_case import Case
+from microslip.studies.stress_clock import OutOfTimeError, limited
 from microslip.studies.stress_finding import EXPECTED, Finding, Outcome, line
 
+SECONDS = 2.0
+"""of processor time for the curve of a value that is a number"""
 
-def refusals(
-    scene: str, overrides: tuple[str, ...], case: Case, clock: Clock
-) -> Iterator[Finding]:
+
+def refusals(scene: str, overrides: tuple[str, ...], case: Case) -> Iterator[Finding]:
     """Yield whether each bad value is refused in a line, or computed to the end."""
     refused, computed, wrong = 0, 0, []
     for each in case.refusals:
         try:
             loaded = load_scene(scene, (*overrides, *each))
-            finite = _finite(loaded, clock)
-        except EXPECTED as error:
+            finite = _finite(loaded)
+        except (*EXPECTED, OutOfTimeError) as error:
             named = isinstance(error, SceneError) or case.parameter == "1e308"
             if named and len(str(error).splitlines()) <= 1:
                 refused += 1
@@ -41,10 +41,9 @@ def refusals(
         yield Finding(outcome, "; ".join((counts, *wrong)), compared=refused + computed)
 
 
-def _finite(loaded: Scene, clock: Clock) -> bool:
+def _finite(loaded: Scene) -> bool:
     """Return whether the curve of a scene is finite as far as it goes."""
-    if clock.over:
-        raise ContinuationError("out of time before the value was tried")
     curve = replace(loaded.curve, harmonics=3, samples=64)
-    traced = trace_curve(problem_of(loaded), curve, clock.watch)
+    with limited(SECONDS):
+        traced = trace_curve(problem_of(loaded), curve)
     return bool(np.isfinite(traced.curve.amplitude).all())

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from microslip.studies.curve import Traced
+from microslip.studies.stress_clock import OutOfTimeError, limited
 from microslip.studies.stress_condition import condition
 from microslip.studies.stress_finding import (
     AGREED,
@@ -24,11 +25,10 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
 from timedomain.comparison import compared
-from timedomain.shooting import ShootingOptions
 from timedomain.verify import agreement, march_periods
 
-SHOOTING = 0.15
-"""share of a case's time after which each orbit is left"""
+SHOOTING, MARCHING = 0.13, 0.07
+"""shares of a case's time after which each orbit, and each march, is left"""
 PERIODS, STEPS = 30, 600
 """of the march that decides where shooting finds no orbit, and in a period of it"""
 
@@ -67,11 +67,11 @@ def _beside(
     """Return what one point adds to a finding."""
     where = f"at {response.frequency / math.tau:.6g} Hz"
     try:
-        comparison = compared(
-            problem, response, ShootingOptions(seconds=SHOOTING * seconds)
-        )
-    except ShootingError as error:
-        return _marched(problem, response, finding, f"{where}: {line(error)}")
+        with limited(SHOOTING * seconds):
+            comparison = compared(problem, response)
+    except (ShootingError, OutOfTimeError) as error:
+        told = f"{where}: {line(error)}"
+        return _marched(problem, response, finding, told, seconds)
     except EXPECTED as error:
         cause = causes(finding.cause, f"shooting {where}: {line(error)}")
         return replace(finding, cause=cause), Outcome.HONEST
@@ -87,18 +87,21 @@ def _beside(
 
 
 def _marched(
-    problem: Problem, response: PeriodicResponse, finding: Finding, said: str
+    problem: Problem,
+    response: PeriodicResponse,
+    finding: Finding,
+    said: str,
+    seconds: float,
 ) -> tuple[Finding, Outcome]:
     """Return whether the motion stays on an orbit that shooting has not found."""
     said = f"no orbit by shooting {said}"
     if response.unstable > 0:
         return replace(finding, cause=causes(finding.cause, said)), Outcome.HONEST
+    marching = march_periods(problem, response, periods=PERIODS, steps_per_period=STEPS)
     try:
-        blocks = list(
-            march_periods(problem, response, periods=PERIODS, steps_per_period=STEPS)
-        )
-        found = agreement(problem, response, blocks)
-    except EXPECTED as error:
+        with limited(MARCHING * seconds):
+            found = agreement(problem, response, list(marching))
+    except (*EXPECTED, OutOfTimeError) as error:
         cause = causes(finding.cause, f"{said}; marching: {line(error)}")
         return replace(finding, cause=cause), Outcome.HONEST
     size = max(float(found.predicted.max(initial=0.0)), 1e-300)

@@ -136,7 +136,7 @@ class AdaptiveBalance:
         """
         if not self._estimates:
             return point, self.settled, math.nan
-        if self.estimate is None:
+        if self.estimate is None or math.isinf(self.estimate.error):
             return point, self.settled, math.inf
         if self._tolerance is None:
             return point, self.settled, 2.0 * self.estimate.error

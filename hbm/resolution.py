@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from typing import Protocol
@@ -14,6 +15,10 @@ from hbm.path import Path
 from hbm.residual import Balance
 from microslip_mechanics.arrays import Array, ComplexArray
 
+SURE = 0.25
+"""share of a residual that a Newton step leaves, where the next is sure to leave less"""
+DEPARTS = 2.0
+"""times that a residual grows in two steps that lead to no point"""
 SMOOTHER = 1e-3
 """relative change of a threshold velocity that tells what it does"""
 TURNING = 0.25
@@ -25,7 +30,8 @@ class Estimate:
     """What two Newton steps at twice the resolution say of a point.
 
     They leave an error no larger than themselves where the series converges like 1/H,
-    as dry friction does, and a much smaller one where it converges faster.
+    as dry friction does, and a much smaller one where it converges faster. Steps that
+    raise the residual say nothing: the error is infinite.
     """
 
     truncation: float
@@ -92,6 +98,7 @@ class Resolution(ABC):
         step = refined.solve(normal, np.append(-residual, 0.0))
         again, _ = self.at(finer).residual(point + step)
         second = refined.solve(normal, np.append(-again, 0.0))
+        corrected = point + step + second
         low = residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
         rights = np.zeros((point.size, 2))
@@ -100,12 +107,14 @@ class Resolution(ABC):
         newton, sampled = correction.linearised.solve(normal, rights).T
         before, at_newton, at_sampled, after, last = (
             self.amplitudes(point + each)
-            for each in (0.0 * point, newton, newton + sampled, step, step + second)
+            for each in (0.0 * point, newton, newton + sampled, step, corrected - point)
         )
         size = float(before.max(initial=0.0)) or 1.0
         sampling = float(np.abs(at_sampled - at_newton).max(initial=0.0)) / size
         truncation = float(np.abs(last - at_sampled).max(initial=0.0)) / size
         truncation += float(np.abs(last - after).max(initial=0.0)) / size
+        if self._departs(finer, corrected, residual, again):
+            truncation = math.inf
         smoothing = 0.0
         if fourier.threshold > 0.0:
             change = self._resolved(correction, fourier, normal)
@@ -113,7 +122,20 @@ class Resolution(ABC):
             turned = float(np.abs(sharp - smooth).max(initial=0.0))
             moved = float(np.abs(np.abs(sharp) - np.abs(smooth)).max(initial=0.0))
             smoothing = max(moved, TURNING * turned) / size
-        return Estimate(truncation, sampling, smoothing, point + step + second, finer)
+        return Estimate(truncation, sampling, smoothing, corrected, finer)
+
+    def _departs(
+        self, finer: FourierBasis, corrected: Array, residual: Array, again: Array
+    ) -> bool:
+        """Return whether two steps lead away from any point of twice the order.
+
+        ``residual`` and ``again`` are its residuals before and after the first.
+        """
+        before = float(np.linalg.norm(residual))
+        if float(np.linalg.norm(again)) <= SURE * before:
+            return False
+        after, _ = self.at(finer).residual(corrected)
+        return float(np.linalg.norm(after)) > DEPARTS * before
 
     def _resolved(
         self, correction: Correction, fourier: FourierBasis, normal: Array

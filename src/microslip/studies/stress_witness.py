@@ -24,11 +24,14 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
-from timedomain.comparison import compared
+from timedomain.comparison import COVERAGE, compared
 from timedomain.verify import agreement, march_periods
 
 SHOOTING, MARCHING = 0.13, 0.07
 """shares of a case's time after which each orbit, and each march, is left"""
+LEFT = 0.1
+"""relative change of the amplitude in a march that leaves an orbit; what is stable
+stays, but for the march's own error, which a sharp resonance multiplies"""
 PERIODS, STEPS = 30, 600
 """of the march that decides where shooting finds no orbit, and in a period of it"""
 
@@ -115,7 +118,13 @@ def _marched(
         difference=_larger(finding.difference, apart),
         steps=max(finding.steps, STEPS),
     )
-    return added, Outcome.WITHIN if stays else Outcome.HONEST
+    if stays:
+        return added, Outcome.WITHIN
+    left = apart > LEFT and apart > COVERAGE * response.error
+    return (
+        added,
+        Outcome.DISAGREES if left and not response.unstable else Outcome.HONEST,
+    )
 
 
 def _larger(known: float, other: float) -> float:

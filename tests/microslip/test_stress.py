@@ -6,8 +6,10 @@ import os
 import signal
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TypeAlias
+from types import SimpleNamespace
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
@@ -15,9 +17,9 @@ import pytest
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.studies import stress
+from microslip.studies import stress, stress_witness
 from microslip.studies.bounded import Ended, bounded
-from microslip.studies.curve import trace_curve
+from microslip.studies.curve import Traced, trace_curve
 from microslip.studies.stress import tried
 from microslip.studies.stress_bad_values import BAD
 from microslip.studies.stress_case import Case
@@ -25,6 +27,7 @@ from microslip.studies.stress_cases import cases
 from microslip.studies.stress_clock import OutOfTimeError, limited
 from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.response import PeriodicResponse
+from timedomain.closed_march import ShootingError
 from timedomain.comparison import Comparison
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -125,6 +128,53 @@ def test_a_comparison_is_judged(
 
     assert found is outcome
     assert bool(cause) is (outcome is not Outcome.AGREES)
+
+
+@pytest.mark.parametrize(
+    ("apart", "multiplier", "outcome"),
+    [
+        (0.005, 0.9, Outcome.WITHIN),
+        (0.05, 0.9, Outcome.HONEST),
+        (0.5, 0.9, Outcome.DISAGREES),
+        (0.5, 1.5, Outcome.HONEST),
+    ],
+)
+def test_a_march_judges_where_shooting_finds_nothing(
+    apart: float, multiplier: float, outcome: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def nothing(*_: object) -> Comparison:
+        raise ShootingError("no orbit")
+
+    def left(*_: object) -> SimpleNamespace:
+        marched = np.array([1.0 + apart])
+        return SimpleNamespace(
+            predicted=np.ones(1), marched=marched, last_distance=apart
+        )
+
+    for name, stand_in in (
+        ("compared", nothing),
+        ("march_periods", lambda *_, **__: []),
+        ("agreement", left),
+        ("condition", lambda *_: 1.0),
+    ):
+        monkeypatch.setattr(stress_witness, name, stand_in)
+    made = comparison(0.0, 1e-3, 0.9).response
+    response = replace(made, error=1e-3, multipliers=np.array([multiplier + 0.0j]))
+    curve: Any = SimpleNamespace(
+        amplitude=np.ones((1, 1)),
+        event=[""],
+        ending="complete",
+        frequency=np.ones(1),
+        harmonics=np.ones(1),
+        iterations=np.ones(1),
+    )
+    nobody: Any = None
+    traced = Traced(curve, (response,), nobody)
+
+    *_, found = stress_witness.witnessed(nobody, traced, 60.0)
+
+    assert found.outcome is outcome
+    assert "no orbit by shooting" in found.cause
 
 
 def test_the_rate_leaves_out_what_is_refused() -> None:

@@ -12,7 +12,7 @@ from microslip.scene_file import load_scene
 from microslip.studies.bounded import Ended, bounded
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_case import Case
-from microslip.studies.stress_clock import OutOfTimeError, limited
+from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
 from microslip.studies.stress_finding import (
     EXPECTED,
     Finding,
@@ -82,7 +82,7 @@ def _studied(
         loaded = load_scene(*own)
         problem = problem_of(loaded)
         with limited(TRACING * seconds):
-            traced = trace_curve(problem, loaded.curve)
+            traced = trace_curve(problem, loaded.curve, heeded)
     except (*EXPECTED, OutOfTimeError) as error:
         yield Finding(cause=f"harmonic balance: {line(error)}")
         return

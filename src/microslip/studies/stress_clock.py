@@ -5,7 +5,10 @@ from __future__ import annotations
 import contextlib
 import math
 import signal
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import TypeVar
+
+Item = TypeVar("Item")
 
 
 class OutOfTimeError(KeyboardInterrupt):
@@ -34,6 +37,30 @@ def limited(seconds: float) -> Iterator[None]:
     signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
+    except SystemError as error:
+        _check(error)
+        raise
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0.0)
         signal.signal(signal.SIGPROF, before)
+
+
+def heeded(items: Iterable[Item]) -> Iterator[Item]:
+    """Pass items through; what is interrupted within a kernel's call ends like them.
+
+    Raises
+    ------
+    OutOfTimeError
+        When the time of :func:`limited` is over.
+    """
+    try:
+        yield from items
+    except SystemError as error:
+        _check(error)
+        raise
+
+
+def _check(error: SystemError) -> None:
+    """Raise the interruption of which a kernel's call has made an error."""
+    if signal.getitimer(signal.ITIMER_PROF)[0] == 0.0:
+        raise OutOfTimeError("out of time") from error

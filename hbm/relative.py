@@ -50,6 +50,13 @@ class RelativeProblem:
             self.points, self.basis, fourier, offset=self.offset, odd=self.odd
         )
 
+    def smoothed(self, threshold: float) -> RelativeProblem:
+        """Return the problem with no threshold velocity below the given one [m/s]."""
+        if threshold == 0.0:
+            return self
+        least = np.maximum(self.points.threshold, threshold)
+        return replace(self, points=self.points._replace(threshold=least))
+
     def first_harmonic(
         self, relative: ComplexArray, frequency: float, rows: Array
     ) -> ComplexArray:

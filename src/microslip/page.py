@@ -29,8 +29,9 @@ img { width: 100%; height: auto; margin: .4rem 0; }
 table { border-collapse: collapse; margin: 1rem 0; font-size: .88rem; width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: .3rem .8rem .3rem 0;
   border-bottom: 1px solid #ddd; }
-td.time { text-align: right; white-space: nowrap; padding-right: 0; }
-.quiet { color: #666; }
+td:first-child { white-space: nowrap; }
+.time { text-align: right; white-space: nowrap; padding-right: 0; }
+.quiet, .left-out { color: #666; }
 .failed, .stopped { color: #b03000; }
 pre.failed { border-left: 3px solid #b03000; }
 @media print {

@@ -7,7 +7,7 @@ import contextlib
 import io
 import shlex
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -107,16 +107,22 @@ def _sections(
         if excuse:
             yield Section(part.command, part.title, part.about, LEFT_OUT, excuse)
         else:
-            yield _made(part, _words(part, options, folder), folder)
+            words = words_of(
+                part, options.scene, options.overrides, folder, quick=options.quick
+            )
+            yield _made(part, words, folder)
 
 
-def _words(part: Part, options: argparse.Namespace, folder: Path) -> list[str]:
+def words_of(
+    part: Part, scene: str, overrides: Sequence[str], folder: Path, *, quick: bool
+) -> list[str]:
     """Return the words of a part's command line."""
-    chosen = part.quick if options.quick else part.more
-    words = [part.command, *(chosen or ())]
+    words = [part.command]
     if part.scene:
-        words.insert(1, options.scene)
-        words += [word for each in options.overrides for word in ("--set", each)]
+        words.append(scene)
+    words += (part.quick if quick else part.more) or ()
+    if part.scene:
+        words += [f"--set={each}" for each in overrides]
     return [*words, "-o", str(folder / part.command)] if part.files else words
 
 

@@ -37,7 +37,7 @@ def no_rig(scene: Scene) -> str:
 
     if isinstance(scene.rig, TwoBlades):
         return ""
-    return "This section is about the numbers of two blades, which this scene has not."
+    return "This section is about the numbers of two blades, which this scene lacks."
 
 
 def one_sector(scene: Scene) -> str:

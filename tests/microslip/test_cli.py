@@ -27,6 +27,7 @@ COMMANDS = (
     "tables",
     "scenes",
     "explain",
+    "report",
     "plot",
 )
 

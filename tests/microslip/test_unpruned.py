@@ -8,9 +8,9 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
+from microslip.result_file import load
 from microslip.rigs import problem_of, unpruned_of
 from microslip.scene_file import BUILT_IN, load_scene
-from microslip.store import load
 from microslip.studies.unpruned import (
     Timed,
     difference,

@@ -10,8 +10,9 @@ from microslip.commands import arguments
 from microslip.commands.columns import SHOWN, headed, titled
 
 if TYPE_CHECKING:
+    from microslip.experiments import Curve
     from microslip.progress import Watch
-    from microslip.scene_file import Curve, Scene
+    from microslip.scene_file import Scene
     from microslip.studies.curve import Traced
     from microslip_mechanics.response import ResponseCurve
     from microslip_mechanics.static import StaticState

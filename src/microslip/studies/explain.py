@@ -9,7 +9,7 @@ import numpy as np
 
 from hbm.fourier import FourierBasis
 from hbm.path import AlongFrequency
-from microslip.rigs import sector_of
+from microslip.rigs import problem_of, sector_of, unpruned_of
 from microslip.scene_file import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
@@ -60,12 +60,15 @@ class Pruned:
 
 def pruned(scene: Scene) -> list[Pruned]:
     """Count what a scene's solvers carry, and what they would without pruning."""
-    path, whole = path_of(scene), unpruned_path_of(scene)
+    sector, whole = sector_of(scene), unpruned_of(scene)
+    problem = problem_of(scene) if sector is None else sector.standing()
     why = _load_reason(scene) if isinstance(scene.rig, TwoBlades) else LOADS
     return [
-        *_structure(scene, path.whole, whole.whole),
-        *_contacts(path.whole, why),
-        *_unknowns(path, whole, scene),
+        *_structure(scene, problem, whole),
+        *_contacts(problem, why),
+        # one sector cannot be marched
+        _step(problem if sector is None else whole),
+        *_unknowns(path_of(scene), unpruned_path_of(scene), scene),
         *_code(),
     ]
 
@@ -93,14 +96,31 @@ def _structure(scene: Scene, problem: Problem, whole: Problem) -> Iterator[Prune
         why = f"four a face in full, here {count // 2}"
         yield Pruned("contact points", count, points, why)
         return
-    why = f"all of the scene's; {'sparse' if problem.structure.sparse else 'dense'}"
     sector = sector_of(scene)
     if sector is not None:
         yield Pruned("sectors", 1, sector.sectors, "the others move like it, later")
-        why = "those of one sector"
-    yield Pruned("degrees of freedom", dofs, most, why)
+        yield Pruned("degrees of freedom", dofs, most, "those of one sector")
+    else:
+        yield Pruned("degrees of freedom", dofs, *_whole(scene, problem))
     why = "rows that the elements' laws become"
     yield Pruned("contact points", count, points, why)
+
+
+def _whole(scene: Scene, problem: Problem) -> tuple[int, str]:
+    """Return a system's number of degrees of freedom, and how it became smaller."""
+    made = None
+    if not isinstance(scene.rig, BladedDisk):
+        from microslip.scenes.systems.build import reduction
+
+        made = reduction(scene.rig)
+    if made is None:
+        sparse = "sparse" if problem.structure.sparse else "dense"
+        return problem.structure.dofs, f"all of the scene's; {sparse}"
+    wanted, hertz = scene.rig.structure.reduction, scene.curve.highest
+    return made.reduction.whole.dofs, (
+        f"{wanted.method}, modes up to {wanted.highest:g} Hz: stiffness at what is "
+        f"kept is off by {made.error(hertz):.1e} at {hertz:g} Hz"
+    )
 
 
 def _contacts(problem: Problem, why: str) -> Iterator[Pruned]:
@@ -112,16 +132,18 @@ def _contacts(problem: Problem, why: str) -> Iterator[Pruned]:
     yield Pruned("friction laws called", *_laws(problem), why)
 
 
+def _step(problem: Problem) -> Pruned:
+    """Count what a time step solves for."""
+    _, selection = problem.interface.relative_motion()
+    why = "relative motion of the faces; the structure is linear"
+    dofs = problem.structure.dofs
+    return _part("unknowns of a time step", len(selection), dofs, why)
+
+
 def _unknowns(
     path: AlongFrequency, whole: AlongFrequency, scene: Scene
 ) -> Iterator[Pruned]:
-    """Count what the solvers solve for, and what they evaluate for it."""
-    # one sector cannot be marched
-    marched = path.whole if sector_of(scene) is None else whole.whole
-    _, selection = marched.interface.relative_motion()
-    why = "relative motion of the faces; the structure is linear"
-    dofs = marched.structure.dofs
-    yield _part("unknowns of a time step", len(selection), dofs, why)
+    """Count what harmonic balance solves for, and what it evaluates for that."""
     why = "relative motions that move; the structure is condensed exactly"
     yield _part("coordinates of harmonic balance", path.rank, whole.rank, why)
     harmonics = scene.curve.harmonics or HARMONICS

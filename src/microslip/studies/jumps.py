@@ -80,7 +80,17 @@ def folds_of(problem: Problem, traced: Traced, *, lead: float) -> list[Fold]:
     lead
         How far behind the fold sweeps end, over the fold's frequency; they begin as far
         before it, or where the stable motion begins.
+
+    Raises
+    ------
+    StudyError
+        If the stability of the curve is not known.
     """
+    if any(each.event == "fold" and each.unstable < 0 for each in traced.responses):
+        raise StudyError(
+            "the curve has folds, but its stability is not known: sweep through them "
+            "by microslip sweep"
+        )
     found = []
     for place, response in enumerate(traced.responses):
         if response.event != "fold" or not 0 < place < len(traced.responses) - 1:

@@ -18,7 +18,6 @@ from hbm.newton import Correction, SingularError
 from hbm.options import CurveOptions
 from hbm.residual import Balance, HarmonicBalance
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import MARGIN, PeriodicResponse
 
@@ -120,10 +119,10 @@ class FoldCurve:
         self, balance: HarmonicBalance, parameter: float, frequency: float
     ) -> tuple[ComplexArray, int]:
         """Return the multipliers, and how many besides the fold's own exceed one."""
-        if remembers(self._problem.interface.points).any():
-            return np.empty(0, complex), -1
         motions = self._path.motions(parameter)
         multipliers = motions.multipliers(balance.contact, frequency)
+        if multipliers.size == 0:
+            return multipliers, -1
         others = np.delete(multipliers, np.abs(multipliers - 1.0).argmin())
         return multipliers, int((np.abs(others) > 1.0 + MARGIN).sum())
 

@@ -14,7 +14,6 @@ from hbm.path import Path
 from hbm.pieces import Pieces
 from hbm.resolution import PathResolution
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
@@ -33,8 +32,7 @@ class Tracer:
             errors=options.errors,
         )
         self.control = options.control(problem.force_scale)
-        known = options.stability and not remembers(problem.interface.points).any()
-        motions = path.motions if known else None
+        motions = path.motions if options.stability else None
         multipliers = Multipliers(
             resolution, motions, self.control.tolerance, options.harmonics is not None
         )

@@ -79,7 +79,7 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
             return ClosedMarch(
                 carried, state, period, monodromy, neutral, share, iteration
             )
-        state, marched = _closer(carried, state, change, apart, until)
+        state, marched = _closer(carried, state, change, marched, until)
     raise ShootingError(
         f"{_at(carried)} does not converge in {ITERATIONS} iterations: "
         "give a closer start or more steps"
@@ -95,17 +95,28 @@ def _change(slope: Array, gap: Array) -> tuple[Array, int]:
 
 
 def _closer(
-    carried: PeriodMap, state: Array, change: Array, apart: float, until: float
+    carried: PeriodMap,
+    state: Array,
+    change: Array,
+    before: tuple[Period, Array],
+    until: float,
 ) -> tuple[Array, tuple[Period, Array]]:
-    """Return the state after a change, halved until the period closes better."""
+    """Return the state after a change, halved until the period closes better.
+
+    Where sliders slip only just, no change may do so: they settle by their own march.
+    """
+    period, gap = before
     for halvings in range(HALVINGS):
         trial = state + 0.5**halvings * change
         try:
             marched = _marched(carried, trial, until)
         except ShootingError:
             continue
-        if np.linalg.norm(marched[1]) < apart:
+        if np.linalg.norm(marched[1]) < np.linalg.norm(gap):
             return trial, marched
+    settled = carried.settled(state, period)
+    if not np.array_equal(settled, state):
+        return settled, _marched(carried, settled, until)
     raise ShootingError(
         f"{_at(carried)}: Newton's change does not bring end and beginning together: "
         "there may be no orbit near the start, as beyond a fold; give a closer start"

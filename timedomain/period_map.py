@@ -11,7 +11,7 @@ and z = δs − b δφ turns its derivative into a matrix of rank r more than A:
 
 Steps are taken together in blocks, each a constant power of A and a small matrix. With
 friction that remembers the tractions are part of the state, and steps are taken one by
-one (:mod:`timedomain.sliders`).
+one (:mod:`timedomain.carried`).
 """
 
 from __future__ import annotations
@@ -23,12 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.sliders import Sliders, Slides
+from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
+from timedomain.carried import carried
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.propagator import ModalStructure
-from timedomain.relative_orbit import contact_tangents
-from timedomain.sliders import Sliders, Slides, carried
 from timedomain.start import Start
 
 BLOCK = 16
@@ -83,7 +84,8 @@ class PeriodMap:
         structure = ModalStructure.of(problem, frequency)
         whole = -(-steps // BLOCK) * BLOCK
         structure = replace(structure, scale=frequency)
-        sliders = Sliders.of(problem.interface)
+        basis, _ = problem.interface.relative_motion()
+        sliders = Sliders.of(problem.interface.points, basis)
         return cls(problem, structure, frequency, whole, sliders)
 
     @property
@@ -115,6 +117,11 @@ class PeriodMap:
         """Return the state after a period."""
         held = self.sliders.spread(period.slides.traction[-1])
         return self.state(Start(period.displacement[-1], period.velocity[-1], held))
+
+    def settled(self, state: Array, period: Period) -> Array:
+        """Return a state with the tractions that a period from it ends with."""
+        first = state.size - self.sliders.count
+        return np.append(state[:first], self.end(period)[first:])
 
     def gap(self, state: Array, period: Period) -> Array:
         """Return by how much a period from a state does not close.

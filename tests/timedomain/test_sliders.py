@@ -14,6 +14,7 @@ from microslip_mechanics.contact.law import (
     PointLaw,
     contact_table,
 )
+from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structure import Structure
@@ -22,7 +23,6 @@ from timedomain.closed_march import ClosedMarch, closed
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.period_map import BLOCK, PeriodMap
 from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.sliders import Sliders
 from timedomain.start import Start
 
 TURN = 2.0 * np.pi
@@ -186,7 +186,7 @@ def test_the_mean_force_is_taken_off_as_far_as_the_limit_admits(
     moved, moving = np.zeros((2, 481, 1, 3))
     wave = np.cos(phase) + 0.5 * np.cos(2.0 * phase)
     moved[:, 0, 1] = reach * LIMIT / STIFFNESS * wave
-    sliders = Sliders.of(masses(JENKINS, ALONG, np.zeros(1)).interface)
+    sliders = Sliders.of(contact_table([JENKINS]), ALONG)
 
     slides = sliders.slides(moved, moving, np.array([first * LIMIT]), 6.5)
 

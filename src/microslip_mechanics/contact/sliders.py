@@ -1,4 +1,4 @@
-"""What contacts remember along a march of one period, with its derivatives (theory §7).
+"""What contacts remember along a motion, step by step, with its derivatives (§6, §7).
 
 The traction T of friction that remembers goes from one step to the next,
 
@@ -16,17 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import ELASTIC, ContactPoints
 from microslip_mechanics.contact.memory import friction_load, remembers, traction
 from microslip_mechanics.jit import kernel
 
 
 class Slides(NamedTuple):
-    """Tractions at all times of a period, the beginning included, and derivatives."""
+    """Tractions at all times of a motion, the beginning included, and derivatives."""
 
     traction: Array
     """T [N], shape (times, sliders)"""
+    limit: Array
+    """slip limit of each one's point [N], shape (times, sliders); zero at the first"""
     motion: Array
     """F, shape (times, sliders, 2 rank)"""
     past: Array
@@ -52,12 +53,11 @@ class Sliders:
     """0 or 1: along which tangent, shape (sliders,)"""
 
     @classmethod
-    def of(cls, interface: Interface) -> Sliders:
-        """Return the sliders of an interface: none where no contact remembers."""
-        basis, _ = interface.relative_motion()
-        moves = (basis != 0.0).any(axis=1).reshape(interface.count, 3)[:, 1:]
-        point, axis = np.nonzero(moves & remembers(interface.points)[:, None])
-        return cls(interface.points, basis, point, axis)
+    def of(cls, points: ContactPoints, basis: Array) -> Sliders:
+        """Return the sliders of a contact table: none where no contact remembers."""
+        moves = (basis != 0.0).any(axis=1).reshape(-1, 3)[:, 1:]
+        point, axis = np.nonzero(moves & remembers(points)[:, None])
+        return cls(points, basis, point, axis)
 
     @property
     def count(self) -> int:
@@ -92,7 +92,7 @@ class Sliders:
     def slides(
         self, moved: Array, moving: Array, first: Array, frequency: float
     ) -> Slides:
-        """Return the tractions along a march.
+        """Return the tractions along a motion.
 
         Parameters
         ----------
@@ -117,6 +117,7 @@ class Sliders:
         shares = _shares(tractions[1:], limits[1:], held)
         return Slides(
             tractions[:, self.point, self.axis],
+            limits[:, self.point],
             motion,
             past,
             kept,
@@ -146,52 +147,6 @@ class Sliders:
         for row, column in np.argwhere(point[:, None] == point):
             kept[:, row, column] = own[:, row, 5 + self.axis[column]]
         return motion, past, kept
-
-
-def carried(
-    free: Array,
-    push: Array,
-    seen: Array,
-    tangents: Array,
-    sliders: Sliders,
-    slides: Slides,
-) -> tuple[Array, Array]:
-    """Return what a period does to a small change of the state (s, T).
-
-    Parameters
-    ----------
-    free, push
-        A and b of a step (:mod:`timedomain.period_map`).
-    seen
-        W, (y, ẏ/ω) from s.
-    tangents
-        D of the other laws at each time, shape (times, rank, 2 rank).
-    sliders, slides
-        What remembers, and what it did.
-
-    Returns
-    -------
-    Derivatives of the state after the period, shape ``(states, states)``, and of the
-    mean tractions, shape ``(sliders, states)``.
-    """
-    size, rank = push.shape
-    pull, whole = sliders.along.T, np.eye(size + sliders.count)
-    moved, held = whole[:size], whole[size:]
-    force = tangents[0] @ (seen @ moved) + pull @ held
-    moved = moved - push @ force
-    slid = (seen @ whole[:size])[:rank]
-    answers = tangents + pull @ slides.motion
-    solvers = np.linalg.inv(np.eye(rank) - answers @ (seen @ push))
-    kick, total = free @ push + push, np.zeros_like(held)
-    for place in range(1, len(tangents)):
-        moved = free @ moved + kick @ force
-        watched = seen @ moved
-        memory = slides.traction_past[place] @ held - slides.past[place] @ slid
-        force = solvers[place] @ (answers[place] @ watched + pull @ memory)
-        watched += (seen @ push) @ force
-        held = slides.motion[place] @ watched + memory
-        slid, total = watched[:rank], total + held
-    return np.vstack([moved + push @ force, held]), total / (len(tangents) - 1)
 
 
 def _shares(tractions: Array, limits: Array, held: Array) -> Array:

@@ -92,7 +92,7 @@ def _settled(
     """Return the tractions that repeat themselves."""
     moved, moving = orbit.at(phase)
     for _ in range(PERIODS):
-        slides = sliders.slides(moved, moving, first, orbit.frequency)
+        slides = sliders.slides(moved, moving, first, orbit.frequency, continuous=True)
         first = slides.traction[-1]
         change = np.abs(first - slides.traction[0]).max(initial=0.0)
         if change <= STEADY * np.abs(slides.traction).max(initial=1e-300):

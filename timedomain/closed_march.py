@@ -37,7 +37,7 @@ class ClosedMarch:
     """at phase 0, shape (states,)"""
     period: Period
     monodromy: Array
-    """shape (states, states)"""
+    """of the motion, shape (states, states)"""
     neutral: int
     """directions in which the orbit is not pinned"""
     gap: float
@@ -75,10 +75,10 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
                     "what is accepted a body that nothing holds: hold it by a spring"
                 )
             share = apart / max(accepted / CLOSED, 1e-300)
-            monodromy = sensitivity.monodromy
             return ClosedMarch(
-                carried, state, period, monodromy, neutral, share, iteration
-            )
+                carried, state, period, carried.monodromy(period), neutral, share,
+                iteration,
+            )  # fmt: skip
         state, marched = _closer(carried, state, change, marched, until)
     raise ShootingError(
         f"{_at(carried)} does not converge in {ITERATIONS} iterations: "

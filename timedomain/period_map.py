@@ -181,25 +181,43 @@ class PeriodMap:
         )
         displacement = np.vstack([start.displacement, history.displacement])
         velocity = np.vstack([start.velocity, history.velocity])
+        first = self.sliders.seen(start.traction)
         slides = self.sliders.slides(
-            *self._points(displacement, velocity),
-            self.sliders.seen(start.traction),
-            self.frequency,
+            *self._points(displacement, velocity), first, self.frequency
         )
         friction = float(history.of("friction")[-1])
         return Period(displacement, velocity, friction, slides)
 
     def sensitivity(self, period: Period) -> Sensitivity:
-        """Return the derivatives of what a period does by the state before it."""
+        """Return the exact derivatives of what a march does by the state before it."""
         if self.sliders.count == 0:
             whole = self._monodromy(period)
             return Sensitivity(whole, np.zeros((0, len(whole))))
+        return self._carried(period, period.slides)
+
+    def monodromy(self, period: Period) -> Array:
+        """Return the derivative of the motion: small motions grow by it in a period.
+
+        It is that of the march but where contacts that remember touch: a march jumps
+        from one step to the next as they do so, a motion does not.
+        """
+        if self.sliders.count == 0:
+            return self._monodromy(period)
+        slides = self.sliders.slides(
+            *self._points(period.displacement, period.velocity),
+            period.slides.traction[0],
+            self.frequency,
+            continuous=True,
+        )
+        return self._carried(period, slides).monodromy
+
+    def _carried(self, period: Period, slides: Slides) -> Sensitivity:
         free, push = self._step()
         units = np.append(np.ones(len(free)), self.unit)
+        tangents = self._tangents(period)
         monodromy, mean = carried(
-            free, push, _seen(self.structure), self._tangents(period), self.sliders,
-            period.slides,
-        )  # fmt: skip
+            free, push, _seen(self.structure), tangents, self.sliders, slides
+        )
         monodromy = monodromy * units / units[:, None]
         return Sensitivity(monodromy, mean * units / self.unit[:, None])
 

@@ -1,4 +1,4 @@
-"""Multipliers of contacts that remember: closed forms by pieces, springs, free bodies."""
+"""Multipliers of contacts that remember: closed forms, springs, what is not known."""
 
 import numpy as np
 import pytest
@@ -8,8 +8,8 @@ import scipy.optimize
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
+from hbm.recalled import recalled_multipliers
 from hbm.solve import frequency_response
-from hbm.stability import small_motions
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import (
@@ -60,7 +60,7 @@ def by_pieces(response: PeriodicResponse, spring: float) -> ComplexArray:
     """Return the multipliers of one mass, as a product of exact pieces.
 
     From a turn of the motion on the slider is a spring that begins there, δf =
-    k_t (δx − δx_turn); once it slips its force does not change. Half a period is enough.
+    k_t (δx − δx_turn); once it slips its force does not change. Half a period does.
     """
     coefficients, frequency = response.coefficients[:, 0], response.frequency
     orders = np.arange(1, len(coefficients) // 2 + 1)
@@ -95,9 +95,10 @@ def by_pieces(response: PeriodicResponse, spring: float) -> ComplexArray:
     )
     free = np.array([[0.0, 1.0], [-spring, -DAMPING]])
     begun = np.array([[1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])
-    half = scipy.linalg.expm(slipping * free) @ (
-        scipy.linalg.expm(stuck * held) @ begun
-    )[:2]
+    half = (
+        scipy.linalg.expm(slipping * free)
+        @ (scipy.linalg.expm(stuck * held) @ begun)[:2]
+    )
     values: ComplexArray = np.linalg.eigvals(half).astype(complex) ** 2
     return values
 
@@ -142,20 +143,18 @@ def test_regularised_friction_beside_it_leaves_stability_open() -> None:
 
 
 def test_a_body_that_nothing_holds_leaves_stability_open() -> None:
-    # two masses: the second one is free, and the contact does not see it
-    seen = np.zeros((3, 2))
-    seen[1, 0] = 1.0
-    problem = Problem(
-        Structure(np.eye(2), np.zeros((2, 2)), np.diag([SPRING, 0.0]), ("x", "free")),
-        Interface(contact_table([JENKINS]), seen, ("slider",)),
-        np.zeros(2),
-        np.array([0.5, 0.0]),
-        Probes(("x",), np.eye(2)[:1]),
+    # a second mass that no spring and no contact holds, beside the first one
+    problem = mass(JENKINS)
+    free = Structure(
+        np.eye(2), np.diag([DAMPING, 0.0]), np.diag([SPRING, 0.0]), ("x", "free")
     )
     basis, _ = problem.interface.relative_motion()
-    motions = small_motions(problem) if False else None
     contact = AlternatingFrequencyTime(
         problem.interface.points, basis, FourierBasis(1, 64)
     )
     contact(np.array([[0.0], [0.0], [0.02]]), 7.0)
-    assert motions is None
+
+    matrices = free.mass, free.damping, free.stiffness
+    assert recalled_multipliers(matrices, basis, contact, 7.0).size == 0
+    alone = tuple(each[:1, :1] for each in matrices)
+    assert recalled_multipliers(alone, basis, contact, 7.0).size == 3

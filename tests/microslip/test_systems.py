@@ -199,15 +199,14 @@ def test_frc_draws_and_prints_a_system(run: Run) -> None:
     assert Path("duffing-frc.nc").is_file()
 
 
-def test_frc_says_where_stability_is_not_known(run: Run) -> None:
+def test_frc_knows_the_stability_of_contacts_that_remember(run: Run) -> None:
     short = ("curve.tolerance=1e-2", "curve.lowest=18", "curve.highest=18.8")
     sets = (word for each in short for word in ("--set", each))
 
     status, output, error = run("frc", "jenkins", *sets)
 
     assert (status, error) == (0, "")
-    assert "stability is not known" in output
-    assert "stable\n" not in output
+    assert "every point is stable" in output
 
 
 def test_explain_lists_each_element_with_its_equation(run: Run) -> None:

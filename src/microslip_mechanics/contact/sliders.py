@@ -90,7 +90,13 @@ class Sliders:
         return tractions
 
     def slides(
-        self, moved: Array, moving: Array, first: Array, frequency: float
+        self,
+        moved: Array,
+        moving: Array,
+        first: Array,
+        frequency: float,
+        *,
+        continuous: bool = False,
     ) -> Slides:
         """Return the tractions along a motion.
 
@@ -102,6 +108,9 @@ class Sliders:
             Tractions at the first time [N], shape (sliders,).
         frequency
             ω [rad/s].
+        continuous
+            Whether derivatives are those of the motion, not of its steps: a contact
+            that touches within a step begins to stick there, sooner where it is deeper.
         """
         times, count = len(moved), len(self.points.load)
         tractions, limits = np.zeros((times, count, 2)), np.zeros((times, count))
@@ -111,6 +120,10 @@ class Sliders:
             recalling = np.flatnonzero(remembers(self.points))
             _follow(self.points, recalling, moved, moving, tractions, limits, by, load)
         motion, past, kept = self._derivatives(by, load, frequency)
+        if continuous:
+            before, after = self._touches(moved, moving, by)
+            past -= before
+            motion[:, :, : after.shape[2]] += after
         never = (kept[1:] == np.eye(self.count)).all(axis=(0, 2))
         stuck = never & (self.points.friction[self.point] == ELASTIC)
         held = tractions[1:].mean(axis=0)
@@ -124,6 +137,29 @@ class Sliders:
             stuck,
             (shares[:, None] * held)[self.point, self.axis],
         )
+
+    def _touches(self, moved: Array, moving: Array, by: Array) -> tuple[Array, Array]:
+        """Return the tractions by y before and after steps in which a point touches.
+
+        From where it touches on T = k_t (w − w_touch), and a depth that is greater by
+        δd moves w_touch by −ẇ δd/ḋ; shapes (times, sliders, rank).
+        """
+        point, points = self.point, self.points
+        depth = moved[:, :, 0] - points.gap
+        begins = (depth[1:] > 0.0) & (depth[:-1] <= 0.0) & ~points.constant_load
+        time, where = np.nonzero(begins)
+        above, below = depth[time, where], depth[time + 1, where]
+        share = above / (above - below)
+        speed = (1.0 - share)[:, None] * moving[time, where]
+        speed += share[:, None] * moving[time + 1, where]
+        ahead = np.zeros((*moved.shape[:2], 2))
+        ahead[time + 1, where] = speed[:, 1:] / np.maximum(speed[:, :1], 1e-300)
+        within = np.zeros(moved.shape[:2])
+        within[time + 1, where] = share
+        own = by[:, point, self.axis, :2]
+        leap = (own * ahead[:, point]).sum(axis=2)[:, :, None] * self.basis[3 * point]
+        part = within[:, point, None]
+        return (1.0 - part) * leap, part * leap
 
     def _derivatives(
         self, by: Array, load: Array, frequency: float

@@ -105,7 +105,8 @@ def _settled(
 
 def _joined(even: Array, events: Array) -> Array:
     """Return all times in order, without those that are nearly equal to another."""
-    phase = np.sort(np.concatenate([even, events[(events > 0.0) & (events < TURN)]]))
+    inside = events[(events > 0.0) & (events < TURN)]
+    phase: Array = np.sort(np.concatenate([even, inside]))
     phase = phase[np.append(True, np.diff(phase) > CLOSEST)]
     phase[-1] = TURN
     return phase
@@ -203,7 +204,7 @@ class _Slider:
         found = []
         for place in last:
             forward = self.rate @ direction[place] - growth
-            first = place if forward[place] > 0.0 else max(place - 1, 0)
+            first = int(place) if forward[place] > 0.0 else max(int(place) - 1, 0)
             ends = forward[first], forward[first + 1]
             if ends[0] > 0.0 >= ends[1]:
                 share = ends[0] / (ends[0] - ends[1])

@@ -217,8 +217,6 @@ def test_sweep_says_that_what_remembers_has_no_estimated_error(run: Run) -> None
 
     assert (status, error) == (0, "")
     assert "0.001 s, and no tolerance: no error is estimated" in output
-    _, output, _ = run("sweep", "duffing", *sets)
-    assert "remember" not in output
 
 
 def test_modes_of_a_slider_go_from_sticking_to_slipping(run: Run) -> None:

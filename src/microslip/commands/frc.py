@@ -116,6 +116,8 @@ def _events(curve: ResponseCurve) -> str:
         )
     elif (curve.unstable == 0).all():
         lines.append("every point is stable")
+    else:
+        lines.append("stability is not known: no Floquet multipliers are computed")
     return "\n".join(lines)
 
 

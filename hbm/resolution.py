@@ -16,7 +16,7 @@ from hbm.residual import Balance
 from microslip_mechanics.arrays import Array, ComplexArray
 
 SURE = 0.25
-"""share of a residual that a Newton step leaves, where the next leaves less for sure"""
+"""share of a residual that a Newton step leaves, after which the next leaves less"""
 DEPARTS = 2.0
 """times that a residual grows in two steps that lead to no point"""
 SMOOTHER = 1e-3

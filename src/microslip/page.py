@@ -22,21 +22,20 @@ h2 { font-size: 1.2rem; margin: 2.6rem 0 .3rem; padding-top: .7rem;
 p { margin: .3rem 0 .8rem; max-width: 46rem; }
 a { color: #0072b2; text-decoration: none; }
 code, pre { font-family: "DejaVu Sans Mono", Consolas, monospace; }
-code { font-size: .82rem; background: #f3f3f3; padding: .1rem .3rem; }
-pre { font-size: .72rem; line-height: 1.35; background: #f8f8f8; padding: .7rem .9rem;
-  overflow-x: auto; margin: .6rem 0; }
+code { font-size: .82em; background: #f3f3f3; padding: .1rem .3rem; }
+pre { font-size: .72em; line-height: 1.35; background: #f8f8f8; padding: .7rem .9rem;
+  margin: .6rem 0; white-space: pre-wrap; overflow-wrap: anywhere; }
 img { width: 100%; height: auto; margin: .4rem 0; }
-table { border-collapse: collapse; margin: 1rem 0; font-size: .88rem; width: 100%; }
+table { border-collapse: collapse; margin: 1rem 0; font-size: .88em; width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: .3rem .8rem .3rem 0;
   border-bottom: 1px solid #ddd; }
 td:first-child { white-space: nowrap; }
 .time { text-align: right; white-space: nowrap; padding-right: 0; }
 .quiet, .left-out { color: #666; }
 .failed, .stopped { color: #b03000; }
-pre.failed { border-left: 3px solid #b03000; }
 @media print {
   body { margin: 0; max-width: none; font-size: 10pt; }
-  pre { white-space: pre-wrap; overflow: visible; font-size: 6.5pt; }
+  pre { font-size: 6.5pt; }
   h2, table { break-after: avoid; }
   img, tr { break-inside: avoid; }
 }"""

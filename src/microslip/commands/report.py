@@ -179,7 +179,7 @@ def _scene(scene: Scene) -> Section:
     return Section(
         "scene",
         "The scene",
-        "All numbers, as TOML: a copy of it makes the same report.",
+        "All numbers, as TOML; what --set has replaced stands at the end.",
         DONE,
         f'scene = "{_kind(scene)}"',
         text=scene.text.rstrip(),

@@ -84,7 +84,7 @@ PARTS = (
         "Error against run time",
         "One periodic motion by every method at settings from loose to tight, beside a "
         "reference of two independent methods.",
-        (),
+        ("--quick",),
         ("--quick",),
         tells=("tightest runs", "too few methods"),
         excuse=one_sector,

@@ -15,12 +15,15 @@ from hbm.sampling import Forces, hat, sample
 from hbm.symmetry import Symmetry, symmetry
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
+    LIMITED,
+    RIGID,
     ContactPoints,
     contact_force,
     contact_power,
     tangent_pattern,
 )
 from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.jit import kernel
 
 
@@ -85,7 +88,18 @@ class AlternatingFrequencyTime:
         odd
             Which coordinates have odd harmonics only, the others even ones only,
             shape ``(rank,)``: half a period then says all. None without that symmetry.
+
+        Raises
+        ------
+        MicroslipError
+            If a contact is rigid: its traction does not follow from the motion.
         """
+        if (points.friction == RIGID).any():
+            raise MicroslipError(
+                "rigid friction has no force of a given motion: it is solved along a "
+                "frequency or a parameter; give coulomb with a small "
+                "threshold_velocity here"
+            )
         rows, rank = basis.shape
         self._points, self._basis, self._fourier = points, basis, fourier
         self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
@@ -327,6 +341,8 @@ def _cycle(
             smallest[point] = min(smallest[point], force[0])
             largest[point] = max(largest[point], force[0])
             force[1:] = forces[place, moment][1:]
+            if points.friction[point] == LIMITED:
+                force[1:] = 0.0  # its trial does not slide
             slid, damped = contact_power(points, point, moved, moving, force)
             powers[0] += slid / seen
             powers[1] += damped / seen

@@ -8,6 +8,7 @@ import numpy as np
 
 from hbm.active import extended, moving
 from hbm.relative import relative_problem
+from hbm.rigid import with_tractions
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
@@ -18,6 +19,7 @@ from microslip_mechanics.contact.law import (
     ELASTIC,
     FRICTIONLESS,
     GENERAL_KINETIC,
+    RIGID,
     TANH,
     tangent_pattern,
 )
@@ -33,6 +35,7 @@ FRICTION_LAWS = {
     TANH: "smooth Coulomb",
     ELASTIC: "elastic friction",
     BRISTLE: "bristles",
+    RIGID: "rigid Coulomb",
 }
 LOADS = "friction uses the computed normal force, or a constant"
 
@@ -169,6 +172,7 @@ def _laws(problem: Problem) -> tuple[int, int]:
 
 def _active(problem: Problem, scene: Scene, harmonics: int) -> int:
     """Count the unknowns that move, at the curve's first frequency."""
-    whole = relative_problem(problem, static_equilibrium(problem))
-    active = moving(whole, 2.0 * np.pi * scene.curve.lowest)
+    frequency = 2.0 * np.pi * scene.curve.lowest
+    relative = relative_problem(problem, static_equilibrium(problem))
+    active = moving(with_tractions(relative, frequency), frequency)
     return int(extended(active, harmonics).sum())

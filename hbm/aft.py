@@ -10,19 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis, Transform, derivative
-from hbm.memory import FrictionMemory
+from hbm.memory import FrictionMemory, marched
 from hbm.sampling import Forces, hat, sample
 from hbm.symmetry import Symmetry, symmetry
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
-    LIMITED,
+    PUSHED,
     RIGID,
     ContactPoints,
     contact_force,
     contact_power,
     tangent_pattern,
 )
-from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.jit import kernel
 
@@ -105,7 +104,7 @@ class AlternatingFrequencyTime:
         self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
         self._offset = np.zeros(rows) if offset is None else offset
         self._entries = _entries(points)
-        recalls = bool(remembers(points).any())
+        recalls = bool(marched(points).any())
         self._memory = FrictionMemory(basis, fourier) if recalls else None
         self._symmetry = symmetry(basis, self._entries, None if recalls else odd)
         samples = fourier.samples
@@ -341,8 +340,8 @@ def _cycle(
             smallest[point] = min(smallest[point], force[0])
             largest[point] = max(largest[point], force[0])
             force[1:] = forces[place, moment][1:]
-            if points.friction[point] == LIMITED:
-                force[1:] = 0.0  # its trial does not slide
+            if points.friction[point] == PUSHED:
+                force[1:] = 0.0  # its displacement is a push
             slid, damped = contact_power(points, point, moved, moving, force)
             powers[0] += slid / seen
             powers[1] += damped / seen

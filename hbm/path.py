@@ -13,7 +13,7 @@ from hbm.active import extended, moving, symmetric
 from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import Balance, HarmonicBalance
-from hbm.rigid import with_tractions
+from hbm.rigid import with_pushes
 from hbm.stability import SmallMotions, small_motions
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
@@ -114,7 +114,7 @@ def along_frequency(
     """
     if min(start, end) <= 0.0:
         raise ValueError(f"frequencies {start:g} and {end:g} rad/s: give positive ones")
-    relative = with_tractions(relative_problem(problem, rest), max(start, end))
+    relative = with_pushes(relative_problem(problem, rest), max(start, end))
     width = abs(end - start)
     if not symmetry:
         every = np.ones((11, relative.rank), dtype=bool)

@@ -40,7 +40,7 @@ class RelativeProblem:
     odd: NDArray[np.bool_] | None = None
     """which coordinates have odd harmonics only, the others even ones; None if mixed"""
     tractions: Tractions | None = None
-    """of rigid contacts: their trials are the last coordinates"""
+    """of rigid contacts: pushes on them are the last coordinates"""
 
     @property
     def rank(self) -> int:
@@ -70,7 +70,7 @@ class RelativeProblem:
         """Return the map from a structure to y, shape (rank, dofs).
 
         ``displacement`` is its map to the points, shape ``(3 points, dofs)``. What is
-        not seen in a motion, the tractions of rigid contacts, has rows of zeros.
+        not seen in a motion, pushes on rigid contacts, has rows of zeros.
         """
         if self.tractions is None:
             return self.basis.T @ displacement

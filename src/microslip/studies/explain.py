@@ -8,7 +8,7 @@ import numpy as np
 
 from hbm.active import extended, moving
 from hbm.relative import relative_problem
-from hbm.rigid import with_tractions
+from hbm.rigid import with_pushes
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
@@ -174,5 +174,5 @@ def _active(problem: Problem, scene: Scene, harmonics: int) -> int:
     """Count the unknowns that move, at the curve's first frequency."""
     frequency = 2.0 * np.pi * scene.curve.lowest
     relative = relative_problem(problem, static_equilibrium(problem))
-    active = moving(with_tractions(relative, frequency), frequency)
+    active = moving(with_pushes(relative, frequency), frequency)
     return int(extended(active, harmonics).sum())

@@ -23,16 +23,15 @@ from microslip_mechanics.contact.power_spring import (
     power_energy,
     power_force,
 )
-from microslip_mechanics.contact.rigid import nearest_traction
 from microslip_mechanics.contact.tanh_coulomb import tanh_coefficients
 from microslip_mechanics.jit import bare_kernel, kernel
 
 ONE_SIDED, TWO_SIDED = 0, 1
 """kinds of normal law: Hunt and Crossley's, and a spring that also pulls"""
 FRICTIONLESS, COULOMB, GENERAL_KINETIC, TANH, ELASTIC, BRISTLE = 0, 1, 2, 3, 4, 5
-RIGID, LIMITED = 6, 7
-"""kinds of friction; those from ELASTIC on are no functions of the motion, but for the
-last, into which harmonic balance turns RIGID: a trial traction limited to µN"""
+RIGID, PUSHED = 6, 7
+"""kinds of friction; those from ELASTIC on are no functions of the motion. Harmonic
+balance turns RIGID into PUSHED, that under a mass which is pushed"""
 
 
 class ContactPoints(NamedTuple):
@@ -59,7 +58,7 @@ class ContactPoints(NamedTuple):
     static: Array
     """µs (GKF, bristles)"""
     stribeck: Array
-    """V_str [m/s] (GKF, bristles)"""
+    """V_str [m/s] (GKF, bristles); rate at which a mass slows down [1/s] (PUSHED)"""
     stribeck_exponent: Array
     """γ (GKF, bristles)"""
     viscous: Array
@@ -71,7 +70,7 @@ class ContactPoints(NamedTuple):
     load: Array
     """constant normal load of friction [N]"""
     tangential: Array
-    """k_t [N/m] (ELASTIC, BRISTLE); trial traction by displacement (LIMITED)"""
+    """k_t [N/m] (ELASTIC, BRISTLE); push by displacement (PUSHED)"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,12 +151,6 @@ def contact_force(
     force[0], by_displacement[0, 0], by_velocity[0, 0] = normal, stiff, viscous
     if points.friction[point] == FRICTIONLESS:
         return
-    if points.friction[point] == LIMITED:
-        _limited(
-            points, point, displacement, force, stiff, viscous, by_displacement,
-            by_velocity,
-        )  # fmt: skip
-        return
     if points.friction[point] >= ELASTIC:
         for axis in range(1, 3):
             force[axis] = points.viscous[point] * velocity[axis]
@@ -180,39 +173,6 @@ def contact_force(
     if not points.constant_load[point]:
         by_displacement[1, 0], by_displacement[2, 0] = stiff * first, stiff * second
         by_velocity[1, 0], by_velocity[2, 0] = viscous * first, viscous * second
-
-
-@kernel
-def _limited(
-    points: ContactPoints,
-    point: int,
-    displacement: Array,
-    force: Array,
-    stiff: float,
-    viscous: float,
-    by_displacement: Array,
-    by_velocity: Array,
-) -> None:
-    """Write minus the traction nearest to k_t w on the disc of friction (eq. 19c).
-
-    ``force[0]``, ``stiff`` and ``viscous`` are those of the normal law.
-    """
-    load, varies = points.load[point], 0.0
-    if not points.constant_load[point]:
-        load, varies = force[0], points.dynamic[point]
-    scale = points.tangential[point]
-    one, two, d11, d12, d22, by_one, by_two = nearest_traction(
-        scale * displacement[1],
-        scale * displacement[2],
-        points.dynamic[point] * load,
-    )
-    force[1], force[2] = -one, -two
-    by_displacement[1, 1], by_displacement[2, 2] = -scale * d11, -scale * d22
-    by_displacement[1, 2] = by_displacement[2, 1] = -scale * d12
-    by_displacement[1, 0] = -varies * stiff * by_one
-    by_displacement[2, 0] = -varies * stiff * by_two
-    by_velocity[1, 0] = -varies * viscous * by_one
-    by_velocity[2, 0] = -varies * viscous * by_two
 
 
 @bare_kernel
@@ -340,13 +300,10 @@ def tangent_pattern(
     by_displacement[0, 0] = points.stiffness[point] != 0.0
     by_velocity[0, 0] = points.damping[point] != 0.0
     by_displacement[0, 0] |= by_velocity[0, 0] and points.normal[point] == ONE_SIDED
-    varies = not points.constant_load[point]
-    if points.friction[point] == LIMITED:
-        by_displacement[1:, 1:] = True
-        by_displacement[1:, 0] = by_velocity[1:, 0] = varies
-    elif points.friction[point] >= ELASTIC:
+    if points.friction[point] >= ELASTIC:
         by_velocity[1, 1] = by_velocity[2, 2] = points.viscous[point] != 0.0
     elif points.friction[point] != FRICTIONLESS:
         by_velocity[1:, 1:] = True
-        by_displacement[1:, 0] = by_velocity[1:, 0] = varies
+        if not points.constant_load[point]:
+            by_displacement[1:, 0] = by_velocity[1:, 0] = True
     return by_displacement, by_velocity

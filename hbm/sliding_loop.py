@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints
 from microslip_mechanics.contact.memory import friction_load
-from microslip_mechanics.contact.rigid import slide_in_plane, slide_on_line
+from microslip_mechanics.contact.rigid import slide
 from microslip_mechanics.contact.steady_loop import Waves
 from microslip_mechanics.jit import kernel
 
@@ -21,7 +21,7 @@ STEADY = 1e-13
 """change of it over a period, over the largest push"""
 
 
-class Slide(NamedTuple):
+class Step(NamedTuple):
     """One step of the mass, by both tangents."""
 
     push: Array
@@ -32,8 +32,6 @@ class Slide(NamedTuple):
     """mean traction (2) and momentum after it (2)"""
     by: Array
     """their derivatives by push (2), limit (1), momentum before (2) and loss (1)"""
-    line: tuple[Array, Array]
-    """workspace for one direction"""
 
 
 @kernel
@@ -55,24 +53,21 @@ def sliding_loop(
     samples = displacement.shape[1]
     loss = points.stribeck[point] * math.pi / (frequency * samples)
     made, change = np.zeros((2, 2, samples))
-    slide = Slide(
-        np.zeros(2), np.zeros(2), np.zeros(4), np.zeros((4, 6)),
-        (np.zeros(2), np.zeros((2, 4))),
-    )  # fmt: skip
-    start, steady = _begun(points, point, displacement, velocity, loss, axes, slide)
+    step = Step(np.zeros(2), np.zeros(2), np.zeros(4), np.zeros((4, 6)))
+    start, steady = _begun(points, point, displacement, velocity, loss, step)
     columns = np.zeros((2, 1 + gradient[0, :, 0].size))
     for repeated in range(2):
-        slide.old[:] = start
+        step.old[:] = start
         for place in range(samples):
             load, by_depth, by_approach = _step(
-                points, point, displacement, velocity, loss, place, axes, slide
+                points, point, displacement, velocity, loss, place, step
             )
             by_rate = by_approach * velocity[0, place]
             for axis in range(2):
-                made[axis, place] = -slide.made[axis]
+                made[axis, place] = -step.made[axis]
             one, two = columns[0, 0], columns[1, 0]
             for row in range(4):
-                by = slide.by[row]
+                by = step.by[row]
                 varied = points.dynamic[point] * by[2] * by_rate - by[5] * loss
                 varied += by[3] * one + by[4] * two
                 if row < 2:
@@ -81,11 +76,11 @@ def sliding_loop(
                     columns[row - 2, 0] = varied
             if gradient.size > 0:
                 _carry(
-                    gradient, columns, waves, frequency, axes, slide,
+                    gradient, columns, waves, frequency, axes, step,
                     points.tangential[point], points.dynamic[point] * by_depth,
                     points.dynamic[point] * by_approach, place,
                 )  # fmt: skip
-            slide.old[:] = slide.made[2:]
+            step.old[:] = step.made[2:]
         if repeated == 0:
             columns[:] = np.dot(steady.copy(), columns)
     return made, change
@@ -98,23 +93,22 @@ def _begun(
     displacement: Array,
     velocity: Array,
     loss: float,
-    axes: NDArray[np.bool_],
-    slide: Slide,
+    step: Step,
 ) -> tuple[Array, Array]:
     """Return the momentum that a period repeats, and (1 − Φ)⁻¹ of its map Φ."""
     start, largest = np.zeros(2), 1e-300
     steady = np.eye(2)
     for _ in range(TRIALS):
-        slide.old[:] = start
+        step.old[:] = start
         carried = np.eye(2)
         for place in range(displacement.shape[1]):
-            _step(points, point, displacement, velocity, loss, place, axes, slide)
-            slide.old[:] = slide.made[2:]
-            carried = np.dot(slide.by[2:, 3:5].copy(), carried)
-            largest = max(largest, abs(slide.push[0]), abs(slide.push[1]))
-            largest = max(largest, abs(slide.old[0]), abs(slide.old[1]))
+            _step(points, point, displacement, velocity, loss, place, step)
+            step.old[:] = step.made[2:]
+            carried = np.dot(step.by[2:, 3:5].copy(), carried)
+            largest = max(largest, abs(step.push[0]), abs(step.push[1]))
+            largest = max(largest, abs(step.old[0]), abs(step.old[1]))
         steady = np.linalg.inv(np.eye(2) - carried)
-        gap = slide.old - start
+        gap = step.old - start
         if np.abs(gap).max() <= STEADY * largest:
             break
         start = start + np.dot(steady, gap)
@@ -129,8 +123,7 @@ def _step(
     velocity: Array,
     loss: float,
     place: int,
-    axes: NDArray[np.bool_],
-    slide: Slide,
+    step: Step,
 ) -> tuple[float, float, float]:
     """Take the step around one sample; return the load and its derivatives."""
     load, by_depth, by_approach = friction_load(
@@ -138,20 +131,8 @@ def _step(
     )
     limit = points.dynamic[point] * load
     for axis in range(2):
-        slide.push[axis] = points.tangential[point] * displacement[axis + 1, place]
-    if axes[1] and axes[2]:
-        slide_in_plane(slide.push, limit, loss, slide.old, slide.made, slide.by)
-        return load, by_depth, by_approach
-    axis = 0 if axes[1] else 1
-    made, by = slide.line
-    slide_on_line(slide.push[axis], limit, loss, slide.old[axis], made, by)
-    slide.made[:] = 0.0
-    slide.by[:] = 0.0
-    for part in range(2):
-        row = 2 * part + axis
-        slide.made[row] = made[part]
-        slide.by[row, axis], slide.by[row, 2] = by[part, 0], by[part, 1]
-        slide.by[row, 3 + axis], slide.by[row, 5] = by[part, 2], by[part, 3]
+        step.push[axis] = points.tangential[point] * displacement[axis + 1, place]
+    slide(step.push, limit, loss, step.old, step.made, step.by)
     return load, by_depth, by_approach
 
 
@@ -162,7 +143,7 @@ def _carry(
     waves: Waves,
     frequency: float,
     axes: NDArray[np.bool_],
-    slide: Slide,
+    step: Step,
     scale: float,
     by_depth: float,
     by_approach: float,
@@ -184,7 +165,7 @@ def _carry(
             at = 1 + column * terms + term
             one, two = columns[0, at], columns[1, at]
             for row in range(4):
-                by = slide.by[row]
+                by = step.by[row]
                 varied = by[3] * one + by[4] * two
                 if column == 0:
                     varied += by[2] * limit

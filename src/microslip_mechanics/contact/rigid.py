@@ -44,14 +44,17 @@ def nearest_traction(
 
 
 @bare_kernel
-def slide_in_plane(
+def slide(
     push: Array, limit: float, loss: float, old: Array, step: Array, by: Array
 ) -> None:
-    """Write what one step does to a mass that slides in a plane.
+    """Write what one step does to a mass that slides under friction.
 
-    With the momentum p = m v / h before a step of length h, the mean push g over it and
-    the loss a = c h / (2 m) by a dashpot c, the traction is that nearest to the trial
-    g + (1 − a) p, and (1 + a) p is what it leaves: the mass slides on, or stops.
+    With the momentum p = m v / h at the beginning of a step of length h, the mean push
+    g over it and the loss a = c h / (2 m) by a dashpot c. Along its direction the mass
+    would stop after the share x of the step. Until then friction opposes the mean
+    velocity, which the projection of x g + 2 p gives; what is left of the step is
+    implicit, the projection of (1 − x) g + p, so that the mass stands still or slides
+    off again. All of it is a continuous function of push, limit and momentum.
 
     Parameters
     ----------
@@ -65,67 +68,113 @@ def slide_in_plane(
         Written: derivatives of these by push (2), limit (1), p (2) and loss (1), shape
         ``(4, 6)``.
     """
-    kept, left = 1.0 - loss, 1.0 / (1.0 + loss)
-    one, two = push[0] + kept * old[0], push[1] + kept * old[1]
-    first, second, d11, d12, d22, by_first, by_second = nearest_traction(
-        one, two, limit
+    share, slowing, speed = _share(push, limit, loss, old)
+    one, two = share * push[0] + 2.0 * old[0], share * push[1] + 2.0 * old[1]
+    tail = 1.0 / (1.0 + loss * share)
+    first = nearest_traction(one, two, share * limit)
+    past = (tail * (one - first[0]) - old[0], tail * (two - first[1]) - old[1])
+    rest = 1.0 - share
+    kept, end = 1.0 - loss * rest, 1.0 / (1.0 + loss * rest)
+    second = nearest_traction(
+        rest * push[0] + kept * past[0], rest * push[1] + kept * past[1], rest * limit
     )
-    step[0], step[1] = first, second
-    step[2], step[3] = left * (one - first), left * (two - second)
-    by[0, 0], by[0, 1], by[0, 2] = d11, d12, by_first
-    by[1, 0], by[1, 1], by[1, 2] = d12, d22, by_second
-    for row in range(2):
-        by[row, 3], by[row, 4] = kept * by[row, 0], kept * by[row, 1]
-        by[row, 5] = -by[row, 0] * old[0] - by[row, 1] * old[1]
-        for column in range(6):
-            by[row + 2, column] = -left * by[row, column]
-        by[row + 2, row] += left
-        by[row + 2, row + 3] += left * kept
-        by[row + 2, 5] -= left * (old[row] + step[row + 2])
+    for axis in range(2):
+        step[axis] = first[axis] + second[axis]
+        trial = rest * push[axis] + kept * past[axis]
+        step[2 + axis] = end * (trial - second[axis])
+    for column in range(6):
+        turn = _turn(push, loss, old, share, slowing, speed, column)
+        wider = limit * turn + (share if column == 2 else 0.0)
+        narrower = -limit * turn + (rest if column == 2 else 0.0)
+        lost = share if column == 5 else 0.0
+        left = rest if column == 5 else 0.0
+        tried = (
+            push[0] * turn + _seed(column, 0, share, 2.0),
+            push[1] * turn + _seed(column, 1, share, 2.0),
+        )
+        held = _varied(first, tried, wider)
+        drop = tail * (loss * turn + lost)
+        before = (
+            tail * (tried[0] - held[0]) - drop * (past[0] + old[0])
+            - (1.0 if column == 3 else 0.0),
+            tail * (tried[1] - held[1]) - drop * (past[1] + old[1])
+            - (1.0 if column == 4 else 0.0),
+        )  # fmt: skip
+        fall = loss * turn - left
+        tried = (
+            kept * before[0] + (fall * past[0] - push[0] * turn)
+            + _seed(column, 0, rest, 0.0),
+            kept * before[1] + (fall * past[1] - push[1] * turn)
+            + _seed(column, 1, rest, 0.0),
+        )  # fmt: skip
+        also = _varied(second, tried, narrower)
+        for axis in range(2):
+            by[axis, column] = held[axis] + also[axis]
+            by[2 + axis, column] = end * (
+                tried[axis] - also[axis] + fall * step[2 + axis]
+            )
 
 
 @bare_kernel
-def slide_on_line(
-    push: float, limit: float, loss: float, old: float, step: Array, by: Array
-) -> None:
-    """Write what one step does to a mass that slides along a line.
+def _share(
+    push: Array, limit: float, loss: float, old: Array
+) -> tuple[float, float, float]:
+    """Return the share of a step until a mass stops, what slows it, and p's size."""
+    speed = math.hypot(old[0], old[1])
+    if limit <= 0.0:
+        return 1.0, 0.0, speed
+    if speed == 0.0:
+        return 0.0, 0.0, speed
+    along = (push[0] * old[0] + push[1] * old[1]) / speed
+    slowing = limit - along + loss * speed
+    if slowing <= speed:
+        return 1.0, 0.0, speed
+    return speed / slowing, slowing, speed
 
-    As :func:`slide_in_plane`, but the moment within the step at which the mass stops,
-    or turns, is found: the mean traction is a smooth function of the push.
 
-    ``step``, shape ``(2,)``, and ``by``, shape ``(2, 4)``: as there, for one direction.
-    """
-    side = 1.0 if old > 0.0 or (old == 0.0 and push > 0.0) else -1.0
-    by[:] = 0.0
-    left = 1.0 / (1.0 + loss)
-    end = left * ((1.0 - loss) * old + push - side * limit)
-    if limit <= 0.0 or (old != 0.0 and side * end >= 0.0):
-        if limit <= 0.0:
-            side, end = 0.0, left * ((1.0 - loss) * old + push)
-        step[0], step[1] = side * limit, end
-        by[0, 1] = side
-        by[1, 0], by[1, 1], by[1, 2] = left, -left * side, left * (1.0 - loss)
-        by[1, 3] = -left * (old + end)
-        return
-    # the share of the step after which the mass stands still, and its derivatives
-    slowing = push - side * limit - loss * old
-    share, turn = 0.0, 0.0
-    before = (0.0, 0.0, 0.0, 0.0)
-    if old != 0.0:
-        share, turn = -old / slowing, old / (slowing * slowing)
-        before = (turn, -side * turn, -1.0 / slowing - loss * turn, -old * turn)
-    rest = 1.0 - share
-    held = min(max(push, -limit), limit)
-    sticks = 1.0 if abs(push) < limit else 0.0
-    slips = 0.0 if sticks > 0.0 else math.copysign(1.0, push)
-    tail = 1.0 / (1.0 + loss * rest)
-    step[0] = share * side * limit + rest * held
-    step[1] = tail * rest * (push - held)
-    for column in range(4):
-        by[0, column] = (side * limit - held) * before[column]
-        by[1, column] = -tail * tail * (push - held) * before[column]
-    by[0, 0] += rest * sticks
-    by[0, 1] += share * side + rest * slips
-    by[1, 0] += tail * rest * (1.0 - sticks)
-    by[1, 1] -= tail * rest * slips
-    by[1, 3] -= tail * tail * rest * rest * (push - held)
+@bare_kernel
+def _turn(
+    push: Array,
+    loss: float,
+    old: Array,
+    share: float,
+    slowing: float,
+    speed: float,
+    column: int,
+) -> float:
+    """Return the derivative of the share by one of push, limit, p and loss."""
+    if slowing == 0.0:
+        return 0.0
+    one, two = old[0] / speed, old[1] / speed
+    if column == 2:
+        return -share / slowing
+    if column == 5:
+        return -share * speed / slowing
+    own = one if column in (0, 3) else two
+    if column < 2:
+        return share * own / slowing
+    across = push[0] * two - push[1] * one
+    side = (two if column == 3 else -one) * across / speed
+    return (own - share * (loss * own - side)) / slowing
+
+
+@bare_kernel
+def _seed(column: int, axis: int, by_push: float, by_momentum: float) -> float:
+    """Return the direct part of a trial's derivative."""
+    if column == axis:
+        return by_push
+    return by_momentum if column == axis + 3 else 0.0
+
+
+@bare_kernel
+def _varied(
+    nearest: tuple[float, float, float, float, float, float, float],
+    trial: tuple[float, float],
+    limit: float,
+) -> tuple[float, float]:
+    """Return the change of a projection with those of its trial and its radius."""
+    _, _, d11, d12, d22, by_first, by_second = nearest
+    return (
+        d11 * trial[0] + d12 * trial[1] + by_first * limit,
+        d12 * trial[0] + d22 * trial[1] + by_second * limit,
+    )

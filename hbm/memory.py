@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis
-from microslip_mechanics.arrays import Array
 from hbm.sliding_loop import sliding_loop
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import PUSHED, ContactPoints
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
@@ -25,7 +25,8 @@ from microslip_mechanics.jit import kernel
 
 def marched(points: ContactPoints) -> NDArray[np.bool_]:
     """Return which points have friction that is marched to a steady loop, (points,)."""
-    return remembers(points) | (points.friction == PUSHED)
+    which: NDArray[np.bool_] = remembers(points) | (points.friction == PUSHED)
+    return which
 
 
 class FrictionMemory:

@@ -1,4 +1,4 @@
-"""Rigid friction in harmonic balance: pushes on its contacts are unknowns (theory §6)."""
+"""Rigid friction in harmonic balance: pushes on it are unknowns (theory §6)."""
 
 from __future__ import annotations
 
@@ -65,9 +65,7 @@ def with_pushes(
     )
 
 
-def _tractions(
-    problem: RelativeProblem, frequency: float, weight: float
-) -> Tractions:
+def _tractions(problem: RelativeProblem, frequency: float, weight: float) -> Tractions:
     """Return the tractions along all tangents that a rigid point can slide along."""
     places = np.array(
         [
@@ -116,4 +114,5 @@ def _shares(problem: RelativeProblem, owner: NDArray[np.int64], rows: Array) -> 
         sums[family == each] = limits[family == each][first].sum()
         counts[family == each] = first.size
     shares = np.divide(limits, sums, out=1.0 / counts, where=sums > 0.0)
-    return np.maximum(shares, LEAST / counts)
+    kept: Array = np.maximum(shares, LEAST / counts)
+    return kept

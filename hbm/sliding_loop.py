@@ -59,7 +59,7 @@ def sliding_loop(
     for repeated in range(2):
         step.old[:] = start
         for place in range(samples):
-            load, by_depth, by_approach = _step(
+            by_depth, by_approach = _step(
                 points, point, displacement, velocity, loss, place, step
             )
             by_rate = by_approach * velocity[0, place]
@@ -97,7 +97,7 @@ def _begun(
 ) -> tuple[Array, Array]:
     """Return the momentum that a period repeats, and (1 − Φ)⁻¹ of its map Φ."""
     start, largest = np.zeros(2), 1e-300
-    steady = np.eye(2)
+    steady: Array = np.eye(2)
     for _ in range(TRIALS):
         step.old[:] = start
         carried = np.eye(2)
@@ -124,8 +124,8 @@ def _step(
     loss: float,
     place: int,
     step: Step,
-) -> tuple[float, float, float]:
-    """Take the step around one sample; return the load and its derivatives."""
+) -> tuple[float, float]:
+    """Take the step around one sample; return the load's derivatives."""
     load, by_depth, by_approach = friction_load(
         points, point, displacement[0, place], velocity[0, place]
     )
@@ -133,7 +133,7 @@ def _step(
     for axis in range(2):
         step.push[axis] = points.tangential[point] * displacement[axis + 1, place]
     slide(step.push, limit, loss, step.old, step.made, step.by)
-    return load, by_depth, by_approach
+    return by_depth, by_approach
 
 
 @kernel

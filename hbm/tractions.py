@@ -1,7 +1,7 @@
 """A structure with pushes on rigid contacts as further coordinates (theory §6).
 
-The traction λ of rigid friction is no function of the motion. A push g = λ + (m s² + c s)
-w on a mass m with a dashpot c that slides at the contact determines it; in the
+The traction λ of rigid friction is no function of the motion w. It is one of the push
+g = λ + (m s² + c s) w on a mass m with a dashpot c that slides at the contact; in the
 coordinates (y, g/κ) only the slide of that mass is nonlinear (eqs. 19b, 19c).
 """
 
@@ -67,7 +67,8 @@ class PushedStructure:
     @property
     def stiffness(self) -> Array:
         """Static stiffness of mean motions [N/m]."""
-        return self.dynamic_stiffness(np.zeros(1, complex))[0][0].real
+        still: Array = self.dynamic_stiffness(np.zeros(1, complex))[0][0].real
+        return still
 
     @property
     def mass(self) -> Array:

@@ -180,11 +180,11 @@ def _newton(
     or −1. A change that does not lower the residual is halved.
     """
     rank = start.shape[1]
-    guess = start[2] - np.dot(operators.compliance, state.reaction)
+    guess: Array = start[2] - np.dot(operators.compliance, state.reaction)
     pulled = made.trial.copy()
-    change = np.zeros(made.residual.size)
+    change: Array = np.zeros(made.residual.size)
     scale, size = np.sqrt(np.dot(start[2], start[2])) + 1e-300, np.inf
-    smooth = np.zeros(rank)
+    smooth: Array = np.zeros(rank)
     for iteration in range(NEWTON_LIMIT + 1):
         shrink, reached = 1.0, np.inf
         for _ in range(HALVINGS):

@@ -62,7 +62,8 @@ def _by_balance(case: Case, budget: float) -> tuple[Orbit, str]:
 def _by_marches(case: Case, budget: float) -> tuple[Orbit, str]:
     """Return the orbit by two reference marches, extrapolated.
 
-    By shooting, or where contacts remember or are rigid by the steady states of two dwells.
+    By shooting, or by the steady states of two dwells where friction does not follow
+    from the motion at one moment.
     """
     steps = 1024
     orbit: Orbit | None = None

@@ -145,7 +145,7 @@ def _turn(
     """Return the derivative of the share by one of push, limit, p and loss."""
     if slowing == 0.0:
         return 0.0
-    one, two = old[0] / speed, old[1] / speed
+    one, two = float(old[0] / speed), float(old[1] / speed)
     if column == 2:
         return -share / slowing
     if column == 5:
@@ -153,7 +153,7 @@ def _turn(
     own = one if column in (0, 3) else two
     if column < 2:
         return share * own / slowing
-    across = push[0] * two - push[1] * one
+    across = float(push[0] * two - push[1] * one)
     side = (two if column == 3 else -one) * across / speed
     return (own - share * (loss * own - side)) / slowing
 

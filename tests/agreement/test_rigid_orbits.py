@@ -1,4 +1,4 @@
-"""Rigid friction: harmonic balance, set-valued march and the regularised law's limit."""
+"""Rigid friction: harmonic balance, set-valued march, regularised law in the limit."""
 
 import numpy as np
 import pytest

@@ -33,7 +33,8 @@ def test_nothing_on_the_disc_lies_nearer_to_a_trial() -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, 400)
     others = 0.8 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
     for trial in random.normal(size=(50, 2)):
-        found = np.array(nearest_traction(*trial, 0.8)[:2])
+        first, second, *_ = nearest_traction(float(trial[0]), float(trial[1]), 0.8)
+        found: Array = np.array([first, second])
         assert np.hypot(*found) <= 0.8 + 1e-15
         # a convex set lies behind the plane across the way to it
         assert ((others - found) @ (trial - found)).max() <= 1e-15

@@ -79,7 +79,8 @@ def test_errors_fall_with_the_step() -> None:
         size = 0.92 - 0.1 * half
         exact = 0.05 * np.where(half % 2, -1.0, 1.0) + size * np.cos(2.0 * time)
         found = np.interp(time, history.time, history.displacement[:, 0])
-        return found - exact
+        away: Array = found - exact
+        return away
 
     errors = [np.abs(left(count)).max() for count in (41, 161, 641)]
     assert errors[0] < 0.1

@@ -14,7 +14,7 @@ from hbm.path import Path
 from hbm.pieces import Pieces
 from hbm.resolution import PathResolution
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.memory import beyond_motion
+from microslip_mechanics.contact.law import RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
@@ -33,8 +33,8 @@ class Tracer:
             errors=options.errors,
         )
         self.control = options.control(problem.force_scale)
-        known = not beyond_motion(problem.interface.points)
-        motions = path.motions if options.stability and known else None
+        rigid = bool((problem.interface.points.friction == RIGID).any())
+        motions = path.motions if options.stability and not rigid else None
         multipliers = Multipliers(
             resolution, motions, self.control.tolerance, options.harmonics is not None
         )

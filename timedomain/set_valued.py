@@ -1,9 +1,10 @@
 """Average acceleration with rigid friction as a set-valued law (theory §7).
 
-A rigid contact carries the mean traction over a step, which is the projection of
-itself plus a multiple of the sliding velocity at the step's end: either that velocity
-is zero, or the traction is µN against it. Impulses stay out of the acceleration that
-the next step begins with, so that a contact that begins to stick does not ring.
+A rigid contact carries a mean traction over a step: that under which the mass that it
+sees, with a constant push, slides from its velocity at the step's begin to that at its
+end, stopping in between where it would turn. A contact that sticks ends with no sliding
+velocity at all. Impulses stay out of the acceleration that the next step begins with,
+so that a contact that begins to stick does not ring.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import RIGID, ContactPoints, normal_response
-from microslip_mechanics.contact.rigid import nearest_traction
+from microslip_mechanics.contact.rigid import slide
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 from timedomain.dense import solve_in_place
@@ -23,7 +24,7 @@ from timedomain.newmark import HALVINGS, NEWTON_LIMIT, Operators, State, reactio
 from timedomain.record import Meters, accumulate, store
 
 LOOSE = 1e-9
-"""η: share of a trial by which it is pinned where sticking leaves it free"""
+"""η: share of a push by which it is pinned where sticking leaves it free"""
 
 
 class Sliders(NamedTuple):
@@ -44,13 +45,17 @@ class Trial(NamedTuple):
 
     acceleration: Array
     """of y, shape (rank,)"""
-    trial: Array
-    """trial tractions [N], shape (2 count,)"""
+    push: Array
+    """on the mass of each contact [N], shape (2 count,)"""
     traction: Array
     """means over the step [N], shape (2 count,)"""
     residual: Array
     """[m/s²], shape (rank + 2 count,)"""
     matrix: Array
+    slid: Array
+    """traction and momentum of one point, shape (4,)"""
+    by: Array
+    """their derivatives, shape (4, 6)"""
 
 
 def sliders(problem: Problem) -> Sliders:
@@ -86,10 +91,10 @@ def march_sliders(
     size, iterations = rank + count, 0
     made = Trial(
         np.zeros(rank), np.zeros(count), np.zeros(count), np.zeros(size),
-        np.zeros((size, size)),
+        np.zeros((size, size)), np.zeros(4), np.zeros((4, 6)),
     )  # fmt: skip
     for place in range(count):
-        made.trial[place] = state.forces[sliders.points[place // 2], 1 + place % 2]
+        made.push[place] = state.forces[sliders.points[place // 2], 1 + place % 2]
     for step in range(first, steps):
         taken = _advance(
             operators, sliders, compliance, points, state, factors[step], tolerance,
@@ -140,6 +145,7 @@ def _advance(
             np.dot(operators.selection, predicted[:dofs]),
             np.dot(operators.selection, predicted[dofs:]),
             np.dot(operators.selection, free),
+            np.dot(operators.selection, state.velocity),
         )
     )
     smooth, taken = _newton(
@@ -174,14 +180,17 @@ def _newton(
     tolerance: float,
     made: Trial,
 ) -> tuple[Array, int]:
-    """Solve for the relative acceleration and the trial tractions of a step.
+    """Solve for the relative acceleration and the pushes of a step.
+
+    ``start`` holds relative displacement, velocity and acceleration without contact
+    forces, and the velocity before the step, shape ``(4, rank)``.
 
     Return the contact force on y without that of rigid friction, and the iterations,
     or −1. A change that does not lower the residual is halved.
     """
     rank = start.shape[1]
     guess: Array = start[2] - np.dot(operators.compliance, state.reaction)
-    pulled = made.trial.copy()
+    pushed = made.push.copy()
     change: Array = np.zeros(made.residual.size)
     scale, size = np.sqrt(np.dot(start[2], start[2])) + 1e-300, np.inf
     smooth: Array = np.zeros(rank)
@@ -189,7 +198,7 @@ def _newton(
         shrink, reached = 1.0, np.inf
         for _ in range(HALVINGS):
             made.acceleration[:] = guess - shrink * change[:rank]
-            made.trial[:] = pulled - shrink * change[rank:]
+            made.push[:] = pushed - shrink * change[rank:]
             smooth = _assemble(
                 operators, sliders, compliance, points, state, start, made
             )
@@ -199,7 +208,7 @@ def _newton(
             shrink *= 0.5
         if not reached < size:
             return smooth, -1
-        guess, pulled, size = made.acceleration.copy(), made.trial.copy(), reached
+        guess, pushed, size = made.acceleration.copy(), made.push.copy(), reached
         if size <= tolerance * (scale + np.sqrt(np.dot(guess, guess))):
             return smooth, iteration
         change = made.residual.copy()
@@ -233,7 +242,7 @@ def _assemble(
     matrix, residual = made.matrix, made.residual
     matrix[:] = 0.0
     for place in range(sliders.points.size):
-        _slide(operators, sliders, points, state, place, compliance[place], made)
+        _slide(operators, sliders, points, state, start, place, compliance[place], made)
     reaction = smooth + 2.0 * np.dot(sliders.rows.T, made.traction)
     residual[:rank] = (
         made.acceleration - start[2] + np.dot(operators.compliance, reaction)
@@ -242,7 +251,8 @@ def _assemble(
     matrix[:rank] = np.dot(operators.compliance, matrix[:rank].copy())
     for i in range(rank):
         matrix[i, i] += 1.0
-    residual[rank:] += np.dot(sliders.rows, start[1] / half + made.acceleration)
+    faster = (start[1] - start[3]) / half + made.acceleration
+    residual[rank:] += np.dot(sliders.rows, faster)
     matrix[rank:, :rank] += sliders.rows
     return smooth
 
@@ -253,6 +263,7 @@ def _slide(
     sliders: Sliders,
     points: ContactPoints,
     state: State,
+    start: Array,
     place: int,
     compliance: float,
     made: Trial,
@@ -266,28 +277,27 @@ def _slide(
             points, point, state.gaps[point, 0], state.slips[point, 0]
         )
         slope = points.dynamic[point] * half * (half * stiff + viscous)
-    first, second, d11, d12, d22, by_first, by_second = nearest_traction(
-        made.trial[one], made.trial[two], points.dynamic[point] * load
-    )
-    made.traction[one], made.traction[two] = first, second
-    share = 2.0 * compliance
-    by_trial = ((d11, d12), (d12, d22))
-    by_load = (slope * by_first, slope * by_second)
+    momentum = np.dot(sliders.rows[one : two + 1], start[3])
+    momentum /= max(2.0 * half * compliance, 1e-300)
+    limit = points.dynamic[point] * load
+    slide(made.push[one : two + 1], limit, 0.0, momentum, made.slid, made.by)
+    share, by = 2.0 * compliance, made.by
     for axis in range(2):
         own = one + axis
+        made.traction[own] = made.slid[axis]
         made.residual[rank + own] = share * (
-            made.traction[own] - (1.0 + LOOSE) * made.trial[own]
+            made.traction[own] - (1.0 + LOOSE) * made.push[own]
         )
         made.matrix[rank + own, rank + own] -= share * (1.0 + LOOSE)
         for other in range(2):
-            made.matrix[rank + own, rank + one + other] += share * by_trial[axis][other]
+            made.matrix[rank + own, rank + one + other] += share * by[axis, other]
         for j in range(rank):
-            deeper = by_load[axis] * sliders.normals[place, j]
+            deeper = slope * by[axis, 2] * sliders.normals[place, j]
             made.matrix[rank + own, j] += share * deeper
             for i in range(rank):
                 made.matrix[i, j] += 2.0 * sliders.rows[own, i] * deeper
         for i in range(rank):
             for other in range(2):
                 made.matrix[i, rank + one + other] += (
-                    2.0 * sliders.rows[own, i] * by_trial[axis][other]
+                    2.0 * sliders.rows[own, i] * by[axis, other]
                 )

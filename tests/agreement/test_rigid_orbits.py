@@ -13,6 +13,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
+from timedomain.comparison import compared
 from timedomain.shooting import ShootingOptions, periodic_orbit
 from timedomain.start import Start
 from timedomain.verify import agreement, march_periods
@@ -65,6 +66,36 @@ def test_march_comes_closer_to_sliding_in_a_plane_as_steps_shrink(case: str) -> 
     )
     assert fine < 1e-4
     assert fine < 0.15 * coarse
+
+
+@pytest.mark.parametrize("case", ["rigid coulomb", "rigid coulomb, variable load"])
+def test_shooting_finds_the_orbit(case: str) -> None:
+    problem = driven(case)
+    made = compared(problem, response(problem, 6.5))
+    assert made.agrees
+    assert made.difference < 1e-4
+    assert 0.1 < made.found_multiplier < 1.0
+
+
+def test_multipliers_of_the_march_are_those_of_motions_that_turn() -> None:
+    limit, frequency = 0.5, 1.3
+    problem = block(RigidCoulomb(mu=1.0, load=limit))
+    found = response(problem, frequency)
+    displacement, velocity = found.at(np.zeros(1))
+    orbit = periodic_orbit(
+        problem, frequency, start=Start(displacement[0], velocity[0])
+    )
+    # the product: damping, and at both turns the slope of the velocity after it over
+    # that before it (Liouville; Aizerman and Gantmakher)
+    phase = np.linspace(0.0, 2.0 * np.pi, 20001)
+    shown = found.at(phase)[0][:, 0]
+    top = shown.argmax()
+    pull = np.sin(phase[top]) - shown[top]
+    turns = ((pull + limit) / (pull - limit)) ** 2
+    expected = np.exp(-0.1 * 2.0 * np.pi / frequency) * turns
+    product = np.prod(orbit.multipliers)
+    assert product.real == pytest.approx(expected, rel=0.02)
+    assert abs(product.imag) < 1e-6
 
 
 @pytest.mark.parametrize(

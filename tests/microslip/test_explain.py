@@ -147,3 +147,44 @@ def test_command_prints_a_line_for_each_with_its_reason(run: Run) -> None:
         numbers = line.removeprefix(each.what).split(maxsplit=2)
         assert numbers == [str(each.kept), str(each.whole - each.kept), each.reason]
     assert "imports, by command" in output
+
+
+def test_the_rule_that_fixes_stuck_contacts_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "rigid.toml"
+    path.write_text(
+        """
+scene = "system"
+[structure]
+mass = [1.0]
+stiffness = [4.0]
+[[element]]
+name = "slider"
+law = "rigid-coulomb"
+load = 1.0
+mu = 0.3
+tangents = [["x1", "ground"]]
+[drive]
+x1 = 1.0
+[curve]
+lowest = 0.1
+highest = 0.5
+harmonics = 5
+[sweep]
+ramp = 0
+start = 0
+end = 9
+duration = 9
+lowest = 0.1
+highest = 0.5
+[march]
+time_step = 0.01
+""",
+        encoding="utf-8",
+    )
+    counts = {each.what: each for each in pruned(load_scene(str(path)))}
+
+    stuck = counts["mean friction of stuck contacts"]
+    assert (stuck.kept, stuck.whole) == (0, 1)
+    # displacement and push, odd harmonics only
+    unknowns = counts["unknowns of harmonic balance with 5 harmonics"]
+    assert (unknowns.kept, unknowns.whole) == (2 * 6, 2 * 11)

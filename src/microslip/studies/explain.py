@@ -23,6 +23,7 @@ from microslip_mechanics.contact.law import (
     TANH,
     tangent_pattern,
 )
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 
@@ -132,7 +133,18 @@ def _contacts(problem: Problem, why: str) -> list[Pruned]:
         Pruned(
             "tangents per sample", entries, 18 * count, "the others are always zero"
         ),
+        *_stuck(problem),
     ]
+
+
+def _stuck(problem: Problem) -> list[Pruned]:
+    """Say by what rule the position of stuck contacts is fixed."""
+    points = problem.interface.points
+    count = int(np.sum(remembers(points) | (points.friction == RIGID)))
+    if count == 0:
+        return []
+    rule = "zero: it fixes the mean position of a contact that never slides"
+    return [Pruned("mean friction of stuck contacts", 0, count, rule)]
 
 
 def _unknowns(problem: Problem, scene: Scene) -> list[Pruned]:
@@ -140,7 +152,6 @@ def _unknowns(problem: Problem, scene: Scene) -> list[Pruned]:
     dofs = problem.structure.dofs
     _, selection = problem.interface.relative_motion()
     harmonics = scene.curve.harmonics or HARMONICS
-    size = 2 * harmonics + 1
     return [
         Pruned(
             "unknowns of a time step",
@@ -156,8 +167,7 @@ def _unknowns(problem: Problem, scene: Scene) -> list[Pruned]:
         ),
         Pruned(
             f"unknowns of harmonic balance with {harmonics} harmonics",
-            _active(problem, scene, harmonics),
-            size * len(selection),
+            *_active(problem, scene, harmonics),
             "symmetry keeps the others at zero",
         ),
     ]
@@ -186,9 +196,9 @@ def _laws(problem: Problem) -> tuple[int, int]:
     return len(used), len(FRICTION_LAWS) - 1
 
 
-def _active(problem: Problem, scene: Scene, harmonics: int) -> int:
-    """Count the unknowns that move, at the curve's first frequency."""
+def _active(problem: Problem, scene: Scene, harmonics: int) -> tuple[int, int]:
+    """Count the unknowns that move at the curve's first frequency, and all."""
     frequency = 2.0 * np.pi * scene.curve.lowest
     relative = relative_problem(problem, static_equilibrium(problem))
-    active = moving(with_pushes(relative, frequency), frequency)
-    return int(extended(active, harmonics).sum())
+    active = extended(moving(with_pushes(relative, frequency), frequency), harmonics)
+    return int(active.sum()), active.size

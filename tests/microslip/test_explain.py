@@ -169,6 +169,7 @@ x1 = 1.0
 lowest = 0.1
 highest = 0.5
 harmonics = 5
+tolerance = 1e-3
 [sweep]
 ramp = 0
 start = 0

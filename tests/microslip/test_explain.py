@@ -179,6 +179,7 @@ lowest = 0.1
 highest = 0.5
 [march]
 time_step = 0.01
+store_every = 10
 """,
         encoding="utf-8",
     )

@@ -10,17 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis, Transform, derivative
-from hbm.memory import FrictionMemory
+from hbm.memory import FrictionMemory, marched
 from hbm.sampling import Forces, hat, sample
 from hbm.symmetry import Symmetry, symmetry
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
+    PUSHED,
+    RIGID,
     ContactPoints,
     contact_force,
     contact_power,
     tangent_pattern,
 )
-from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.jit import kernel
 
 
@@ -88,13 +90,24 @@ class AlternatingFrequencyTime:
             shape ``(rank,)``: half a period then says all. None without that symmetry.
         pruned
             Whether tangents that the laws do not have are left out.
+
+        Raises
+        ------
+        MicroslipError
+            If a contact is rigid: its traction does not follow from the motion.
         """
+        if (points.friction == RIGID).any():
+            raise MicroslipError(
+                "rigid friction has no force of a given motion: it is solved along a "
+                "frequency or a parameter; give coulomb with a small "
+                "threshold_velocity here"
+            )
         rows, rank = basis.shape
         self._points, self._basis, self._fourier = points, basis, fourier
         self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
         self._offset = np.zeros(rows) if offset is None else offset
         self._entries = _entries(points, pruned)
-        recalls = bool(remembers(points).any())
+        recalls = bool(marched(points).any())
         self._memory = FrictionMemory(basis, fourier) if recalls else None
         self._symmetry = symmetry(basis, self._entries, None if recalls else odd)
         samples = fourier.samples
@@ -330,6 +343,8 @@ def _cycle(
             smallest[point] = min(smallest[point], force[0])
             largest[point] = max(largest[point], force[0])
             force[1:] = forces[place, moment][1:]
+            if points.friction[point] == PUSHED:
+                force[1:] = 0.0  # its displacement is a push
             slid, damped = contact_power(points, point, moved, moving, force)
             powers[0] += slid / seen
             powers[1] += damped / seen

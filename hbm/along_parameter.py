@@ -12,6 +12,7 @@ from hbm.active import extended, moving, symmetric
 from hbm.fourier import FourierBasis
 from hbm.parametric import ParametricBalance
 from hbm.relative import RelativeProblem, relative_problem
+from hbm.rigid import with_pushes
 from hbm.stability import SmallMotions, small_motions
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState, static_equilibrium
@@ -102,7 +103,7 @@ class AlongParameter:
         rest = rest or static_equilibrium(problem)
         made = relative_problem(problem, rest, known)
         self._last = problem, made, rest
-        return made
+        return with_pushes(made, self._frequency)
 
 
 def _same_at_rest(one: Problem, two: Problem) -> bool:

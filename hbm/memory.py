@@ -15,15 +15,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis
+from hbm.sliding_loop import sliding_loop
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.law import PUSHED, ContactPoints
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.jit import kernel
 
 
+def marched(points: ContactPoints) -> NDArray[np.bool_]:
+    """Return which points have friction that is marched to a steady loop, (points,)."""
+    which: NDArray[np.bool_] = remembers(points) | (points.friction == PUSHED)
+    return which
+
+
 class FrictionMemory:
-    """Tractions of the points that remember, and their derivatives."""
+    """Tractions of the points that are marched, and their derivatives."""
 
     def __init__(self, basis: Array, fourier: FourierBasis) -> None:
         """Plan for ``basis``, the map from y to the points, ``(3 points, rank)``."""
@@ -55,9 +62,10 @@ class FrictionMemory:
         ``moved`` are displacement and velocity of the points at all samples.
         """
         none = np.zeros((2, 3, 0, 0))
-        for point in np.flatnonzero(remembers(points)).tolist():
+        for point in np.flatnonzero(marched(points)).tolist():
             rows = slice(3 * point, 3 * point + 3)
-            made, by_frequency = steady_loop(
+            loop = sliding_loop if points.friction[point] == PUSHED else steady_loop
+            made, by_frequency = loop(
                 points, point, moved[0][rows], moved[1][rows], self._waves, frequency,
                 self._axes(point), none,
             )  # fmt: skip
@@ -78,9 +86,10 @@ class FrictionMemory:
         coefficients; negative ones are left out.
         """
         gradient = np.empty((2, 3, *self._waves.value.shape))
-        for point in np.flatnonzero(remembers(points)).tolist():
+        for point in np.flatnonzero(marched(points)).tolist():
             rows, axes = slice(3 * point, 3 * point + 3), self._axes(point)
-            steady_loop(
+            loop = sliding_loop if points.friction[point] == PUSHED else steady_loop
+            loop(
                 points, point, moved[0][rows], moved[1][rows], self._waves, frequency,
                 axes, gradient,
             )  # fmt: skip

@@ -13,6 +13,7 @@ from hbm.active import PROBE, extended, moving, symmetric
 from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import Balance, HarmonicBalance
+from hbm.rigid import with_pushes
 from hbm.stability import SmallMotions, small_motions
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
@@ -116,7 +117,8 @@ def along_frequency(
     """
     if min(start, end) <= 0.0:
         raise ValueError(f"frequencies {start:g} and {end:g} rad/s: give positive ones")
-    relative = replace(relative_problem(problem, rest), pruned=pruned)
+    still = relative_problem(problem, rest)
+    relative = with_pushes(replace(still, pruned=pruned), max(start, end))
     width = abs(end - start)
     return among(problem, relative, start, width, symmetry=symmetry and pruned)
 

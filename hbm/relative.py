@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from hbm.aft import AlternatingFrequencyTime
 from hbm.condensation import Condensed, condense
 from hbm.fourier import FourierBasis
+from hbm.tractions import Tractions
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.law import FRICTIONLESS, RIGID, ContactPoints
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
 
@@ -40,6 +41,8 @@ class RelativeProblem:
     """which coordinates have odd harmonics only, the others even ones; None if mixed"""
     pruned: bool = True
     """whether tangents that the contacts' laws do not have are left out"""
+    tractions: Tractions | None = None
+    """of rigid contacts: pushes on them are the last coordinates"""
 
     @property
     def rank(self) -> int:
@@ -77,6 +80,19 @@ class RelativeProblem:
         seen: ComplexArray = rows @ motion[0]
         return seen
 
+    def map_from(self, displacement: Array) -> Array:
+        """Return the map from a structure to y, shape (rank, dofs).
+
+        ``displacement`` is its map to the points, shape ``(3 points, dofs)``. What is
+        not seen in a motion, pushes on rigid contacts, has rows of zeros.
+        """
+        if self.tractions is None:
+            return self.basis.T @ displacement
+        rows, places = self.tractions.rows, self.tractions.places
+        others = self.basis[:, : rows.shape[1]].T @ displacement
+        seen = others + rows.T @ displacement[places]
+        return np.pad(seen, ((0, len(rows)), (0, 0)))
+
     def restricted(
         self, kept: NDArray[np.int64], odd: NDArray[np.bool_] | None
     ) -> RelativeProblem:
@@ -92,6 +108,7 @@ class RelativeProblem:
             rest=self.rest[kept],
             position=self.position + self.condensed.static[:, left] @ self.rest[left],
             odd=odd,
+            tractions=self.tractions and self.tractions.restricted(kept),
         )
 
 
@@ -133,7 +150,9 @@ def held_mean_positions(problem: RelativeProblem) -> Array:
     rank = problem.rank
     if rank == 0:
         return np.zeros((0, 0))
-    contact = problem.contact(FourierBasis(1, 8))
+    contact = replace(problem, points=_sliding(problem.points)).contact(
+        FourierBasis(1, 8)
+    )
     contact(np.vstack([problem.rest, np.zeros((2, rank))]), 1.0)
     held = problem.condensed.stiffness + contact.spectra(0)[0][:, :, 0]
     sizes, directions = np.linalg.eigh((held + held.T) / 2.0)
@@ -143,3 +162,9 @@ def held_mean_positions(problem: RelativeProblem) -> Array:
         largest = float(np.abs(np.diag(problem.condensed.mass)).max())
     gauge: Array = largest * 1e-6 * loose @ loose.T
     return gauge
+
+
+def _sliding(points: ContactPoints) -> ContactPoints:
+    """Return the points with rigid ones free to slide: they hold no mean position."""
+    rigid = points.friction == RIGID
+    return points._replace(friction=np.where(rigid, FRICTIONLESS, points.friction))

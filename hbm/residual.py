@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -164,7 +165,15 @@ class HarmonicBalance:
 
     def cycle(self, point: Array) -> ContactCycle:
         """Return what the contacts do over one period."""
-        return self.contact.cycle(*self.split(point))
+        coefficients, frequency = self.split(point)
+        cycle, tractions = (
+            self.contact.cycle(coefficients, frequency),
+            self.problem.tractions,
+        )
+        if tractions is None:
+            return cycle
+        rigid = tractions.work(to_complex(coefficients), frequency)
+        return replace(cycle, friction=cycle.friction + rigid)
 
     def drift_force(self, point: Array) -> float:
         """Return the mean force [N] by which only the gauge of a free body is held."""

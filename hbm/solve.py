@@ -195,7 +195,7 @@ def periodic_response(
     small, still, shapes = _small(problem, rest, highest)
     path = along_frequency(small, still, guess.frequency, guess.frequency)
     balance = path.balance(FourierBasis(harmonics, samples))
-    rows = path.problem.basis.T @ problem.interface.displacement
+    rows = path.problem.map_from(problem.interface.displacement)
     start = balance.point(guess.seen(rows), guess.frequency)
     with threadpool_limits(1, "blas"):
         correction = correct_at(balance, start, control)
@@ -225,7 +225,7 @@ def settled_response(
     path = along_frequency(small, still, frequency, frequency)
     around = CurveOptions(frequency, 2.0 * frequency, error=error, stability=False)
     tracer = Tracer(small, path, around)
-    rows = path.problem.basis.T @ problem.interface.displacement
+    rows = path.problem.map_from(problem.interface.displacement)
     first = guess.seen(rows)[:3].ravel()
     start = np.zeros(tracer.system.size)
     start[: first.size], start[-1] = first, frequency

@@ -16,6 +16,7 @@ from hbm.pieces import Pieces
 from hbm.resolution import PathResolution
 from hbm.smoothness import smoothest
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
@@ -34,7 +35,8 @@ class Tracer:
             errors=options.errors,
         )
         self.control = options.control(problem.force_scale)
-        motions = path.motions if options.stability else None
+        rigid = bool((problem.interface.points.friction == RIGID).any())
+        motions = path.motions if options.stability and not rigid else None
         multipliers = Multipliers(
             resolution, motions, self.control.tolerance, options.harmonics is not None
         )

@@ -61,6 +61,8 @@ CASES: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     "dahl": ("dahl", {"stiffness": 40.0, "mu": 0.3, "load": 2.0}, SLIDING),
     "lugre": ("lugre", {**LUGRE, **SPRING}, PRESSED),
     "coulomb": ("coulomb", {"mu": 0.3, "threshold_velocity": 0.2, **SPRING}, PRESSED),
+    "rigid coulomb": ("rigid-coulomb", {"mu": 0.3, "load": 2.0}, SLIDING),
+    "rigid coulomb, variable load": ("rigid-coulomb", {"mu": 0.3, **SPRING}, PRESSED),
     "smooth coulomb": (
         "coulomb",
         {"mu": 0.3, "threshold_velocity": 0.2, "smooth": True, "load": 2.0},

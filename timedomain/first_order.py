@@ -17,7 +17,7 @@ import numpy as np
 import scipy.linalg
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ELASTIC, ContactPoints
+from microslip_mechanics.contact.law import ELASTIC, RIGID, ContactPoints
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.jit import closure
@@ -115,7 +115,8 @@ def first_order(
     Raises
     ------
     ValueError
-        If a contact remembers, other than elastic friction of constant limit.
+        If a contact remembers, other than elastic friction of constant limit, or is
+        rigid.
     """
     structure, points = problem.structure.dense, problem.interface.points
     _check(points, problem.interface.names)
@@ -143,7 +144,11 @@ def first_order(
 
 
 def _check(points: ContactPoints, names: tuple[str, ...]) -> None:
-    """Check that what remembers has a rate of its own."""
+    """Check that what remembers has a rate of its own, and that nothing is rigid."""
+    for point in np.flatnonzero(points.friction == RIGID):
+        raise ValueError(
+            f"{names[point]}: rigid friction is set-valued: it has no first-order form"
+        )
     for point in np.flatnonzero(remembers(points)):
         steady = points.constant_load[point] and points.load[point] > 0.0
         if points.friction[point] != ELASTIC or not steady:

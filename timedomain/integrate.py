@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
@@ -37,8 +37,8 @@ def integrate(
     history
         Factors of preload and drive over time.
     options
-        Method, step or tolerance, and what is stored. Contacts that remember take the
-        reference method with ``time_step``, and have no estimated error.
+        Method, step or tolerance, and what is stored. Contacts that remember or are
+        rigid take the reference method with ``time_step``, and have no estimated error.
     start
         Initial displacement and velocity; all at rest and without load if left out.
         From the checkpoint of a block of the same march, the rest of it is yielded.
@@ -61,7 +61,7 @@ def integrate(
     begin = (
         at_rest(problem) if start is None or isinstance(start, Checkpoint) else start
     )
-    if remembers(problem.interface.points).any():
+    if beyond_motion(problem.interface.points):
         options = replace(options, method="reference", tolerance=None)
     method = FastMarch if options.method == "fast" else ReferenceMarch
     marching = method(problem, history, options, rows * stride, begin)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ELASTIC, ContactPoints, contact_force
+from microslip_mechanics.contact.law import ELASTIC, RIGID, ContactPoints, contact_force
 from microslip_mechanics.contact.memory import add_traction
 from microslip_mechanics.jit import kernel
 from timedomain.dense import solve_in_place
@@ -171,7 +171,7 @@ def _newton(
         shrink, reached = 1.0, np.inf
         for _ in range(HALVINGS):
             trial = guess - shrink * change
-            reaction = _reaction(
+            reaction = reaction_of(
                 operators,
                 points,
                 state,
@@ -200,7 +200,7 @@ def _newton(
 
 
 @kernel
-def _reaction(
+def reaction_of(
     operators: Operators,
     points: ContactPoints,
     state: State,
@@ -227,7 +227,7 @@ def _reaction(
             tangents[0],
             tangents[1],
         )
-        if points.friction[point] >= ELASTIC:
+        if ELASTIC <= points.friction[point] < RIGID:
             add_traction(
                 points, point, state.gaps[point], state.slips[point],
                 state.past[point], state.fresh[point], state.forces[point],

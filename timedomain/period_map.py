@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import RIGID
 from microslip_mechanics.contact.sliders import Sliders, Slides
 from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.excitation import Dwell
@@ -36,6 +37,8 @@ BLOCK = 16
 """steps that are taken together"""
 TOLERANCE = 1e-12
 """of the march's contact forces"""
+NUDGE = 1e-6
+"""of the vibration, for derivatives by differences"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +225,12 @@ class PeriodMap:
         return Sensitivity(monodromy, mean * units / self.unit[:, None])
 
     def _monodromy(self, period: Period) -> Array:
-        """Return the derivative of the state after a period without memory."""
+        """Return the derivative of the state after a period without memory.
+
+        With rigid friction, which has no tangents, it is that of differences.
+        """
+        if (self.problem.interface.points.friction == RIGID).any():
+            return self._differences(period)
         free, push = self._step()
         seen = _seen(self.structure)
         tangents = self._tangents(period)
@@ -234,6 +242,19 @@ class PeriodMap:
         before = whole - push @ tangents[0] @ seen
         made: Array = (whole + push @ answers[-1] @ seen) @ carried @ before
         return made
+
+    def _differences(self, period: Period) -> Array:
+        """Return the derivative by marches from states nearby."""
+        motions = np.hstack([period.displacement, period.velocity / self.frequency])
+        to_modes = np.kron(np.eye(2), self.structure.inverse)
+        nudge = NUDGE * float(np.linalg.norm(np.ptp(motions @ to_modes.T, axis=0)))
+        start = self.state(Start(period.displacement[0], period.velocity[0]))
+        ends = []
+        for push in np.vstack([np.zeros(start.size), nudge * np.eye(start.size)]):
+            near = self.march(start + push)
+            ends.append(self.state(Start(near.displacement[-1], near.velocity[-1])))
+        derivative: Array = (np.array(ends[1:]) - ends[0]).T / nudge
+        return derivative
 
     def _step(self) -> tuple[Array, Array]:
         """Return A and b of one step, (2 modes, 2 modes) and (2 modes, rank)."""

@@ -12,6 +12,7 @@ from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.newmark import Operators, march
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record import FLOWS, STORES, accumulate, row_length, store
+from timedomain.set_valued import march_sliders, sliders
 from timedomain.start import (
     Start,
     checkpoint,
@@ -38,6 +39,7 @@ class ReferenceMarch:
         self._step = history.duration / steps
         self._shapes = problem.loads.T.copy()
         self._operators = _operators(problem, self._shapes, self._step)
+        self._sliders = sliders(problem)
         self._state = first_state(problem, history, start)
         self._meters = meters(problem, self._shapes)
         self._stored_at_start = stored_energy(problem, self._state)
@@ -58,16 +60,7 @@ class ReferenceMarch:
         factors = self._factors(times)
         done, iterations, divided = 0, 0, 0
         while True:
-            done, taken = march(
-                self._operators,
-                points,
-                self._state,
-                self._meters,
-                factors,
-                rows,
-                done,
-                self._options.residual,
-            )
+            done, taken = self._marched(self._operators, factors, rows, done)
             iterations += taken
             if done == count:
                 break
@@ -80,6 +73,21 @@ class ReferenceMarch:
         )
         return self._table(times[stride - 1 :: stride], rows, iterations, divided, end)
 
+    def _marched(
+        self, operators: Operators, factors: Array, rows: Array, first: int
+    ) -> tuple[int, int]:
+        """March until a step fails; return the steps done and Newton's iterations."""
+        points, residual = self._problem.interface.points, self._options.residual
+        state, meters = self._state, self._meters
+        if self._sliders.points.size == 0:
+            return march(
+                operators, points, state, meters, factors, rows, first, residual
+            )
+        return march_sliders(
+            operators, self._sliders, points, state, meters, factors, rows, first,
+            residual,
+        )  # fmt: skip
+
     def _divide(self, step: int) -> int:
         """Take step number ``step`` in parts; return Newton's iterations."""
         points = self._problem.interface.points
@@ -89,16 +97,8 @@ class ReferenceMarch:
             parts = 2**halvings
             times = self._times(step + np.arange(1.0, parts + 1.0) / parts)
             operators = _operators(self._problem, self._shapes, self._step / parts)
-            done, iterations = march(
-                operators,
-                points,
-                self._state,
-                self._meters,
-                self._factors(times),
-                nothing,
-                0,
-                self._options.residual,
-            )
+            factors = self._factors(times)
+            done, iterations = self._marched(operators, factors, nothing, 0)
             if done == parts:
                 return iterations
             for array, old in zip((*self._state, *self._meters), before, strict=True):

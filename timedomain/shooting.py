@@ -6,6 +6,8 @@ import math
 import time
 from dataclasses import dataclass
 
+from microslip_mechanics.contact.law import RIGID
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from timedomain.closed_march import ClosedMarch, ShootingError, closed
 from timedomain.period_map import BLOCK, PeriodMap
@@ -67,12 +69,18 @@ def periodic_orbit(
     Raises
     ------
     ShootingError
-        If no orbit is reached.
+        If no orbit is reached, or if some contacts remember and others are rigid.
     ValueError
         If the frequency is not positive, or the structure sparse.
     """
     if not 0.0 < frequency < math.inf:
         raise ValueError(f"frequency {frequency:g} rad/s: give a positive finite one")
+    points = problem.interface.points
+    if remembers(points).any() and (points.friction == RIGID).any():
+        raise ShootingError(
+            "shooting knows contacts that remember and rigid ones, but not both at "
+            "once: march to the steady state (dwell)"
+        )
     chosen = options or ShootingOptions()
     until = time.process_time() + chosen.seconds
     coarse = _first(problem, frequency, start, chosen, until)

@@ -59,7 +59,7 @@ def test_normal_loads_vary_only_where_friction_sees_them(
 def test_only_the_law_of_the_scene_is_called(law: str, kept: int) -> None:
     laws = counted(f"friction.law={law}")["friction laws called"]
 
-    assert (laws.kept, laws.whole) == (kept, 5)
+    assert (laws.kept, laws.whole) == (kept, 6)
 
 
 @pytest.mark.parametrize(
@@ -201,3 +201,46 @@ def test_command_says_so_if_pruning_changes_the_curve(
 
     assert status == 1
     assert "DISAGREE" in output
+
+
+def test_the_rule_that_fixes_stuck_contacts_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "rigid.toml"
+    path.write_text(
+        """
+scene = "system"
+[structure]
+mass = [1.0]
+stiffness = [4.0]
+[[element]]
+name = "slider"
+law = "rigid-coulomb"
+load = 1.0
+mu = 0.3
+tangents = [["x1", "ground"]]
+[drive]
+x1 = 1.0
+[curve]
+lowest = 0.1
+highest = 0.5
+harmonics = 5
+tolerance = 1e-3
+[sweep]
+ramp = 0
+start = 0
+end = 9
+duration = 9
+lowest = 0.1
+highest = 0.5
+[march]
+time_step = 0.01
+store_every = 10
+""",
+        encoding="utf-8",
+    )
+    counts = {each.what: each for each in pruned(load_scene(str(path)))}
+
+    stuck = counts["mean friction of stuck contacts"]
+    assert (stuck.kept, stuck.whole) == (0, 1)
+    # displacement and push, odd harmonics only
+    unknowns = counts["unknowns of harmonic balance with 5 harmonics"]
+    assert (unknowns.kept, unknowns.whole) == (2 * 6, 2 * 11)

@@ -21,8 +21,10 @@ from microslip_mechanics.contact.law import (
     ELASTIC,
     FRICTIONLESS,
     GENERAL_KINETIC,
+    RIGID,
     TANH,
 )
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 
 HARMONICS = 63
@@ -34,6 +36,7 @@ FRICTION_LAWS = {
     TANH: "smooth Coulomb",
     ELASTIC: "elastic friction",
     BRISTLE: "bristles",
+    RIGID: "rigid Coulomb",
 }
 EVALUATED = (
     (
@@ -130,6 +133,16 @@ def _contacts(problem: Problem, why: str) -> Iterator[Pruned]:
     yield Pruned("variable normal loads of friction", loads, count, why)
     why = "only those of the scene's points"
     yield Pruned("friction laws called", *_laws(problem), why)
+    yield from _stuck(problem)
+
+
+def _stuck(problem: Problem) -> Iterator[Pruned]:
+    """Say by what rule the position of stuck contacts is fixed."""
+    points = problem.interface.points
+    count = int(np.sum(remembers(points) | (points.friction == RIGID)))
+    if count:
+        rule = "zero: it fixes the mean position of a contact that never slides"
+        yield Pruned("mean friction of stuck contacts", 0, count, rule)
 
 
 def _step(problem: Problem) -> Pruned:

@@ -14,7 +14,7 @@ from hbm.solve import periodic_response, settled_response
 from microslip.studies.orbit import PHASES, Orbit, drive_work, orbit_of, rubs, samples
 from microslip.studies.precision_case import Case, Result, fixed_step, steady_result
 from microslip.studies.precision_outsiders import Outsiders
-from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.integrate import MarchOptions
 from timedomain.shooting import ShootingOptions, periodic_orbit
@@ -72,15 +72,15 @@ def _balances(quick: bool) -> Iterator[Setting]:
 
 def _marches(case: Case, quick: bool) -> Iterator[Setting]:
     """Yield microslip's own marches."""
-    recalls = remembers(case.problem.interface.points).any()
+    single = beyond_motion(case.problem.interface.points)
     most = 12 if quick else 15
-    for method in ("reference",) if recalls else ("reference", "fast"):
+    for method in ("reference",) if single else ("reference", "fast"):
         for power in range(7, most):
             steps = 2**power
             options = fixed_step(case.frequency, steps, method)
             run = partial(_marched, options=options)
             yield Setting(f"{method} march", f"{steps} steps", run)
-    if recalls:
+    if single:
         return
     for power in range(1, 4 if quick else 7):
         step = math.tau / case.frequency / PHASES

@@ -10,7 +10,7 @@ from hbm.solve import periodic_response
 from microslip.studies.orbit import Orbit, orbit_of
 from microslip.studies.precision_case import PERIODS, Case, fixed_step
 from microslip.studies.precision_methods import shot
-from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.memory import beyond_motion
 from timedomain.steady import steady
 
 SETTLED = 1e-10
@@ -62,11 +62,12 @@ def _by_balance(case: Case, budget: float) -> tuple[Orbit, str]:
 def _by_marches(case: Case, budget: float) -> tuple[Orbit, str]:
     """Return the orbit by two reference marches, extrapolated.
 
-    By shooting, or where contacts remember by the steady states of two dwells.
+    By shooting, or by the steady states of two dwells where friction does not follow
+    from the motion at one moment.
     """
     steps = 1024
     orbit: Orbit | None = None
-    make = _dwelled if remembers(case.problem.interface.points).any() else _shot
+    make = _dwelled if beyond_motion(case.problem.interface.points) else _shot
     while True:
         began = time.process_time()
         fresh, name = make(case, steps)

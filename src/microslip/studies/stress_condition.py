@@ -21,7 +21,7 @@ def condition(problem: Problem, traced: Traced, place: int) -> float:
     frequency = response.frequency
     path = along_frequency(problem, traced.rest, frequency, frequency)
     balance = path.balance(FourierBasis(response.harmonics, response.samples))
-    rows = path.problem.basis.T @ problem.interface.displacement
+    rows = path.problem.map_from(problem.interface.displacement)
     _, linearised = balance(balance.point(response.seen(rows), frequency))
     jacobian = linearised.jacobian
     if jacobian.size == 0:

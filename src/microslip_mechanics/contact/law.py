@@ -29,7 +29,9 @@ from microslip_mechanics.jit import bare_kernel, kernel
 ONE_SIDED, TWO_SIDED = 0, 1
 """kinds of normal law: Hunt and Crossley's, and a spring that also pulls"""
 FRICTIONLESS, COULOMB, GENERAL_KINETIC, TANH, ELASTIC, BRISTLE = 0, 1, 2, 3, 4, 5
-"""kinds of friction; those from ELASTIC on remember where they were"""
+RIGID, PUSHED = 6, 7
+"""kinds of friction; those from ELASTIC on are no functions of the motion. Harmonic
+balance turns RIGID into PUSHED, that under a mass which is pushed"""
 
 
 class ContactPoints(NamedTuple):
@@ -50,13 +52,13 @@ class ContactPoints(NamedTuple):
     clamped: NDArray[np.bool_]
     """whether a pulling normal force is set to zero"""
     friction: NDArray[np.int64]
-    """FRICTIONLESS, COULOMB, GENERAL_KINETIC, TANH, ELASTIC or BRISTLE"""
+    """FRICTIONLESS, COULOMB, GENERAL_KINETIC, TANH, ELASTIC, BRISTLE or RIGID"""
     dynamic: Array
     """µd"""
     static: Array
     """µs (GKF, bristles)"""
     stribeck: Array
-    """V_str [m/s] (GKF, bristles)"""
+    """V_str [m/s] (GKF, bristles); rate at which a mass slows down [1/s] (PUSHED)"""
     stribeck_exponent: Array
     """γ (GKF, bristles)"""
     viscous: Array
@@ -68,7 +70,7 @@ class ContactPoints(NamedTuple):
     load: Array
     """constant normal load of friction [N]"""
     tangential: Array
-    """k_t [N/m] (ELASTIC, BRISTLE)"""
+    """k_t [N/m] (ELASTIC, BRISTLE); push by displacement (PUSHED)"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +134,7 @@ def contact_force(
         and two tangents, shape ``(3,)``.
     force
         Written: the force [N] that resists them, shape ``(3,)``; without the traction
-        of what remembers (:mod:`~microslip_mechanics.contact.memory`).
+        of what remembers (:mod:`~microslip_mechanics.contact.memory`) or is rigid.
     by_displacement, by_velocity
         Written: ∂force/∂displacement [N/m], ∂force/∂velocity [N s/m], shape ``(3, 3)``.
 

@@ -11,6 +11,7 @@ from microslip_mechanics.contact.elastic import ElasticFriction, elastic_tractio
 from microslip_mechanics.contact.law import (
     BRISTLE,
     ELASTIC,
+    RIGID,
     ContactPoints,
     normal_response,
 )
@@ -23,6 +24,15 @@ MEMORIES = (ELASTIC, BRISTLE)
 def remembers(points: ContactPoints) -> NDArray[np.bool_]:
     """Return which points have friction that depends on where they were, (points,)."""
     return np.isin(points.friction, MEMORIES)
+
+
+def beyond_motion(points: ContactPoints) -> bool:
+    """Return whether some friction is no function of the motion at one moment.
+
+    Such a point remembers, or it is rigid: what it carries while it sticks follows from
+    what the structure asks of it.
+    """
+    return bool((remembers(points) | (points.friction == RIGID)).any())
 
 
 @kernel

@@ -14,6 +14,7 @@ from microslip_mechanics.laws.hunt_crossley import HuntCrossleyContact
 from microslip_mechanics.laws.iwan import Iwan
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
+from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 
 LAWS: dict[str, type[Any]] = {
@@ -30,6 +31,7 @@ LAWS: dict[str, type[Any]] = {
     "dahl": Dahl,
     "lugre": LuGre,
     "coulomb": RegularisedCoulomb,
+    "rigid-coulomb": RigidCoulomb,
     "gkf": GeneralKineticFriction,
 }
 """name in a scene, and class in Python, of each law"""

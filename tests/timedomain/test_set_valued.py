@@ -1,0 +1,122 @@
+"""The set-valued step: sliding blocks that stop, and stay where they are."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from law_examples import SLIDING, driven
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.element import Element
+from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.system import system
+from microslip_mechanics.time_history import TimeHistory, joined
+from timedomain.first_order import first_order
+from timedomain.integrate import MarchOptions, integrate
+from timedomain.start import Start
+
+LIMIT = 0.4
+
+
+def block(stiffness: float, **directions: Any) -> Problem:
+    return system(
+        mass=[2.0, 2.0],
+        stiffness=np.diag([stiffness, stiffness]).tolist(),
+        names=("x", "y"),
+        elements=[Element(RigidCoulomb(mu=0.2, load=LIMIT / 0.2), **directions)],
+    )
+
+
+def marched(problem: Problem, start: Start, seconds: float, step: float) -> TimeHistory:
+    options = MarchOptions(step, store_every=1)
+    blocks = integrate(problem, Dwell(1.0, seconds), options, start=start)
+    return joined(list(blocks), "complete")
+
+
+@pytest.mark.parametrize("step", [1e-2, 1e-3])
+def test_a_sliding_block_stops_where_its_energy_is_spent(step: float) -> None:
+    velocity = np.array([0.3, 0.4])
+    history = marched(block(0.0, **SLIDING), Start(np.zeros(2), velocity), 4.0, step)
+    # along its velocity: m v²/2 = µN s, and it takes m v / µN
+    distance, duration = 2.0 * 0.25 / 2.0 / LIMIT, 2.0 * 0.5 / LIMIT
+    path = distance * velocity / 0.5
+    assert history.displacement[-1] == pytest.approx(path, abs=0.3 * step)
+    after = history.time > duration + 2.0 * step
+    assert np.abs(history.velocity[after]).max() < 1e-12
+    assert history.of("friction")[-1] == pytest.approx(0.25, abs=0.3 * step)
+
+
+def decay(step: float) -> TimeHistory:
+    """Return a free vibration of 2 kg on 8 N/m that begins 0.97 m away."""
+    along = {"tangents": [("x", "ground")]}
+    start = Start(np.array([0.97, 0.0]), np.zeros(2))
+    return marched(block(8.0, **along), start, 5.5 * np.pi, step)
+
+
+def test_a_free_vibration_loses_as_much_each_half_period_until_it_sticks() -> None:
+    # by 2 µN/k = 0.1 m a half period of π/2 s
+    history = decay(np.pi / 2.0 / 400.0)
+    turns = history.displacement[399 : 399 + 9 * 400 : 400, 0]
+    expected = (0.97 - 0.1 * np.arange(1, 10)) * np.where(np.arange(9) % 2, 1.0, -1.0)
+    assert turns == pytest.approx(expected, abs=2e-3)
+    # within µN/k = 0.05 m of the middle it stays
+    shown = history.displacement[-200:, 0]
+    assert np.ptp(shown) < 1e-12
+    assert abs(shown[-1]) == pytest.approx(0.03, abs=2e-3)
+    stored = 0.5 * 8.0 * (0.97**2 - shown[-1] ** 2)
+    assert history.of("friction")[-1] == pytest.approx(stored, rel=2e-3)
+    assert abs(history.closing_error[-1]) < 1e-3
+
+
+def test_errors_fall_with_the_step() -> None:
+    # steps that do not divide the half periods
+    def left(count: int) -> Array:
+        history = decay(np.pi / 2.0 / count)
+        time = np.linspace(0.1, 3.9 * np.pi, 500)
+        half = np.minimum((time // (np.pi / 2.0)).astype(int), 9)
+        size = 0.92 - 0.1 * half
+        exact = 0.05 * np.where(half % 2, -1.0, 1.0) + size * np.cos(2.0 * time)
+        found = np.interp(time, history.time, history.displacement[:, 0])
+        away: Array = found - exact
+        return away
+
+    errors = [np.abs(left(count)).max() for count in (41, 161, 641)]
+    assert errors[0] < 2e-2
+    assert errors[1] < 0.1 * errors[0]
+    assert errors[2] < 0.1 * errors[1]
+
+
+def test_a_pushed_block_that_sticks_does_not_move_at_all() -> None:
+    problem = driven("rigid coulomb")
+    drive = 0.1 * problem.drive
+    problem = Problem(
+        problem.structure, problem.interface, problem.preload, drive, problem.probes
+    )
+    start = Start(np.zeros(3), np.zeros(3))
+    options = MarchOptions(2e-3, store_every=1)
+    blocks = list(integrate(problem, Dwell(7.0, 5.0), options, start=start))
+    history = joined(blocks, "complete")
+    # the point slides along x and y
+    assert np.abs(history.displacement[:, :2]).max() < 1e-10
+    assert np.abs(history.displacement[:, 2]).max() > 1e-3
+
+
+def test_marches_of_rigid_friction_go_on_from_their_checkpoints() -> None:
+    problem = driven("rigid coulomb, variable load")
+    options = MarchOptions(2e-3, store_every=5)
+    whole = list(integrate(problem, Dwell(7.0, 4.0), options, block=1.0))
+    rest = list(
+        integrate(
+            problem, Dwell(7.0, 4.0), options, start=whole[1].checkpoint, block=1.0
+        )
+    )
+    for one, two in zip(whole[2:], rest, strict=True):
+        np.testing.assert_array_equal(one.displacement, two.displacement)
+
+
+def test_there_is_no_first_order_form() -> None:
+    problem = driven("rigid coulomb")
+    with pytest.raises(ValueError, match="element: rigid friction is set-valued"):
+        first_order(problem, Dwell(7.0, 4.0), motion=1.0, energy=1.0)

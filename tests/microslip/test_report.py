@@ -11,8 +11,8 @@ from typing import TypeAlias
 
 import pytest
 
-from microslip.commands.report import words_of
 from microslip.commands.report_parts import PARTS, Part
+from microslip.commands.report_sections import words_of
 from microslip.page import DONE, FAILED, LEFT_OUT, Section, page
 from microslip.scene_file import BUILT_IN, load_scene
 

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
-import io
-import shlex
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.report_parts import PARTS, Part
-from microslip.page import DONE, FAILED, LEFT_OUT, STOPPED, Section, page
+from microslip.commands.report_parts import PARTS
+from microslip.commands.report_sections import section_of, words_of
+from microslip.page import DONE, LEFT_OUT, STOPPED, Section, page
 
 if TYPE_CHECKING:
     from microslip.scene_file import Scene
 
-INTERRUPTED = 130
 LIBRARIES = ("numpy", "scipy", "numba", "pyfftw", "matplotlib")
 
 
@@ -110,68 +107,7 @@ def _sections(
             words = words_of(
                 part, options.scene, options.overrides, folder, quick=options.quick
             )
-            yield _made(part, words, folder)
-
-
-def words_of(
-    part: Part, scene: str, overrides: Sequence[str], folder: Path, *, quick: bool
-) -> list[str]:
-    """Return the words of a part's command line."""
-    words = [part.command]
-    if part.scene:
-        words.append(scene)
-    words += (part.quick if quick else part.more) or ()
-    if part.scene:
-        words += [f"--set={each}" for each in overrides]
-    return [*words, "-o", str(folder / part.command)] if part.files else words
-
-
-def _made(part: Part, words: list[str], folder: Path) -> Section:
-    """Run a part's command in this process; return what it prints and draws."""
-    picture = (folder / part.command).with_suffix(".png")
-    picture.unlink(missing_ok=True)  # that of an earlier report
-    began = time.perf_counter()
-    status, said, complaints = _ran(words)
-    state = {0: DONE, INTERRUPTED: STOPPED}.get(status, FAILED)
-    result = _telling(part, said) if state == DONE else ""
-    if state != DONE:
-        result = complaints or _telling(part, said) or f"exit status {status}"
-    return Section(
-        part.command,
-        part.title,
-        part.about,
-        state,
-        result or "done",
-        shlex.join(["microslip", *words]),
-        said,
-        [picture] if part.files and picture.is_file() else [],
-        time.perf_counter() - began,
-    )
-
-
-def _ran(words: list[str]) -> tuple[int, str, str]:
-    """Return exit status, output and complaints of a command."""
-    from microslip.cli import main
-
-    said, complaints = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaints):
-        try:
-            status = main(words)
-        except Exception as error:  # a defect costs its section alone
-            status = 1
-            complaints.write(f"{type(error).__name__}: {error}")
-    told = " ".join(complaints.getvalue().removeprefix("microslip: ").split())
-    return status, said.getvalue().rstrip(), told
-
-
-def _telling(part: Part, said: str) -> str:
-    """Return the last line that says a part's result."""
-    lines = [
-        line.strip()
-        for line in said.splitlines()
-        if any(words in line for words in part.tells)
-    ]
-    return " ".join(lines[-1].split()) if lines else ""
+            yield section_of(part, words, folder)
 
 
 def _scene(scene: Scene) -> Section:

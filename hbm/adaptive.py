@@ -19,7 +19,8 @@ STEEP = 0.05
 """error at constant frequency from which a fold may be near"""
 SPARE = 6.0
 """times that the error may be below its tolerance before less is taken"""
-
+SHARPER = 4.0
+"""times that a threshold velocity falls where friction is to be resolved better"""
 
 WAIT = 10
 """points before less is tried again, where more was needed"""
@@ -44,13 +45,15 @@ class AdaptiveBalance:
     ) -> None:
         """Begin with ``start``; without ``tolerance`` stay there.
 
+        Friction is never smoother than that of ``start``.
+
         ``tolerance`` is the relative error of the amplitude at each point; ``most`` the
         number of harmonics that are not exceeded. Without ``errors`` those of a fixed
         resolution are not estimated.
         """
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
         self.fourier = self.settled = self._kept = start
-        self._wait = 0
+        self._wait, self._smoothest = 0, start.threshold
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold or none is asked for"""
@@ -64,7 +67,8 @@ class AdaptiveBalance:
     def restart(self, harmonics: int) -> None:
         """Begin anew with at least so many harmonics, unless they are fixed."""
         if self._tolerance is not None:
-            self.fourier = FourierBasis(harmonics, max(128, 8 * (harmonics + 1)))
+            samples = max(128, 8 * (harmonics + 1))
+            self.fourier = FourierBasis(harmonics, samples, self._smoothest)
             self._kept = self.fourier
 
     def keep(self) -> None:
@@ -132,7 +136,7 @@ class AdaptiveBalance:
         """
         if not self._estimates:
             return point, self.settled, math.nan
-        if self.estimate is None:
+        if self.estimate is None or math.isinf(self.estimate.error):
             return point, self.settled, math.inf
         if self._tolerance is None:
             return point, self.settled, 2.0 * self.estimate.error
@@ -148,8 +152,11 @@ class AdaptiveBalance:
         """Return the resolution that the error asks for."""
         if self._tolerance is None or estimate.error <= self._tolerance:
             return self.fourier
-        enough = 0.5 * self._tolerance
-        return self._doubled(estimate.truncation > enough, estimate.sampling > enough)
+        enough = self._tolerance / (3.0 if self._smoothest else 2.0)
+        finer = self._doubled(estimate.truncation > enough, estimate.sampling > enough)
+        if estimate.smoothing > enough:
+            finer = replace(finer, threshold=finer.threshold / SHARPER)
+        return finer
 
     def _doubled(self, harmonics: bool, samples: bool) -> FourierBasis:
         """Return a resolution with twice the harmonics, or samples, or both."""
@@ -158,7 +165,8 @@ class AdaptiveBalance:
             orders = min(2 * orders + 1, self._most)
         if samples:
             count = min(2 * count, MOST_SAMPLES)
-        return FourierBasis(orders, max(count, 8 * (orders + 1)))
+        count = max(count, 8 * (orders + 1))
+        return FourierBasis(orders, count, self.fourier.threshold)
 
     def _coarser(self, estimate: Estimate) -> FourierBasis:
         """Return the resolution for the next point, less where much is to spare."""
@@ -172,6 +180,8 @@ class AdaptiveBalance:
             harmonics = max(harmonics // 4, 1)
         if estimate.sampling < enough:
             samples //= 2
-        return FourierBasis(
-            harmonics, max(samples, FEWEST_SAMPLES, 8 * (harmonics + 1))
-        )
+        threshold = self.fourier.threshold
+        if estimate.smoothing < enough / SHARPER:
+            threshold = min(SHARPER * threshold, self._smoothest)
+        samples = max(samples, FEWEST_SAMPLES, 8 * (harmonics + 1))
+        return FourierBasis(harmonics, samples, threshold)

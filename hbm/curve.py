@@ -106,7 +106,8 @@ class Curve:
         ]
         before, after = last.response.multipliers, made.response.multipliers
         finer = max(last.finer, made.finer, key=lambda each: each.harmonics)
-        finer = min(finer, LOCATING, key=lambda each: each.harmonics)
+        most = replace(LOCATING, threshold=finer.threshold)
+        finer = min(finer, most, key=lambda each: each.harmonics)
         rough = ROUGHER if self._rises(finer) else ROUGH
         for which, kind in crossings(before, after):
             ends = excess(before, which), excess(after, which)

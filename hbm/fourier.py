@@ -6,7 +6,7 @@ a₀, a₁, b₁, a₂, b₂, … along the first axis (theory, eq. 12).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pyfftw
@@ -20,6 +20,8 @@ class FourierBasis:
 
     harmonics: int
     samples: int
+    threshold: float = 0.0
+    """threshold velocity [m/s] below which friction is not resolved"""
 
     def __post_init__(self) -> None:
         """Check that the samples resolve the products that the Jacobian needs."""
@@ -35,6 +37,11 @@ class FourierBasis:
     def coefficients(self) -> int:
         """Number of real coefficients per signal."""
         return 2 * self.harmonics + 1
+
+    @property
+    def doubled(self) -> FourierBasis:
+        """Twice the resolution, odd orders staying odd."""
+        return replace(self, harmonics=2 * self.harmonics + 1, samples=2 * self.samples)
 
 
 class Transform:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -93,7 +93,8 @@ def _rattles(normal_smallest: Array) -> bool:
 
 
 def _finer(fourier: FourierBasis) -> FourierBasis:
-    return FourierBasis(min(2 * fourier.harmonics + 1, HARMONICS), 2 * fourier.samples)
+    finer = fourier.doubled
+    return replace(finer, harmonics=min(finer.harmonics, HARMONICS))
 
 
 def _change(before: ComplexArray, after: ComplexArray) -> float:

@@ -45,6 +45,7 @@ class Pieces:
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
         guess, heading = self._still(self.start), self.end
+        both = False
         for attempt in range(RESTARTS + 1):
             last: Correction | None = None
             try:
@@ -61,9 +62,9 @@ class Pieces:
                     raise
                 guess = again
             else:
-                if last is None or last.point[-1] == self.end or heading == self.start:
+                if last is None or last.point[-1] == self.end or both:
                     return
-                guess, heading = self._still(self.end), self.start
+                guess, heading, both = self._still(self.end), self.start, True
 
     def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
         """Yield corrections from a point in a direction, until the range ends.

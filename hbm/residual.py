@@ -51,6 +51,7 @@ class HarmonicBalance:
         """
         self.fourier, self.rank = fourier, problem.rank
         shape = (fourier.coefficients, self.rank)
+        problem = problem.smoothed(fourier.threshold)
         self._active = np.ones(shape, dtype=bool) if active is None else active
         self.contact = problem.contact(fourier)
         self._take(problem)
@@ -66,6 +67,7 @@ class HarmonicBalance:
         Both share the buffers of the contacts.
         """
         other = copy.copy(self)
+        problem = problem.smoothed(self.fourier.threshold)
         other.contact = self.contact.with_points(problem.points, problem.offset)
         other._take(problem)
         return other

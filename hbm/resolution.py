@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -12,7 +13,16 @@ from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Linearised
 from hbm.path import Path
 from hbm.residual import Balance
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
+
+SURE = 0.25
+"""share of a residual that a Newton step leaves, after which the next leaves less"""
+DEPARTS = 2.0
+"""times that a residual grows in two steps that lead to no point"""
+SMOOTHER = 1e-3
+"""relative change of a threshold velocity that tells what it does"""
+TURNING = 0.25
+"""share of a phasor's change that counts where its length just has an extremum"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,13 +30,16 @@ class Estimate:
     """What two Newton steps at twice the resolution say of a point.
 
     They leave an error no larger than themselves where the series converges like 1/H,
-    as dry friction does, and a much smaller one where it converges faster.
+    as dry friction does, and a much smaller one where it converges faster. Steps that
+    raise the residual say nothing: the error is infinite.
     """
 
     truncation: float
     """relative change of the amplitude by the harmonics that were left out"""
     sampling: float
     """and by the distance of the samples"""
+    smoothing: float
+    """and by friction that is not resolved"""
     corrected: Array
     """the point after the steps"""
     fourier: FourierBasis
@@ -34,8 +47,8 @@ class Estimate:
 
     @property
     def error(self) -> float:
-        """Sum of both."""
-        return self.truncation + self.sampling
+        """Sum of all."""
+        return self.truncation + self.sampling + self.smoothing
 
 
 class Resolved(Protocol):
@@ -62,6 +75,10 @@ class Resolution(ABC):
     def amplitudes(self, point: Array) -> Array:
         """Return the values by whose change an error is measured."""
 
+    def phasors(self, point: Array) -> ComplexArray:
+        """Return what these are the moduli of."""
+        return self.amplitudes(point).astype(complex)
+
     def estimate(
         self, correction: Correction, fourier: FourierBasis, normal: Array
     ) -> Estimate:
@@ -76,11 +93,12 @@ class Resolution(ABC):
             If the point lies on a fold.
         """
         point = correction.point
-        finer = FourierBasis(2 * fourier.harmonics + 1, 2 * fourier.samples)
+        finer = fourier.doubled
         residual, refined = self.at(finer)(point)
         step = refined.solve(normal, np.append(-residual, 0.0))
         again, _ = self.at(finer).residual(point + step)
         second = refined.solve(normal, np.append(-again, 0.0))
+        corrected = point + step + second
         low = residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
         rights = np.zeros((point.size, 2))
@@ -89,13 +107,44 @@ class Resolution(ABC):
         newton, sampled = correction.linearised.solve(normal, rights).T
         before, at_newton, at_sampled, after, last = (
             self.amplitudes(point + each)
-            for each in (0.0 * point, newton, newton + sampled, step, step + second)
+            for each in (0.0 * point, newton, newton + sampled, step, corrected - point)
         )
         size = float(before.max(initial=0.0)) or 1.0
         sampling = float(np.abs(at_sampled - at_newton).max(initial=0.0)) / size
         truncation = float(np.abs(last - at_sampled).max(initial=0.0)) / size
         truncation += float(np.abs(last - after).max(initial=0.0)) / size
-        return Estimate(truncation, sampling, point + step + second, finer)
+        if self._departs(finer, corrected, residual, again):
+            truncation = math.inf
+        smoothing = 0.0
+        if fourier.threshold > 0.0:
+            change = self._resolved(correction, fourier, normal)
+            sharp, smooth = self.phasors(point + change), self.phasors(point)
+            turned = float(np.abs(sharp - smooth).max(initial=0.0))
+            moved = float(np.abs(np.abs(sharp) - np.abs(smooth)).max(initial=0.0))
+            smoothing = max(moved, TURNING * turned) / size
+        return Estimate(truncation, sampling, smoothing, corrected, finer)
+
+    def _departs(
+        self, finer: FourierBasis, corrected: Array, residual: Array, again: Array
+    ) -> bool:
+        """Return whether two steps lead away from any point of twice the order.
+
+        ``residual`` and ``again`` are its residuals before and after the first.
+        """
+        before = float(np.linalg.norm(residual))
+        if float(np.linalg.norm(again)) <= SURE * before:
+            return False
+        after, _ = self.at(finer).residual(corrected)
+        return float(np.linalg.norm(after)) > DEPARTS * before
+
+    def _resolved(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> Array:
+        """Return how a point changes, to first order, if friction is resolved."""
+        smoother = replace(fourier, threshold=(1.0 + SMOOTHER) * fourier.threshold)
+        other, _ = self.at(smoother).residual(correction.point)
+        slope = (other - correction.residual) / SMOOTHER
+        return correction.linearised.solve(normal, np.append(slope, 0.0))
 
 
 class PathResolution(Resolution):
@@ -118,7 +167,11 @@ class PathResolution(Resolution):
 
     def amplitudes(self, point: Array) -> Array:
         """Return the first-harmonic amplitude of each probe [m]."""
+        return np.abs(self.phasors(point))
+
+    def phasors(self, point: Array) -> ComplexArray:
+        """Return the first harmonic of each probe [m]."""
         rank = self.rank
         first = point[rank : 2 * rank] - 1j * point[2 * rank : 3 * rank]
         problem, frequency = self._path.at(float(point[-1]))
-        return np.abs(problem.first_harmonic(first, frequency, self._probes))
+        return problem.first_harmonic(first, frequency, self._probes)

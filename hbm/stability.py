@@ -28,6 +28,8 @@ SMALLEST = 0.004
 """part of a stuck mode in the inertia of y, over its frequency, relative to the largest
 of all modes; what has less is left out"""
 
+BEYOND = 1e150
+"""modulus of half a period's multiplier that counts as any larger one"""
 ROOT = 3.0 + 1j * np.sqrt(3.0)
 FACTOR = 12.0 * ROOT / (2j * ROOT.imag)
 STICKING_ROOT = 2.0 + 1j * np.sqrt(2.0)
@@ -89,7 +91,8 @@ class SmallMotions:
                 values = np.linalg.eigvals(carried).astype(complex)
             else:
                 mirrored = np.tile(signs[family], 2)[:, None] * carried
-                values = np.linalg.eigvals(mirrored).astype(complex) ** 2
+                half = np.linalg.eigvals(mirrored).astype(complex)
+                values = (half / np.maximum(1.0, np.abs(half) / BEYOND)) ** 2
             found.append(values)
         together = np.concatenate(found)
         ordered: ComplexArray = together[np.argsort(-np.abs(together))]

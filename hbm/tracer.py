@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from hbm.options import CurveOptions
 from hbm.path import Path
 from hbm.pieces import Pieces
 from hbm.resolution import PathResolution
+from hbm.smoothness import smoothest
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -27,7 +29,7 @@ class Tracer:
         resolution = PathResolution(path, problem.probes.rows)
         self.system = AdaptiveBalance(
             resolution,
-            options.first,
+            replace(options.first, threshold=smoothest(path, options)),
             tolerance=None if options.harmonics else options.error,
             errors=options.errors,
         )

@@ -306,3 +306,30 @@ def test_a_response_in_time_moves_as_its_coefficients_say() -> None:
     np.testing.assert_allclose(
         velocity, (turning * rates @ amplitudes).real, atol=1e-12
     )
+
+
+def steep() -> Problem:
+    """Return the rig with friction that falls to a tenth within millimetres a second.
+
+    What few harmonics take for an orbit with sticking contacts has no neighbour with
+    more: friction cannot hold it.
+    """
+    return rig_problem(
+        model="B",
+        friction__law="gkf",
+        friction__mu_dynamic=0.1,
+        friction__mu_static=1.0,
+        friction__stribeck_velocity=1e-3,
+    )
+
+
+def test_an_orbit_that_more_harmonics_do_not_have_is_not_taken_for_one() -> None:
+    problem = steep()
+    rest = static_equilibrium(problem)
+    fixed = CurveOptions(TURN * 133.9528, TURN * 135.0, harmonics=1, samples=32)
+
+    response = next(iter(frequency_response(problem, rest, fixed)))
+
+    assert response.error == np.inf
+    with pytest.raises(ContinuationError):
+        periodic_response(problem, rest, response, harmonics=63, samples=1024)

@@ -3,21 +3,31 @@
 import csv
 import math
 import os
+import signal
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TypeAlias
+from types import SimpleNamespace
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
 
 from microslip.quantity import SceneError
+from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.studies import stress
+from microslip.studies import stress, stress_witness
 from microslip.studies.bounded import Ended, bounded
-from microslip.studies.stress import Finding, Outcome, Tried, judged, rate, tried
-from microslip.studies.stress_cases import BAD, Case, cases
+from microslip.studies.curve import Traced, trace_curve
+from microslip.studies.stress import tried
+from microslip.studies.stress_bad_values import BAD
+from microslip.studies.stress_case import Case
+from microslip.studies.stress_cases import cases
+from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
+from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.response import PeriodicResponse
+from timedomain.closed_march import ShootingError
 from timedomain.comparison import Comparison
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -32,7 +42,7 @@ ENDS = {
     "element mass x": ("0.001", "1000"),
     "exponent": ("1", "3"),
     "GKF V_str [m/s]": ("0.5", "0.001"),
-    "GKF µs/µd": ("1", "10"),
+    "GKF µs/µd": ("1", "5"),
     "damping ratio": ("0", "0.2"),
     "harmonics": ("1", "63"),
 }
@@ -55,8 +65,7 @@ def test_every_case_is_a_scene_of_its_own() -> None:
         for loaded in [load_scene(case.scene or "two-blades", case.overrides)]
     }
 
-    # the scene's own value lies within many a row
-    assert len(rigs) > len(chosen) - len(ENDS)
+    assert len(rigs) == len(chosen)
 
 
 def test_a_quick_look_has_each_row_and_each_bad_value() -> None:
@@ -121,6 +130,53 @@ def test_a_comparison_is_judged(
     assert bool(cause) is (outcome is not Outcome.AGREES)
 
 
+@pytest.mark.parametrize(
+    ("apart", "multiplier", "outcome"),
+    [
+        (0.005, 0.9, Outcome.WITHIN),
+        (0.05, 0.9, Outcome.HONEST),
+        (0.5, 0.9, Outcome.DISAGREES),
+        (0.5, 1.5, Outcome.HONEST),
+    ],
+)
+def test_a_march_judges_where_shooting_finds_nothing(
+    apart: float, multiplier: float, outcome: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def nothing(*_: object) -> Comparison:
+        raise ShootingError("no orbit")
+
+    def left(*_: object) -> SimpleNamespace:
+        marched = np.array([1.0 + apart])
+        return SimpleNamespace(
+            predicted=np.ones(1), marched=marched, last_distance=apart
+        )
+
+    for name, stand_in in (
+        ("compared", nothing),
+        ("march_periods", lambda *_, **__: []),
+        ("agreement", left),
+        ("condition", lambda *_: 1.0),
+    ):
+        monkeypatch.setattr(stress_witness, name, stand_in)
+    made = comparison(0.0, 1e-3, 0.9).response
+    response = replace(made, error=1e-3, multipliers=np.array([multiplier + 0.0j]))
+    curve: Any = SimpleNamespace(
+        amplitude=np.ones((1, 1)),
+        event=[""],
+        ending="complete",
+        frequency=np.ones(1),
+        harmonics=np.ones(1),
+        iterations=np.ones(1),
+    )
+    nobody: Any = None
+    traced = Traced(curve, (response,), nobody)
+
+    *_, found = stress_witness.witnessed(nobody, traced, 60.0)
+
+    assert found.outcome is outcome
+    assert "no orbit by shooting" in found.cause
+
+
 def test_the_rate_leaves_out_what_is_refused() -> None:
     solved, refused = Case("mu", "1", ()), Case("nan", "rope", (), refusals=(("a",),))
     found = [
@@ -160,6 +216,60 @@ def test_what_hangs_dies_or_fails_does_not_stop_the_others() -> None:
     assert found["dies"] == ("half of dies", "its process ended with 3")
     assert found["fails"] == ("half of fails", "RuntimeError: a defect")
     assert found["last"] == ("last", "")
+
+
+def use_processor(until: float) -> None:
+    while time.process_time() < until:
+        pass
+
+
+def test_what_uses_its_processor_time_is_interrupted_and_nothing_after_it() -> None:
+    began = time.process_time()
+
+    with pytest.raises(OutOfTimeError), limited(0.2):
+        use_processor(until=began + 5.0)
+
+    assert 0.1 < time.process_time() - began < 1.0
+    assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
+
+
+def kernel_call(until: float) -> Iterator[None]:
+    """Make of an interruption what the call of a kernel makes of it."""
+    yield
+    try:
+        use_processor(until)
+    except OutOfTimeError as error:
+        raise SystemError("returned a result with an exception set") from error
+    raise SystemError("a defect")
+
+
+@pytest.mark.parametrize(
+    ("seconds", "error"), [(0.1, OutOfTimeError), (60.0, SystemError)]
+)
+def test_an_interruption_within_a_kernels_call_is_told_from_a_defect(
+    seconds: float, error: type[BaseException]
+) -> None:
+    items = heeded(kernel_call(time.process_time() + 0.5))
+
+    with limited(seconds):
+        next(items)
+        with pytest.raises(error):
+            next(items)
+
+
+def test_a_curve_out_of_time_keeps_its_points(compiled: None) -> None:  # noqa: ARG001
+    def endless(points: Iterable[PeriodicResponse]) -> Iterator[PeriodicResponse]:
+        yield next(iter(points))
+        while True:
+            pass
+
+    scene = load_scene("two-blades", ("model=A", "curve.harmonics=1"))
+
+    with limited(1.0):
+        traced = trace_curve(problem_of(scene), scene.curve, endless)
+
+    assert len(traced.responses) == 1
+    assert traced.curve.ending == "out of time"
 
 
 def test_a_defect_is_no_honest_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -214,7 +324,7 @@ def test_an_interrupted_matrix_keeps_table_and_picture(
     def interrupted(
         _: str, __: Sequence[str], chosen: Sequence[Case], **___: object
     ) -> Iterator[Tried]:
-        yield Tried(chosen[0], Finding(Outcome.AGREES, difference=1e-4), 1.5)
+        yield Tried(chosen[1], Finding(Outcome.AGREES, difference=1e-4), 1.5)
         raise KeyboardInterrupt
 
     monkeypatch.setattr(stress, "tried", interrupted)

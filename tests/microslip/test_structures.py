@@ -126,7 +126,7 @@ cubic = 10
     problem = made(tmp_path, text)
 
     rows = problem.interface.displacement[[0, 3]]
-    assert problem.interface.names == ("pair.1", "pair.2")
+    assert problem.interface.names == ("pair-1", "pair-2")
     assert rows.tolist() == [[0, 1, 0, 0, 0, -0.5], [0, 0, 0, 0.5, 0, 0]]
     assert problem.drive.tolist() == [2, 0, 2, 0, 1, 0]
 

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from microslip.studies.stress import Tried
-    from microslip.studies.stress_cases import Case
+    from microslip.studies.stress_case import Case
+    from microslip.studies.stress_finding import Tried
 
 HEADER = (
     "parameter          value        harm.  iter.  difference  estimated  condition"
@@ -108,7 +108,7 @@ def _line(tried: Tried) -> str:
 
 def _verdict(found: Sequence[Tried], share: float) -> int:
     """Print the rates and each case that falls short; return the exit status."""
-    from microslip.studies.stress import Outcome, rate
+    from microslip.studies.stress_finding import Outcome, rate
 
     good, solved = rate(found)
     bad = [each for each in found if each.finding.outcome is Outcome.DISAGREES]
@@ -139,7 +139,7 @@ def _write(
     from dataclasses import astuple, fields
 
     from microslip.store import save_table
-    from microslip.studies.stress import Finding
+    from microslip.studies.stress_finding import Finding
 
     names = ["parameter", "value", *(each.name for each in fields(Finding)), "seconds"]
     rows = [
@@ -166,7 +166,7 @@ def _draw(
 ) -> None:
     from microslip.figures.stress import Cell, stress_figure
     from microslip.store import save_figure
-    from microslip.studies.stress import Outcome
+    from microslip.studies.stress_finding import Outcome
 
     known = {each.case: each.finding for each in found}
     cells = []

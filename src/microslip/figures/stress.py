@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
@@ -36,7 +37,7 @@ def stress_figure(
         rows.setdefault(cell.parameter, []).append(cell)
     longest = max((len(row) for row in rows.values()), default=1)
     figure = Figure(
-        figsize=(2.2 + 0.95 * longest, 1.3 + 0.45 * len(rows)), layout="constrained"
+        figsize=(2.2 + 1.0 * longest, 1.3 + 0.42 * len(rows)), layout="constrained"
     )
     axes = figure.subplots()
     colours = dict(zip(outcomes, SHADES, strict=False))
@@ -46,10 +47,7 @@ def stress_figure(
             axes.add_patch(
                 Rectangle((place, height), 1.0, 1.0, facecolor=colour, edgecolor="w")
             )
-            text = f"{cell.value}\n{cell.note}" if cell.note else cell.value
-            axes.text(
-                place + 0.5, height + 0.5, text, ha="center", va="center", fontsize=6.5
-            )
+            _write(axes, place + 0.5, height + 0.5, cell)
     axes.set_xlim(0.0, longest)
     axes.set_ylim(len(rows), 0.0)
     axes.set_xticks([])
@@ -68,3 +66,15 @@ def stress_figure(
         fontsize=8,
     )
     return figure
+
+
+def _write(axes: Axes, across: float, down: float, cell: Cell) -> None:
+    """Write value and note into a cell, about its middle."""
+    apart = 0.2 if cell.note else 0.0
+    for text, place, weight in (
+        (cell.value, down - apart, "bold"),
+        (cell.note, down + apart, "normal"),
+    ):
+        axes.text(
+            across, place, text, ha="center", va="center", fontsize=7.5, weight=weight
+        )

@@ -40,6 +40,7 @@ class Ended(Generic[Item]):
     cause: str
     """why there is no better one; empty if the task came to its end"""
     seconds: float
+    """of processor time; of wall time if its process died"""
 
 
 def bounded(
@@ -139,26 +140,29 @@ class _Worker(Generic[Item]):
                     self.ready = True
                     self._start()
                 elif word == DONE:
-                    return self._ended(told)
+                    return self._ended(*told)
                 else:
                     self._result = told
         except (EOFError, ConnectionError):
             self.stop()
             late = self._process.exitcode in LATE
             died = f"its process ended with {self._process.exitcode}"
-            return self._ended(self._late if late else died)
+            return self._late() if late else self._ended(died, self._since)
         if time.monotonic() < self.deadline:
             return None
         self.stop()
-        return self._ended(self._late)
+        return self._late()
 
     @property
-    def _late(self) -> str:
-        return f"out of time after {self._seconds:g} s"
+    def _since(self) -> float:
+        return time.monotonic() - self._began
 
-    def _ended(self, cause: str) -> Ended[Item]:
+    def _late(self) -> Ended[Item]:
+        return self._ended(f"out of time after {self._seconds:g} s", self._seconds)
+
+    def _ended(self, cause: str, seconds: float) -> Ended[Item]:
         (item,), self._items = self._items, []
-        return Ended(item, self._result, cause, time.monotonic() - self._began)
+        return Ended(item, self._result, cause, seconds)
 
     def stop(self) -> None:
         """End the process."""
@@ -181,13 +185,14 @@ def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
         pipe.send((READY, None))
         while True:
             (item, seconds), cause = pipe.recv(), ""
+            began = time.process_time()
             _limit(seconds)
             try:
                 for result in task(item):
                     pipe.send((RESULT, result))
             except Exception as error:
                 cause = f"{type(error).__name__}: {' '.join(str(error).split())}"
-            pipe.send((DONE, cause))
+            pipe.send((DONE, (cause, time.process_time() - began)))
 
 
 def _limit(seconds: float) -> None:

@@ -114,8 +114,9 @@ def _made(rig: System, matrices: dict[str, Any], base: BaseMotion | None) -> Pro
         **matrices,
         **_damping(rig.structure),
         elements=[
-            Element(law, **rig.ends[name], name=name)
+            Element(law, **directions, name=place)
             for name, law in rig.element.items()
+            for place, directions in rig.ends[name].items()
         ],
         drive={name: (w.amplitude, w.phase) for name, w in rig.drive.items()},
         preload=rig.preload,

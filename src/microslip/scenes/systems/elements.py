@@ -13,8 +13,8 @@ from microslip_mechanics.laws.catalogue import LAWS
 
 def read_elements(
     source: str, given: object, sets: dict[str, tuple[str, ...]]
-) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
-    """Return law and directions of each element by its name.
+) -> tuple[dict[str, Any], dict[str, dict[str, dict[str, Any]]]]:
+    """Return the law of each element, and directions by its name and by its node.
 
     Raises
     ------
@@ -26,17 +26,19 @@ def read_elements(
             f"{source}: [element] is one table: write [[element]], once for each"
         )
     laws: dict[str, Any] = {}
-    ends: dict[str, dict[str, Any]] = {}
+    ends: dict[str, dict[str, dict[str, Any]]] = {}
     for number, values in enumerate(given, start=1):
         if not isinstance(values, dict):
             raise SceneError(f"{source}: [[element]] must be a table, not {values!r}")
-        for one in expanded(source, number, values, sets):
-            name, law, directions = _element(source, number, one)
-            if name in laws:
-                raise SceneError(
-                    f"{source}: two elements are named {name}: give each its own name"
-                )
-            laws[name], ends[name] = law, directions
+        left = dict(values)
+        named = left.pop("each", None)
+        name, law, directions = _element(source, number, left)
+        if name in laws:
+            raise SceneError(
+                f"{source}: two elements are named {name}: give each its own name"
+            )
+        laws[name] = law
+        ends[name] = expanded(source, name, named, directions, sets)
     return laws, ends
 
 

@@ -7,16 +7,16 @@ from typing import Any
 
 from microslip.quantity import SceneError
 from microslip.table import meant, shown
-from microslip_mechanics.element import KEYS
 
 
 def expanded(
     source: str,
-    number: int,
-    values: dict[str, Any],
+    name: str,
+    each: object,
+    directions: dict[str, Any],
     sets: Mapping[str, tuple[str, ...]],
-) -> list[dict[str, Any]]:
-    """Return a table [[element]] once for each node of the sets named by ``each``.
+) -> dict[str, dict[str, Any]]:
+    """Return the directions of an element, once for each node of the sets in ``each``.
 
     In its ends ``set.direction`` stands for the node of the set whose turn it is; the
     name gets the node of the first set behind it.
@@ -26,28 +26,23 @@ def expanded(
     SceneError
         If a set is unknown, or if sets that go together differ in length.
     """
-    if "each" not in values:
-        return [values]
-    place = f"{source}: element {values.get('name', number)}: each"
-    named = values["each"]
-    if not isinstance(named, list) or not named:
-        raise SceneError(
-            f'{place}{shown(named)}: give a list of sets, such as ["face"]'
-        )
-    for name in named:
-        if name not in sets:
-            hint = meant(str(name), list(sets)) if sets else ": add [structure.sets]"
-            raise SceneError(f"{place}: there is no set {name!r}{hint}")
-    if len({len(sets[name]) for name in named}) > 1:
-        sizes = ", ".join(f"{name} has {len(sets[name])}" for name in named)
+    if each is None:
+        return {name: directions}
+    place = f"{source}: element {name}: each"
+    if not isinstance(each, list) or not each:
+        raise SceneError(f'{place}{shown(each)}: give a list of sets, such as ["face"]')
+    for group in each:
+        if group not in sets:
+            hint = meant(str(group), list(sets)) if sets else ": add [structure.sets]"
+            raise SceneError(f"{place}: there is no set {group!r}{hint}")
+    if len({len(sets[group]) for group in each}) > 1:
+        sizes = ", ".join(f"{group} has {len(sets[group])}" for group in each)
         raise SceneError(f"{place}: {sizes} nodes: give sets of as many nodes")
-    made = []
-    for nodes in zip(*(sets[name] for name in named), strict=True):
-        turn = dict(zip(named, nodes, strict=True))
-        one = {key: value for key, value in values.items() if key != "each"}
-        one |= {key: _put(one[key], turn) for key in KEYS if key in one}
-        one["name"] = f"{values.get('name', f'element-{number}')}.{nodes[0]}"
-        made.append(one)
+    made = {}
+    for nodes in zip(*(sets[group] for group in each), strict=True):
+        turn = dict(zip(each, nodes, strict=True))
+        put = {key: _put(ends, turn) for key, ends in directions.items()}
+        made[f"{name}-{nodes[0]}"] = put
     return made
 
 

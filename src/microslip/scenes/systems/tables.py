@@ -122,8 +122,8 @@ class System:
     """beside a beam [kg], by name"""
     element: Mapping[str, Law]
     """by name"""
-    ends: Mapping[str, Mapping[str, Any]]
-    """directions of each element, by key"""
+    ends: Mapping[str, Mapping[str, Mapping[str, Any]]]
+    """directions by key, of each contact of each element"""
     drive: Mapping[str, Wave]
     preload: Mapping[str, float]
     probes: Mapping[str, Form | Pair] | Sequence[str] | None

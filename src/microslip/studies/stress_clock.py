@@ -1,0 +1,66 @@
+"""The time that a part of a case under stress may take."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import signal
+from collections.abc import Iterable, Iterator
+from typing import TypeVar
+
+Item = TypeVar("Item")
+
+
+class OutOfTimeError(KeyboardInterrupt):
+    """An interruption, which no solver takes for a failure of its own."""
+
+
+@contextlib.contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """Interrupt what takes more processor time, at the next return from a kernel.
+
+    Where the system has no such timer it is not interrupted.
+
+    Raises
+    ------
+    OutOfTimeError
+        When the time is over.
+    """
+    if not hasattr(signal, "setitimer") or math.isinf(seconds):
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        raise OutOfTimeError("out of time")
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    except SystemError as error:
+        _check(error)
+        raise
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+
+
+def heeded(items: Iterable[Item]) -> Iterator[Item]:
+    """Pass items through; what is interrupted within a kernel's call ends like them.
+
+    Raises
+    ------
+    OutOfTimeError
+        When the time of :func:`limited` is over.
+    """
+    try:
+        yield from items
+    except SystemError as error:
+        _check(error)
+        raise
+
+
+def _check(error: SystemError) -> None:
+    """Raise the interruption of which a kernel's call has made an error."""
+    if signal.getitimer(signal.ITIMER_PROF)[0] == 0.0:
+        raise OutOfTimeError("out of time") from error

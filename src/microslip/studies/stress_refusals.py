@@ -1,0 +1,49 @@
+"""Bad values under stress: each is refused in a line, or computed to a finite end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from microslip.quantity import SceneError
+from microslip.rigs import problem_of
+from microslip.scene_file import Scene, load_scene
+from microslip.studies.curve import trace_curve
+from microslip.studies.stress_case import Case
+from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
+from microslip.studies.stress_finding import EXPECTED, Finding, Outcome, line
+
+SECONDS = 2.0
+"""of processor time for the curve of a value that is a number"""
+
+
+def refusals(scene: str, overrides: tuple[str, ...], case: Case) -> Iterator[Finding]:
+    """Yield whether each bad value is refused in a line, or computed to the end."""
+    refused, computed, wrong = 0, 0, []
+    for each in case.refusals:
+        try:
+            loaded = load_scene(scene, (*overrides, *each))
+            finite = _finite(loaded)
+        except (*EXPECTED, OutOfTimeError) as error:
+            named = isinstance(error, SceneError) or case.parameter == "1e308"
+            if named and len(str(error).splitlines()) <= 1:
+                refused += 1
+            else:
+                wrong.append(f"{each[0]}: {line(error)}")
+        else:
+            computed += finite
+            if not finite or case.parameter != "1e308":
+                wrong.append(f"{each[0]}: taken as it is")
+        outcome = Outcome.DISAGREES if wrong else Outcome.REFUSED
+        counts = f"{refused} refused" + (f", {computed} computed" if computed else "")
+        yield Finding(outcome, "; ".join((counts, *wrong)), compared=refused + computed)
+
+
+def _finite(loaded: Scene) -> bool:
+    """Return whether the curve of a scene is finite as far as it goes."""
+    curve = replace(loaded.curve, harmonics=3, samples=64)
+    with limited(SECONDS):
+        traced = trace_curve(problem_of(loaded), curve, heeded)
+    return bool(np.isfinite(traced.curve.amplitude).all())

@@ -1,0 +1,131 @@
+"""What the other solver makes of a curve under stress: shooting, or a march."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from microslip.studies.curve import Traced
+from microslip.studies.stress_clock import OutOfTimeError, limited
+from microslip.studies.stress_condition import condition
+from microslip.studies.stress_finding import (
+    AGREED,
+    EXPECTED,
+    Finding,
+    Outcome,
+    causes,
+    judged,
+    line,
+)
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from timedomain.closed_march import ShootingError
+from timedomain.comparison import COVERAGE, compared
+from timedomain.verify import agreement, march_periods
+
+SHOOTING, MARCHING = 0.13, 0.07
+"""shares of a case's time after which each orbit, and each march, is left"""
+LEFT = 0.1
+"""relative change of the amplitude in a march that leaves an orbit; what is stable
+stays, but for the march's own error, which a sharp resonance multiplies"""
+PERIODS, STEPS = 30, 600
+"""of the march that decides where shooting finds no orbit, and in a period of it"""
+
+
+def witnessed(problem: Problem, traced: Traced, seconds: float) -> Iterator[Finding]:
+    """Yield what the other solver makes of points of a curve."""
+    curve = traced.curve
+    places = _places(curve.amplitude.max(axis=1), curve.event)
+    whole = curve.ending == "complete"
+    finding = Finding(
+        cause="" if whole else f"harmonic balance: {curve.ending}",
+        points=curve.frequency.size,
+        harmonics=int(curve.harmonics[places[0]]),
+        iterations=float(curve.iterations.mean()),
+        condition=condition(problem, traced, places[0]),
+    )
+    outcome = Outcome.AGREES if whole else Outcome.HONEST
+    for place in places:
+        yield finding
+        finding, worse = _beside(problem, traced.responses[place], finding, seconds)
+        outcome = max(outcome, worse, key=list(Outcome).index)
+    yield replace(finding, outcome=outcome)
+
+
+def _places(amplitude: Array, event: Sequence[str]) -> list[int]:
+    """Return the place of the largest amplitude, and one on the flank before it."""
+    kept = np.flatnonzero([name in ("", "peak") for name in event])
+    largest = int(kept[amplitude[kept].argmax()])
+    high = kept[amplitude[kept] >= 0.5 * amplitude[largest]]
+    return list(dict.fromkeys((largest, int(high[0]))))
+
+
+def _beside(
+    problem: Problem, response: PeriodicResponse, finding: Finding, seconds: float
+) -> tuple[Finding, Outcome]:
+    """Return what one point adds to a finding."""
+    where = f"at {response.frequency / math.tau:.6g} Hz"
+    try:
+        with limited(SHOOTING * seconds):
+            comparison = compared(problem, response)
+    except (ShootingError, OutOfTimeError) as error:
+        told = f"{where}: {line(error)}"
+        return _marched(problem, response, finding, told, seconds)
+    except EXPECTED as error:
+        cause = causes(finding.cause, f"shooting {where}: {line(error)}")
+        return replace(finding, cause=cause), Outcome.HONEST
+    outcome, cause = judged(comparison)
+    return replace(
+        finding,
+        cause=causes(finding.cause, f"{where}: {cause}" if cause else ""),
+        compared=finding.compared + 1,
+        difference=_larger(finding.difference, comparison.difference),
+        estimated=_larger(finding.estimated, comparison.admitted),
+        steps=max(finding.steps, comparison.steps),
+    ), outcome
+
+
+def _marched(
+    problem: Problem,
+    response: PeriodicResponse,
+    finding: Finding,
+    said: str,
+    seconds: float,
+) -> tuple[Finding, Outcome]:
+    """Return whether the motion stays on an orbit that shooting has not found."""
+    said = f"no orbit by shooting {said}"
+    if response.unstable > 0:
+        return replace(finding, cause=causes(finding.cause, said)), Outcome.HONEST
+    marching = march_periods(problem, response, periods=PERIODS, steps_per_period=STEPS)
+    try:
+        with limited(MARCHING * seconds):
+            found = agreement(problem, response, list(marching))
+    except (*EXPECTED, OutOfTimeError) as error:
+        cause = causes(finding.cause, f"{said}; marching: {line(error)}")
+        return replace(finding, cause=cause), Outcome.HONEST
+    size = max(float(found.predicted.max(initial=0.0)), 1e-300)
+    apart = float(np.abs(found.marched - found.predicted).max(initial=0.0)) / size
+    stays = apart <= AGREED and found.last_distance <= AGREED
+    told = f"{said}; a march of {PERIODS} periods is {apart:.1e} away"
+    added = replace(
+        finding,
+        cause=causes(finding.cause, told),
+        compared=finding.compared + 1,
+        difference=_larger(finding.difference, apart),
+        steps=max(finding.steps, STEPS),
+    )
+    if stays:
+        return added, Outcome.WITHIN
+    left = apart > LEFT and apart > COVERAGE * response.error
+    return (
+        added,
+        Outcome.DISAGREES if left and not response.unstable else Outcome.HONEST,
+    )
+
+
+def _larger(known: float, other: float) -> float:
+    return other if math.isnan(known) else max(known, other)

@@ -1,0 +1,163 @@
+"""Friction smoother than it is: when that is taken, and what it costs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hbm.adaptive import SHARPER, AdaptiveBalance
+from hbm.continuation import correct_at
+from hbm.fourier import FourierBasis
+from hbm.newton import Outcome
+from hbm.options import CurveOptions
+from hbm.path import along_frequency
+from hbm.resolution import PathResolution
+from hbm.smoothness import FALL, smoothest
+from hbm.solve import frequency_response
+from hbm.step_control import StepControl
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import static_equilibrium
+from rigs import rig_problem
+from small_problems import sliding_block
+
+TURN = 2.0 * np.pi
+STIFFNESS, LIMIT, DRIVE = 300.0, 0.3, 1.5
+CONTROL = StepControl(tolerance=1e-8)
+
+
+def dry(threshold: float, **more: float) -> Problem:
+    """Return a mass of 1 kg on a spring, and on friction of 0.3 N."""
+    return sliding_block(
+        mass=1.0,
+        stiffness=STIFFNESS,
+        drive=DRIVE,
+        load=1.0,
+        dynamic=LIMIT,
+        threshold=threshold,
+        **more,
+    )
+
+
+def den_hartog(frequency: Array) -> Array:
+    """Return the largest deflection under dry friction, without stops [m].
+
+    J. P. Den Hartog, "Forced vibrations with combined Coulomb and viscous friction",
+    Trans. ASME 53 (1931), APM-53-9, pp. 107–115.
+    """
+    ratio = frequency / np.sqrt(STIFFNESS)
+    turn = np.pi / ratio
+    loss = np.sin(turn) / (ratio * (1.0 + np.cos(turn)))
+    size = (1.0 / (1.0 - ratio**2)) ** 2 - (LIMIT / DRIVE * loss) ** 2
+    deflection: Array = DRIVE / STIFFNESS * np.sqrt(size)
+    return deflection
+
+
+@pytest.mark.parametrize("threshold", [1e-6, 1e-9, 1e-12])
+def test_friction_that_turns_at_once_has_den_hartogs_amplitude(
+    threshold: float,
+) -> None:
+    problem = dry(threshold)
+    options = CurveOptions(12.0, 16.0, error=1e-3)
+    phase = np.linspace(0.0, TURN, 4000)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    frequency = np.array([each.frequency for each in curve])
+    largest = np.array([np.abs(each.at(phase)[0]).max() for each in curve])
+    np.testing.assert_allclose(largest, den_hartog(frequency), rtol=2e-3)
+    assert max(each.error for each in curve) <= 1e-3
+    assert len(curve) < 60
+
+
+def start_of(problem: Problem, options: CurveOptions) -> float:
+    """Return the threshold velocity with which a curve begins [m/s]."""
+    rest = static_equilibrium(problem)
+    path = along_frequency(problem, rest, options.start, options.end)
+    return smoothest(path, options)
+
+
+RIG = CurveOptions(TURN * 125.0, TURN * 145.0)
+
+
+def test_the_rig_keeps_its_threshold_and_a_tiny_one_does_not() -> None:
+    tiny = rig_problem(model="A", friction__threshold_velocity=1e-7)
+
+    smooth = start_of(tiny, RIG)
+
+    assert start_of(rig_problem(model="A"), RIG) == 0.0
+    assert 1e-5 < smooth < 1e-3
+    assert start_of(tiny, replace(RIG, error=1e-2)) == pytest.approx(10.0 * smooth)
+
+
+def test_friction_is_as_it_is_with_fixed_harmonics_or_without_any() -> None:
+    tiny = rig_problem(model="A", friction__threshold_velocity=1e-7)
+    none = rig_problem(model="A", friction__law="none")
+
+    assert start_of(tiny, replace(RIG, harmonics=15)) == 0.0
+    assert start_of(none, RIG) == 0.0
+
+
+def test_the_fall_of_friction_is_not_smoothed_over() -> None:
+    falls = rig_problem(
+        model="A",
+        friction__law="gkf",
+        friction__threshold_velocity=1e-9,
+        friction__stribeck_velocity=1e-5,
+    )
+
+    assert start_of(falls, RIG) == pytest.approx(FALL * 1e-5)
+
+
+FREQUENCY = 15.0
+"""[rad/s], at which the mass slides all the time"""
+SMOOTHEST = 1.0
+"""threshold velocity [m/s], faster than anything slides"""
+
+
+def resolution() -> PathResolution:
+    problem = dry(1e-9)
+    path = along_frequency(problem, static_equilibrium(problem), FREQUENCY, 22.0)
+    return PathResolution(path, problem.probes.rows)
+
+
+def guess(size: int) -> Array:
+    point = np.zeros(size)
+    point[-1] = FREQUENCY
+    return point
+
+
+def test_what_is_too_smooth_is_sharpened_and_eased_again() -> None:
+    start = FourierBasis(7, 128, SMOOTHEST)
+    system = AdaptiveBalance(resolution(), start, tolerance=3e-3)
+
+    found = correct_at(system, guess(system.size), CONTROL, system)
+
+    assert found.outcome is Outcome.CONVERGED
+    assert system.estimate is not None
+    assert system.estimate.error <= 3e-3
+    assert system.settled.threshold < SMOOTHEST
+    steps = np.log(SMOOTHEST / system.settled.threshold) / np.log(SHARPER)
+    assert steps == pytest.approx(round(steps))
+
+    system.restart(7)
+
+    assert system.fourier.threshold == SMOOTHEST
+
+
+@pytest.mark.parametrize("threshold", [0.1, 0.02, 0.004])
+def test_smoothing_is_estimated_as_what_resolving_changes(threshold: float) -> None:
+    made, amplitude = resolution(), []
+    point, fourier = guess(256), FourierBasis(63, 1024, SMOOTHEST)
+    for each in (SMOOTHEST, threshold, 0.1 * threshold, 1e-3 * threshold):
+        fourier = replace(fourier, threshold=each)
+        found = correct_at(made.at(fourier), point, CONTROL)
+        point = found.point
+        amplitude.append(made.amplitudes(point)[0])
+        if each == threshold:
+            upright = np.zeros_like(point)
+            upright[-1] = 1.0
+            estimate = made.estimate(found, fourier, upright)
+
+    change = abs(amplitude[1] - amplitude[-1]) / amplitude[-1]
+    assert change <= 1.1 * estimate.smoothing <= 4.0 * change

@@ -168,9 +168,9 @@ def _carried(
     # real parts above imaginary ones: products with real matrices are cheaper
     seen, shapes = _real(motions.seen), _real(motions.shapes)
     whole = np.eye(size + sliders.count)
-    state = np.vstack([motions.parts.real, motions.parts.imag]) @ whole[:size]
+    state: Array = np.vstack([motions.parts.real, motions.parts.imag]) @ whole[:size]
     held: Array = whole[size:]
-    watched = seen @ state
+    watched: Array = seen @ state
     for place, kind in enumerate(step.kind):
         memory = slides.traction_past[place + 1] @ held
         memory -= slides.past[place + 1] @ watched[:rank]

@@ -12,8 +12,10 @@ of second order in the steps; T₁ follows from motion and T₀ as along the orb
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.slide_events import SampledOrbit, SlidOrbit, slid_orbit
@@ -157,34 +159,69 @@ def _carried(
     frequency: float,
 ) -> Array:
     """Return the map of (x, T) over the period, shape (states, states)."""
-    lengths = np.diff(slid.phase) / frequency
-    sizes, kind = np.unique(lengths.round(15), return_inverse=True)
-    turn = np.exp(np.multiply.outer(sizes, motions.rates))
-    # ∫ exp(λ s) ds over a step; λ may be zero
-    safe = np.where(motions.rates == 0.0, 1.0, motions.rates)
-    kick = np.where(motions.rates == 0.0, sizes[:, None], (turn - 1.0) / safe)
-    kicks = kick[:, :, None] * motions.push
-    rank = motions.push.shape[1]
-    felt = np.einsum("rm,kmc->krc", motions.seen, kicks).real[kind]
-    past, ahead = _answers(sliders, slid, changes, lengths)
-    inverse = np.linalg.inv(np.eye(rank) + ahead @ felt)
-    steps = slid.slides
-    size = motions.parts.shape[1]
+    lengths = np.diff(slid.phase)
+    step = _steps(motions, lengths, frequency)
+    past, ahead = _answers(sliders, slid, changes, lengths / frequency)
+    rank, (count, size) = motions.push.shape[1], motions.parts.shape
+    inverse = np.linalg.inv(np.eye(rank) + ahead @ step.felt[step.kind])
+    slides, pull = slid.slides, 0.5 * sliders.along.T
+    # real parts above imaginary ones: products with real matrices are cheaper
+    seen, shapes = _real(motions.seen), _real(motions.shapes)
     whole = np.eye(size + sliders.count)
-    state, held = motions.parts @ whole[:size], whole[size:]
-    watched = (motions.seen @ state).real
-    pull = 0.5 * sliders.along.T
-    for place in range(lengths.size):
-        memory = steps.traction_past[place + 1] @ held
-        memory -= steps.past[place + 1] @ watched[:rank]
-        state = turn[kind[place]][:, None] * state
-        moved = (motions.seen @ state).real
+    state: Array = np.vstack([motions.parts.real, motions.parts.imag]) @ whole[:size]
+    held: Array = whole[size:]
+    watched: Array = seen @ state
+    for place, kind in enumerate(step.kind):
+        memory = slides.traction_past[place + 1] @ held
+        memory -= slides.past[place + 1] @ watched[:rank]
+        state = _turned(step.turn[kind], state[:count], state[count:])
+        moved = seen @ state
         known = past[place] @ watched[:rank] + pull @ (held + memory)
         force = inverse[place] @ (known + ahead[place] @ moved)
-        state -= kicks[kind[place]] @ force
-        watched = moved - felt[place] @ force
-        held = memory + steps.motion[place + 1] @ watched
-    return np.vstack([(motions.shapes @ state).real, held])
+        state -= step.kicks[kind] @ force
+        watched = moved - step.felt[kind] @ force
+        held = memory + slides.motion[place + 1] @ watched
+    return np.vstack([shapes @ state, held])
+
+
+class _Steps(NamedTuple):
+    """What steps of several lengths do to the motions without changes of contacts."""
+
+    turn: ComplexArray
+    """exp(λ h), shape (lengths, motions)"""
+    kicks: Array
+    """z of a constant force on y, real parts above, (lengths, 2 motions, rank)"""
+    felt: Array
+    """(y, ẏ/ω) of that force, shape (lengths, 2 rank, rank)"""
+    kind: NDArray[np.int64]
+    """which length each step has, shape (steps,)"""
+
+
+def _steps(motions: _Motions, lengths: Array, frequency: float) -> _Steps:
+    """Return the steps; ``lengths`` are in phase [rad], shape (steps,)."""
+    # equal ones differ by rounding
+    sizes, kind = np.unique(lengths.round(13), return_inverse=True)
+    turn = np.exp(np.multiply.outer(sizes / frequency, motions.rates))
+    # ∫ exp(λ s) ds over a step; λ may be zero
+    safe = np.where(motions.rates == 0.0, 1.0, motions.rates)
+    still = (sizes / frequency)[:, None]
+    kick = np.where(motions.rates == 0.0, still, (turn - 1.0) / safe)
+    kicks = kick[:, :, None] * motions.push
+    parts = np.concatenate([kicks.real, kicks.imag], axis=1)
+    return _Steps(turn, parts, _real(motions.seen) @ parts, kind.astype(np.int64))
+
+
+def _real(matrix: ComplexArray) -> Array:
+    """Return what takes real parts above imaginary ones to the product's real part."""
+    return np.hstack([matrix.real, -matrix.imag])
+
+
+def _turned(turn: ComplexArray, above: Array, below: Array) -> Array:
+    """Return motions after a free step, real parts above imaginary ones."""
+    cosine, sine = turn.real[:, None], turn.imag[:, None]
+    return np.concatenate(
+        [cosine * above - sine * below, sine * above + cosine * below]
+    )
 
 
 def _answers(

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from microslip.experiments import Curve, March, Sweep, check_experiments
 from microslip.force_file import Force, read_force
+from microslip.key_path import key_path
 from microslip.quantity import SceneError
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
@@ -102,7 +103,7 @@ def _read(path: Path) -> str:
 def _apply(document: dict[str, typing.Any], override: str) -> None:
     """Put one ``table.key=value`` into the document."""
     name, equals, text = override.partition("=")
-    *tables, key = name.strip().split(".")
+    *tables, key = key_path(name)
     deepest = 2 if tables[:1] in NESTED else 1
     if not equals or not key or len(tables) > deepest or not all(tables):
         raise SceneError(

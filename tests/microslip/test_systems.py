@@ -302,3 +302,24 @@ def test_override_of_an_unknown_element_names_those_there_are() -> None:
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_built_in_text_names_the_ground(name: str) -> None:
     assert '"ground"' in built_in_text(name)
+
+
+@pytest.mark.parametrize("name", ["drive.tip.uz", 'drive."tip.uz"', "preload.tip.uy"])
+def test_degrees_of_freedom_with_dots_can_be_overridden_and_followed(name: str) -> None:
+    made = parameter("tip-damper", [], name, "1", "3")
+
+    assert made.label == f"{name} [N]"
+    loads = [made.problem_at(value) for value in (1.0, 3.0)]
+    changed = [np.abs(each.drive).sum() + np.abs(each.preload).sum() for each in loads]
+    assert changed[1] == pytest.approx(changed[0] + 2.0)
+
+
+def test_phase_of_a_force_with_dots_can_be_overridden() -> None:
+    scene = load_scene("tip-damper", ['drive.tip.uz={amplitude=2, phase="0 deg"}'])
+    turned = load_scene(
+        "tip-damper",
+        ['drive.tip.uz={amplitude=2, phase="0 deg"}', "drive.tip.uz.phase=1"],
+    )
+
+    assert scene.rig.drive["tip.uz"].phase == 0.0
+    assert turned.rig.drive["tip.uz"].phase == 1.0

@@ -10,11 +10,6 @@ AMPLITUDE = "amplitude"
 """of a harmonic force, which its table may leave out"""
 
 
-def parts(name: str) -> tuple[str, ...]:
-    """Return tables and key of a name such as ``element.slider.limit``."""
-    return tuple(name.split("."))
-
-
 def reached(tables: Any, path: Sequence[str]) -> Any:  # noqa: ANN401  (dataclass or table)
     """Return what stands at a path; None if there is nothing."""
     for part in path:

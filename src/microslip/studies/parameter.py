@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from microslip.key_path import key_path
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
@@ -28,12 +29,12 @@ class Parameter:
     @property
     def label(self) -> str:
         """Name and unit."""
-        unit = numbers.unit(self.scene.rig, numbers.parts(self.name))
+        unit = numbers.unit(self.scene.rig, key_path(self.name))
         return f"{self.name} [{unit}]" if unit else self.name
 
     def problem_at(self, value: float) -> Problem:
         """Return the problem at a value [SI units]."""
-        changed = numbers.replaced(self.scene.rig, numbers.parts(self.name), value)
+        changed = numbers.replaced(self.scene.rig, key_path(self.name), value)
         return problem_of(dataclasses.replace(self.scene, rig=changed))
 
 
@@ -59,7 +60,7 @@ def parameter(
     begun, ended = (
         load_scene(scene, [*overrides, f"{name}={value}"]) for value in (first, last)
     )
-    values = [numbers.reached(each.rig, numbers.parts(name)) for each in (begun, ended)]
+    values = [numbers.reached(each.rig, key_path(name)) for each in (begun, ended)]
     found = [value for value in values if type(value) is float]
     if len(found) < len(values):
         raise SceneError(

@@ -69,6 +69,7 @@ class AlternatingFrequencyTime:
         *,
         offset: Array | None = None,
         odd: NDArray[np.bool_] | None = None,
+        pruned: bool = True,
     ) -> None:
         """Plan the transforms.
 
@@ -85,12 +86,14 @@ class AlternatingFrequencyTime:
         odd
             Which coordinates have odd harmonics only, the others even ones only,
             shape ``(rank,)``: half a period then says all. None without that symmetry.
+        pruned
+            Whether tangents that the laws do not have are left out.
         """
         rows, rank = basis.shape
         self._points, self._basis, self._fourier = points, basis, fourier
         self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
         self._offset = np.zeros(rows) if offset is None else offset
-        self._entries = _entries(points)
+        self._entries = _entries(points, pruned)
         recalls = bool(remembers(points).any())
         self._memory = FrictionMemory(basis, fourier) if recalls else None
         self._symmetry = symmetry(basis, self._entries, None if recalls else odd)
@@ -287,12 +290,12 @@ class AlternatingFrequencyTime:
         return self._force.analysis(self._fourier.harmonics)
 
 
-def _entries(points: ContactPoints) -> NDArray[np.int64]:
-    """Return (row, column, by velocity) of the tangents that can differ from zero."""
+def _entries(points: ContactPoints, pruned: bool) -> NDArray[np.int64]:
+    """Return (row, column, by velocity) of the tangents: those that can be, or all."""
     rows = []
     for point in range(len(points.load)):
         for kind, pattern in enumerate(tangent_pattern(points, point)):
-            for row, column in np.argwhere(pattern):
+            for row, column in np.argwhere(pattern | (not pruned)):
                 rows.append((3 * point + row, 3 * point + column, kind))
     return np.array(rows, dtype=np.int64).reshape(-1, 3)
 

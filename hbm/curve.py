@@ -28,6 +28,8 @@ from hbm.residual import HarmonicBalance
 from hbm.resolution import PathResolution
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ONE_SIDED
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
@@ -35,6 +37,9 @@ DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
 LOCATING = FourierBasis(31, 512)
 """most that is taken between two points to locate a change of stability"""
+LEAP = 0.1
+"""of the change of a multiplier between two points: what is left of its excess where it
+is located, from which on it leaps"""
 UPRIGHT = 0.1
 """part of the parameter in a unit tangent below which a multiplier +1 is a fold's"""
 
@@ -83,6 +88,7 @@ class Curve:
             (segment.place(located.point), name, located)
             for name, test, ends, precision in tests
             if (located := segment.locate(test, ends, precision)) is not None
+            and not (ends and self._leaps(test(located), ends))
         ]
         for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):
             normal = located.along / metric(located.point) ** 2
@@ -107,6 +113,15 @@ class Curve:
             ends = excess(before, which), excess(after, which)
             tests.append((kind, partial(self._growth, which, finer), ends, rough))
         return tests
+
+    def _leaps(self, left: float, ends: tuple[float, float]) -> bool:
+        """Return whether a multiplier leaps over the unit circle: nothing branches.
+
+        It does where a slider begins to slip, or sticks for good. What is ``left`` of a
+        test function at its located zero shows it.
+        """
+        recalls = bool(remembers(self.problem.interface.points).any())
+        return recalls and abs(left) > LEAP * abs(ends[1] - ends[0])
 
     def _rises(self, finer: FourierBasis) -> bool:
         """Return whether multipliers ask for more harmonics than a point has."""
@@ -143,7 +158,11 @@ class Curve:
         kept, fourier, error = self.system.kept(correction.point)
         balance, point = self.resolution.at(fourier).at_frequency(kept)
         made = response(self.problem, balance, replace(correction, point=point))
-        multipliers, finer = self.multipliers.sure(kept, fourier, made.normal_smallest)
+        points = self.problem.interface.points
+        presses = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
+        multipliers, finer = self.multipliers.sure(
+            kept, fourier, made.normal_smallest[presses]
+        )
         told = replace(
             made,
             error=error,

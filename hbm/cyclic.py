@@ -15,9 +15,8 @@ import scipy.linalg
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from hbm.active import moving, symmetric
 from hbm.options import CurveOptions
-from hbm.path import AlongFrequency
+from hbm.path import AlongFrequency, among
 from hbm.relative import RelativeProblem, held_mean_positions
 from hbm.tracer import Tracer
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -45,18 +44,20 @@ def cyclic_response(
         If a frequency is not positive, or the contacts see a wave in part only.
     """
     standing = problem.standing()
-    relative = cyclic_problem(problem, static_equilibrium(standing))
-    active = moving(relative, options.start)
-    kept, odd = symmetric(active)
-    path = AlongFrequency(
-        standing,
-        relative.restricted(kept, odd),
-        active[:, kept],
-        abs(options.end - options.start),
-    )
+    path = along_sector(problem, options.start, options.end, pruned=options.pruned)
     tracer = Tracer(standing, path, replace(options, stability=False))
     with threadpool_limits(1, "blas"):
         yield from tracer.responses()
+
+
+def along_sector(
+    problem: CyclicProblem, start: float, end: float, *, pruned: bool = True
+) -> AlongFrequency:
+    """Return the path of a sector's curve between two frequencies [rad/s]."""
+    standing = problem.standing()
+    whole = cyclic_problem(problem, static_equilibrium(standing))
+    relative = replace(whole, pruned=pruned)
+    return among(standing, relative, start, abs(end - start), symmetry=pruned)
 
 
 def cyclic_problem(problem: CyclicProblem, rest: StaticState) -> RelativeProblem:

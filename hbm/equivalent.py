@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.linalg
+from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.continuation import ContinuationError
@@ -14,6 +15,7 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response, periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import FRICTIONLESS
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
@@ -38,6 +40,12 @@ class EquivalentContact:
     damping: Array
     """[N s/m], shape (3 points,)"""
 
+    def only(self, rows: NDArray[np.bool_]) -> EquivalentContact:
+        """Return the same with nothing along all other rows."""
+        return EquivalentContact(
+            np.where(rows, self.stiffness, 0.0), np.where(rows, self.damping, 0.0)
+        )
+
     def joined(self, problem: Problem) -> Structure:
         """Return the structure with these springs and dampers."""
         rows, structure = problem.interface.displacement, problem.structure
@@ -54,7 +62,8 @@ def equivalent_contact(
     """Return the describing function of each contact coordinate (theory §6).
 
     Mean and first harmonic of the response count. A coordinate at rest gets the mean
-    of its tangents over the period: what a small motion at another frequency feels.
+    of its tangents over the period: what a small motion at another frequency feels (at
+    the same one, of what contacts remember).
     """
     motion = response.coefficients[:3] @ problem.interface.displacement.T
     force, tangents = _evaluated(problem, motion, response.frequency, response.samples)
@@ -138,21 +147,23 @@ def one_harmonic_error(
 
 def free_structure(problem: Problem, rest: StaticState) -> Structure:
     """Return the structure on the normal contacts of the equilibrium alone."""
-    tangents = _at_rest(problem, rest)
-    normal = np.arange(tangents.stiffness.size) % 3 == 0
-    return EquivalentContact(
-        np.where(normal, tangents.stiffness, 0.0),
-        np.where(normal, tangents.damping, 0.0),
-    ).joined(problem)
+    normal = np.arange(3 * problem.interface.count) % 3 == 0
+    return _at_rest(problem, rest).only(normal).joined(problem)
 
 
 def stuck_structure(problem: Problem, rest: StaticState) -> Structure:
-    """Return the same without any sliding where there is friction."""
+    """Return the same without any sliding where there is friction.
+
+    Friction that remembers is a spring as long as nothing slides.
+    """
     points, rows = problem.interface.points, problem.interface.displacement
     loaded = (rest.normal_force > 0.0) | points.constant_load
-    tied = np.repeat((points.friction != FRICTIONLESS) & loaded, 3)
+    springs = remembers(points)
+    tied = np.repeat((points.friction != FRICTIONLESS) & loaded & ~springs, 3)
     tied[::3] = False
-    whole = free_structure(problem, rest)
+    held = np.repeat(springs, 3)
+    held[::3] = True
+    whole = _at_rest(problem, rest).only(held).joined(problem)
     kept = np.eye(whole.dofs)
     if tied.any():
         kept = scipy.linalg.null_space(rows[tied])
@@ -188,8 +199,12 @@ def _evaluated(
     fourier = FourierBasis(1, samples)
     contact = AlternatingFrequencyTime(points, np.eye(motion.shape[1]), fourier)
     force, _ = contact(motion, frequency)
-    means = (np.diagonal(each[..., 0]) for each in contact.spectra(0))
-    return force, EquivalentContact(*means)
+    stiffness, damping = (np.diagonal(each[..., 0]) for each in contact.spectra(0))
+    count = motion.shape[1]
+    cosines, remembered = np.full((3, count), -1), np.zeros((count, count))
+    cosines[1] = np.arange(count)
+    contact.add_remembered(frequency, cosines, remembered)
+    return force, EquivalentContact(stiffness + np.diag(remembered), damping)
 
 
 def _solved_again(

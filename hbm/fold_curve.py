@@ -17,7 +17,7 @@ from hbm.fourier import FourierBasis
 from hbm.newton import Correction, SingularError
 from hbm.options import CurveOptions
 from hbm.residual import Balance, HarmonicBalance
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import MARGIN, PeriodicResponse
 
@@ -37,7 +37,8 @@ class FoldPoint:
     The event is "cusp" where two folds meet, "isola" where two curves do.
     """
     unstable: int
-    """number of Floquet multipliers outside the unit circle besides the fold's own"""
+    """number of Floquet multipliers outside the unit circle besides the fold's own; −1
+    if they are not known"""
     frequency_error: float
     """of the frequency, relative, seen with twice the harmonics; infinite if unknown"""
     parameter_error: float
@@ -106,15 +107,24 @@ class FoldCurve:
         inner, _ = self._inner(self._balance, parameter)
         frequency_error, parameter_error = self._errors(correction)
         made = response(self._problem, inner, replace(correction, point=point[:-1]))
-        motions = self._path.motions(parameter)
-        multipliers = motions.multipliers(inner.contact, float(point[-2]))
-        others = np.delete(multipliers, np.abs(multipliers - 1.0).argmin())
+        multipliers, others = self._multipliers(inner, parameter, float(point[-2]))
         return FoldPoint(
             replace(made, multipliers=multipliers, parameter=parameter, event=event),
-            int((np.abs(others) > 1.0 + MARGIN).sum()),
+            others,
             frequency_error,
             parameter_error,
         )
+
+    def _multipliers(
+        self, balance: HarmonicBalance, parameter: float, frequency: float
+    ) -> tuple[ComplexArray, int]:
+        """Return the multipliers, and how many besides the fold's own exceed one."""
+        motions = self._path.motions(parameter)
+        multipliers = motions.multipliers(balance.contact, frequency)
+        if multipliers.size == 0:
+            return multipliers, -1
+        others = np.delete(multipliers, np.abs(multipliers - 1.0).argmin())
+        return multipliers, int((np.abs(others) > 1.0 + MARGIN).sum())
 
     def _errors(self, correction: Correction) -> tuple[float, float]:
         """Return the errors of frequency (relative) and parameter.

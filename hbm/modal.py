@@ -72,6 +72,8 @@ class ModalBalance:
         self.width = self.rank + free.count + 1
         self._speed = abs(reference.pole)
         self._active, self._terms = active, terms(active)
+        self._places = np.full(active.shape, -1)
+        self._places[active] = np.arange(np.count_nonzero(active))
         self._wanted = np.vstack([active[:1], active[1::2]])
         self._contact = problem.contact(fourier)
         self._orders = np.arange(fourier.harmonics + 1)
@@ -220,6 +222,7 @@ class ModalBalance:
             ]
         )
         matrix = stiff + self._rated(damped, pole)
+        self._contact.add_remembered(pole.imag, self._places, matrix)
         by_logarithm = matrix @ shape[self._active] - state.reaction[self._active]
         return matrix, by_pole, by_logarithm
 

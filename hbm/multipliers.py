@@ -56,7 +56,7 @@ class Multipliers:
         point, fourier
             An orbit and its resolution.
         normal_smallest
-            Of each contact point during a period [N], shape ``(points,)``.
+            Of each contact point that can lift off, during a period [N].
         """
         known = self.at(point, fourier)
         if self.fixed or known.size == 0 or not _rattles(normal_smallest):

@@ -32,6 +32,9 @@ class CurveOptions:
     """whether Floquet multipliers are computed"""
     errors: bool = True
     """whether the error of fixed harmonics is estimated, at twice as many"""
+    pruned: bool = True
+    """whether what always stays at zero is left out: what a symmetry keeps still, the
+    second half of a period that mirrors the first, tangents that a law does not have"""
     highest: float | None = None
     """frequency up to which a sparse structure is resolved [rad/s], see
     :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger one if left out"""

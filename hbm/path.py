@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.active import extended, moving, symmetric
+from hbm.active import PROBE, extended, moving, symmetric
 from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import Balance, HarmonicBalance
@@ -93,6 +93,7 @@ def along_frequency(
     end: float,
     *,
     symmetry: bool = True,
+    pruned: bool = True,
 ) -> AlongFrequency:
     """Return the path of a frequency response curve.
 
@@ -105,6 +106,8 @@ def along_frequency(
     symmetry
         Whether what a symmetry keeps still is left out: a branch that breaks it needs
         all.
+    pruned
+        Whether anything is left out, see :class:`~hbm.options.CurveOptions`.
 
     Raises
     ------
@@ -113,12 +116,27 @@ def along_frequency(
     """
     if min(start, end) <= 0.0:
         raise ValueError(f"frequencies {start:g} and {end:g} rad/s: give positive ones")
-    relative, width = relative_problem(problem, rest), abs(end - start)
+    relative = replace(relative_problem(problem, rest), pruned=pruned)
+    width = abs(end - start)
+    return among(problem, relative, start, width, symmetry=symmetry and pruned)
+
+
+def among(
+    whole: Problem,
+    relative: RelativeProblem,
+    start: float,
+    width: float,
+    *,
+    symmetry: bool,
+) -> AlongFrequency:
+    """Return the path of a problem's coordinates that move, or of all.
+
+    ``start`` is the first frequency and ``width`` the range [rad/s]; a ``symmetry``
+    keeps still what does not move.
+    """
     if not symmetry:
-        every = np.ones((11, relative.rank), dtype=bool)
-        return AlongFrequency(problem, relative, every, width)
+        every = np.ones((PROBE.coefficients, relative.rank), dtype=bool)
+        return AlongFrequency(whole, relative, every, width)
     active = moving(relative, start)
     kept, odd = symmetric(active)
-    return AlongFrequency(
-        problem, relative.restricted(kept, odd), active[:, kept], width
-    )
+    return AlongFrequency(whole, relative.restricted(kept, odd), active[:, kept], width)

@@ -37,7 +37,7 @@ def poles(structure: Structure) -> Poles:
     """Return the poles of a structure; its stiffness may be indefinite."""
     squares, modes = scipy.linalg.eigh(structure.stiffness, structure.mass)
     size = np.abs(squares)
-    scale = np.sqrt(np.maximum(size, 1e-12 * size.max()))
+    scale = np.sqrt(np.maximum(size, 1e-12 * size.max(initial=0.0)))
     zero = np.zeros_like(modes)
     state = np.block(
         [

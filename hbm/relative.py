@@ -38,6 +38,8 @@ class RelativeProblem:
     """constant motion of the structure besides that by y and the loads [m], (dofs,)"""
     odd: NDArray[np.bool_] | None = None
     """which coordinates have odd harmonics only, the others even ones; None if mixed"""
+    pruned: bool = True
+    """whether tangents that the contacts' laws do not have are left out"""
 
     @property
     def rank(self) -> int:
@@ -47,7 +49,12 @@ class RelativeProblem:
     def contact(self, fourier: FourierBasis) -> AlternatingFrequencyTime:
         """Return the contacts evaluated with a number of harmonics and samples."""
         return AlternatingFrequencyTime(
-            self.points, self.basis, fourier, offset=self.offset, odd=self.odd
+            self.points,
+            self.basis,
+            fourier,
+            offset=self.offset,
+            odd=self.odd,
+            pruned=self.pruned,
         )
 
     def smoothed(self, threshold: float) -> RelativeProblem:

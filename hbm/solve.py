@@ -51,7 +51,9 @@ def frequency_response(
         If a frequency is not positive.
     """
     small, still, shapes = _small(problem, rest, options.highest or _most(options))
-    path = along_frequency(small, still, options.start, options.end)
+    path = along_frequency(
+        small, still, options.start, options.end, pruned=options.pruned
+    )
     tracer = Tracer(small, path, options)
     with threadpool_limits(1, "blas"):
         for made in tracer.responses():

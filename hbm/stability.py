@@ -17,8 +17,10 @@ from scipy.sparse.csgraph import connected_components
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.condensation import split
+from hbm.recalled import recalled_multipliers
 from hbm.tangents import StepTangents, step_tangents
 from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 
@@ -75,6 +77,9 @@ class SmallMotions:
         frequency
             Of the orbit [rad/s].
         """
+        if remembers(contact.points).any():
+            matrices = self.mass, self.damping, self.stiffness
+            return recalled_multipliers(matrices, self.basis, contact, frequency)
         signs = self._signs(contact)
         steps = step_tangents(
             contact, self.basis, self.inertia, frequency, half=signs is not None

@@ -12,7 +12,6 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from timedomain.integrate import IntegrationError
 from timedomain.period_map import Period, PeriodMap
-from timedomain.start import Start
 
 ITERATIONS, HALVINGS = 30, 8
 CLOSED = 1e-8
@@ -35,10 +34,10 @@ class ClosedMarch:
 
     map: PeriodMap
     state: Array
-    """at phase 0, shape (2 modes,)"""
+    """at phase 0, shape (states,)"""
     period: Period
     monodromy: Array
-    """shape (2 modes, 2 modes)"""
+    """of the motion, shape (states, states)"""
     neutral: int
     """directions in which the orbit is not pinned"""
     gap: float
@@ -51,6 +50,7 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
 
     It is given up where :func:`time.process_time` has passed ``until`` [s].
 
+    Sliders that never slip carry no mean traction, or as little as their limits admit.
     Directions along which 1 − Φ has a singular value below :data:`NEUTRAL` of the
     largest, such as the mean position of a body that nothing but friction holds, are
     left out of each change: of all orbits the nearest is returned.
@@ -63,8 +63,8 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
     marched = _marched(carried, state, until)
     for iteration in range(1, ITERATIONS + 1):
         period, gap = marched
-        monodromy = carried.monodromy(period)
-        change, neutral = _change(monodromy, gap)
+        sensitivity = carried.sensitivity(period)
+        change, neutral = _change(carried.slope(period, sensitivity), gap)
         accepted = CLOSED * _vibration(carried, period)
         accepted += ROUNDING * float(np.linalg.norm(state))
         apart = float(np.linalg.norm(gap))
@@ -76,35 +76,47 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
                 )
             share = apart / max(accepted / CLOSED, 1e-300)
             return ClosedMarch(
-                carried, state, period, monodromy, neutral, share, iteration
-            )
-        state, marched = _closer(carried, state, change, apart, until)
+                carried, state, period, carried.monodromy(period), neutral, share,
+                iteration,
+            )  # fmt: skip
+        state, marched = _closer(carried, state, change, marched, until)
     raise ShootingError(
         f"{_at(carried)} does not converge in {ITERATIONS} iterations: "
         "give a closer start or more steps"
     )
 
 
-def _change(monodromy: Array, gap: Array) -> tuple[Array, int]:
+def _change(slope: Array, gap: Array) -> tuple[Array, int]:
     """Return Newton's change of least norm, and how many directions it leaves out."""
-    left, sizes, right = np.linalg.svd(np.eye(gap.size) - monodromy)
+    left, sizes, right = np.linalg.svd(slope)
     kept = sizes > NEUTRAL * sizes[0]
     change: Array = right[kept].T @ ((left[:, kept].T @ gap) / sizes[kept])
     return change, int(gap.size - kept.sum())
 
 
 def _closer(
-    carried: PeriodMap, state: Array, change: Array, apart: float, until: float
+    carried: PeriodMap,
+    state: Array,
+    change: Array,
+    before: tuple[Period, Array],
+    until: float,
 ) -> tuple[Array, tuple[Period, Array]]:
-    """Return the state after a change, halved until the period closes better."""
+    """Return the state after a change, halved until the period closes better.
+
+    Where sliders slip only just, no change may do so: they settle by their own march.
+    """
+    period, gap = before
     for halvings in range(HALVINGS):
         trial = state + 0.5**halvings * change
         try:
             marched = _marched(carried, trial, until)
         except ShootingError:
             continue
-        if np.linalg.norm(marched[1]) < apart:
+        if np.linalg.norm(marched[1]) < np.linalg.norm(gap):
             return trial, marched
+    settled = carried.settled(state, period)
+    if not np.array_equal(settled, state):
+        return settled, _marched(carried, settled, until)
     raise ShootingError(
         f"{_at(carried)}: Newton's change does not bring end and beginning together: "
         "there may be no orbit near the start, as beyond a fold; give a closer start"
@@ -112,7 +124,7 @@ def _closer(
 
 
 def _marched(carried: PeriodMap, state: Array, until: float) -> tuple[Period, Array]:
-    """Return one period from a state, and end less beginning."""
+    """Return one period from a state, and by how much it does not close."""
     if time.process_time() > until:
         raise ShootingError(f"{_at(carried)} is out of time")
     with np.errstate(over="ignore", invalid="ignore"):
@@ -120,8 +132,7 @@ def _marched(carried: PeriodMap, state: Array, until: float) -> tuple[Period, Ar
             period = carried.march(state)
         except IntegrationError as error:
             raise ShootingError(f"{_at(carried)}: {error}") from error
-        end = Start(period.displacement[-1], period.velocity[-1])
-        gap = carried.state(end) - state
+        gap = carried.gap(state, period)
     if not np.isfinite(gap).all():
         raise ShootingError(f"{_at(carried)} leaves all bounds: give a closer start")
     return period, gap

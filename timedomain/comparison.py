@@ -10,7 +10,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import MARGIN, PeriodicResponse
 from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import Start
+from timedomain.start import on_orbit
 
 FLOOR = 1e-5
 """relative difference of amplitudes that no estimate accounts for: stiff contacts in
@@ -105,8 +105,7 @@ def compared(
     ShootingError
         If there is no orbit near it.
     """
-    displacement, velocity = response.at(np.zeros(1))
-    start = Start(displacement[0], velocity[0])
+    start = on_orbit(problem, response)
     orbit = periodic_orbit(problem, response.frequency, start=start, options=options)
     predicted = response.seen(problem.probes.rows)
     found = orbit.coefficients @ problem.probes.rows.T

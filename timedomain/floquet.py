@@ -14,6 +14,9 @@ from timedomain.pieces import Pieces, pieces
 from timedomain.propagator import ModalStructure, propagate, propagator
 from timedomain.relative_orbit import RelativeOrbit
 
+RESOLVED = 0.1
+"""change of a multiplier from half the steps up to which it is extrapolated"""
+
 
 @dataclass(frozen=True, slots=True)
 class Multipliers:
@@ -71,13 +74,36 @@ def floquet_multipliers(
 
 
 def extrapolated_multipliers(coarse: Array, fine: Array) -> Multipliers:
-    """Return the multipliers of maps by steps and by half of them, extrapolated."""
+    """Return the multipliers of maps by steps and by half of them, extrapolated.
+
+    The maps are extrapolated, unless the steps do not resolve the fastest motions,
+    whose phases are arbitrary then: that would let them grow. Multipliers that changed
+    by more than :data:`RESOLVED` are left as they are, the others extrapolated one by
+    one.
+    """
     before = np.linalg.eigvals(coarse)
-    values = np.linalg.eigvals(fine + (fine - coarse) / 3.0)
-    values = values[np.argsort(-np.abs(values), kind="stable")]
+    values = np.linalg.eigvals(fine + (fine - coarse) / 3.0).astype(complex)
     distance = np.abs(values[:, None] - before)
     each, paired = linear_sum_assignment(distance)
-    return Multipliers(values.astype(complex), distance[each, paired])
+    error = distance[each, paired]
+    if error.max(initial=0.0) > RESOLVED:
+        values, error = _one_by_one(coarse, fine)
+    order = np.argsort(-np.abs(values), kind="stable")
+    return Multipliers(values[order], error[order])
+
+
+def _one_by_one(coarse: Array, fine: Array) -> tuple[ComplexArray, Array]:
+    """Return the eigenvalues of the finer map, and how far each was away.
+
+    Those of alike shapes belong together, however far apart they are.
+    """
+    (before, shapes), (values, motions) = map(np.linalg.eig, (coarse, fine))
+    alike = np.abs(motions.conj().T @ shapes)
+    _, paired = linear_sum_assignment(-alike)
+    moved = values - before[paired]
+    error = np.abs(moved)
+    found = values + np.where(error <= RESOLVED, moved / 3.0, 0.0)
+    return found.astype(complex), error
 
 
 def _marched(

@@ -9,21 +9,27 @@ and z = δs − b δφ turns its derivative into a matrix of rank r more than A:
 
     z₁ = (A + c E W) z₀ ,   c = A b + b ,   E = (1 − D W b)⁻¹ D .
 
-Steps are taken together in blocks, each a constant power of A and a small matrix.
+Steps are taken together in blocks, each a constant power of A and a small matrix. With
+friction that remembers the tractions are part of the state, and steps are taken one by
+one (:mod:`timedomain.carried`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.sliders import Sliders, Slides
+from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
+from timedomain.carried import carried
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.propagator import ModalStructure
-from timedomain.relative_orbit import contact_tangents
 from timedomain.start import Start
 
 BLOCK = 16
@@ -42,14 +48,26 @@ class Period:
     """[m/s, rad/s], shape (steps + 1, dofs)"""
     friction: float
     """energy that friction took [J]"""
+    slides: Slides
+    """what contacts remember"""
+
+
+class Sensitivity(NamedTuple):
+    """Derivatives by the state before a period."""
+
+    monodromy: Array
+    """of the state after it, shape (states, states)"""
+    mean: Array
+    """of the mean tractions over it, in units of states, shape (sliders, states)"""
 
 
 @dataclass(frozen=True, slots=True)
 class PeriodMap:
     """A problem under a drive of one frequency, marched by equal steps over a period.
 
-    A state is (q, q̇/ω) in mass-normalised modes, shape (2 modes,): its square is twice
-    the kinetic energy over ω², plus the same of the displacement.
+    A state is (q, q̇/ω) in mass-normalised modes: its square is twice the kinetic energy
+    over ω², plus the same of the displacement. Behind it are the tractions of what
+    remembers, over :attr:`unit`; the shape is (2 modes + sliders,).
     """
 
     problem: Problem
@@ -58,25 +76,87 @@ class PeriodMap:
     """[rad/s]"""
     steps: int
     """of the period, a multiple of :data:`BLOCK`"""
+    sliders: Sliders
 
     @classmethod
     def of(cls, problem: Problem, frequency: float, steps: int) -> PeriodMap:
         """Return the map; ``steps`` is rounded up to whole blocks."""
         structure = ModalStructure.of(problem, frequency)
         whole = -(-steps // BLOCK) * BLOCK
-        return cls(problem, replace(structure, scale=frequency), frequency, whole)
+        structure = replace(structure, scale=frequency)
+        basis, _ = problem.interface.relative_motion()
+        sliders = Sliders.of(problem.interface.points, basis)
+        return cls(problem, structure, frequency, whole, sliders)
+
+    @property
+    def unit(self) -> Array:
+        """Traction [N] that shakes its contact by one unit of a state, (sliders,)."""
+        seen = self.sliders.along @ self.structure.selection
+        unit: Array = self.frequency**2 / np.sqrt((seen**2).sum(axis=1))
+        return unit
 
     def state(self, start: Start) -> Array:
         """Return a motion as a state."""
         to_modes = self.structure.inverse
         moving = to_modes @ start.velocity / self.frequency
-        return np.concatenate([to_modes @ start.displacement, moving])
+        held = self.sliders.seen(start.traction) / self.unit
+        return np.concatenate([to_modes @ start.displacement, moving, held])
 
     def start(self, state: Array) -> Start:
         """Return a state as a motion."""
         shapes = self.structure.shapes
-        moved, moving = np.split(state, 2)
-        return Start(shapes @ moved, self.frequency * (shapes @ moving))
+        modes = self.structure.stiffness.size
+        moved, moving, held = np.split(state, [modes, 2 * modes])
+        return Start(
+            shapes @ moved,
+            self.frequency * (shapes @ moving),
+            self.sliders.spread(self.unit * held),
+        )
+
+    def end(self, period: Period) -> Array:
+        """Return the state after a period."""
+        held = self.sliders.spread(period.slides.traction[-1])
+        return self.state(Start(period.displacement[-1], period.velocity[-1], held))
+
+    def settled(self, state: Array, period: Period) -> Array:
+        """Return a state with the tractions that a period from it ends with."""
+        first = state.size - self.sliders.count
+        return np.append(state[:first], self.end(period)[first:])
+
+    def gap(self, state: Array, period: Period) -> Array:
+        """Return by how much a period from a state does not close.
+
+        It is end less beginning; for a slider that never slips, whose traction returns
+        wherever it begins, the part of its mean traction that can be taken off.
+        """
+        gap, slides = self.end(period) - state, period.slides
+        held = gap[gap.size - self.sliders.count :]
+        held[slides.stuck] = (slides.mean / self.unit)[slides.stuck]
+        return gap
+
+    def slope(self, period: Period, sensitivity: Sensitivity) -> Array:
+        """Return the derivative of minus the gap by the state, (states, states)."""
+        slope = np.eye(len(sensitivity.monodromy)) - sensitivity.monodromy
+        held = slope[len(slope) - self.sliders.count :]
+        stuck = period.slides.stuck
+        held[stuck] = -sensitivity.mean[stuck]
+        return slope
+
+    def loose(self, monodromy: Array, stuck: NDArray[np.bool_]) -> Array:
+        """Return the derivative of what is left if some sliders are springs.
+
+        A slider that never slips keeps T − k_t w: that is a multiplier of exactly one,
+        which says nothing but that its position is free.
+        """
+        sliders, size = self.sliders, len(monodromy)
+        first = size - sliders.count
+        made = np.eye(size)
+        seen = sliders.along @ self.structure.selection
+        springs = (sliders.stiffness / self.unit)[:, None] * seen
+        made[first:][stuck, : first // 2] = springs[stuck]
+        kept = np.append(np.ones(first, dtype=bool), ~stuck)
+        found: Array = (monodromy @ made[:, kept])[kept]
+        return found
 
     def march(self, state: Array) -> Period:
         """March one period.
@@ -99,19 +179,50 @@ class PeriodMap:
             start=start,
             block=duration,
         )
-        return Period(
-            np.vstack([start.displacement, history.displacement]),
-            np.vstack([start.velocity, history.velocity]),
-            float(history.of("friction")[-1]),
+        displacement = np.vstack([start.displacement, history.displacement])
+        velocity = np.vstack([start.velocity, history.velocity])
+        first = self.sliders.seen(start.traction)
+        slides = self.sliders.slides(
+            *self._points(displacement, velocity), first, self.frequency
         )
+        friction = float(history.of("friction")[-1])
+        return Period(displacement, velocity, friction, slides)
+
+    def sensitivity(self, period: Period) -> Sensitivity:
+        """Return the exact derivatives of what a march does by the state before it."""
+        if self.sliders.count == 0:
+            whole = self._monodromy(period)
+            return Sensitivity(whole, np.zeros((0, len(whole))))
+        return self._carried(period, period.slides)
 
     def monodromy(self, period: Period) -> Array:
-        """Return the derivative of the state after a period by that before it.
+        """Return the derivative of the motion: small motions grow by it in a period.
 
-        Returns
-        -------
-        Shape ``(2 modes, 2 modes)``.
+        It is that of the march but where contacts that remember touch: a march jumps
+        from one step to the next as they do so, a motion does not.
         """
+        if self.sliders.count == 0:
+            return self._monodromy(period)
+        slides = self.sliders.slides(
+            *self._points(period.displacement, period.velocity),
+            period.slides.traction[0],
+            self.frequency,
+            continuous=True,
+        )
+        return self._carried(period, slides).monodromy
+
+    def _carried(self, period: Period, slides: Slides) -> Sensitivity:
+        free, push = self._step()
+        units = np.append(np.ones(len(free)), self.unit)
+        tangents = self._tangents(period)
+        monodromy, mean = carried(
+            free, push, _seen(self.structure), tangents, self.sliders, slides
+        )
+        monodromy = monodromy * units / units[:, None]
+        return Sensitivity(monodromy, mean * units / self.unit[:, None])
+
+    def _monodromy(self, period: Period) -> Array:
+        """Return the derivative of the state after a period without memory."""
         free, push = self._step()
         seen = _seen(self.structure)
         tangents = self._tangents(period)
@@ -141,14 +252,21 @@ class PeriodMap:
 
     def _tangents(self, period: Period) -> Array:
         """Return D at each time by (y, ẏ/ω), shape (steps + 1, rank, 2 rank)."""
+        elastic, viscous = contact_tangents(
+            self.problem.interface.points,
+            self.sliders.basis,
+            *self._points(period.displacement, period.velocity),
+        )
+        return np.concatenate([elastic, self.frequency * viscous], axis=2)
+
+    def _points(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
+        """Return displacement and velocity of the points, (times, points, 3) each."""
         interface = self.problem.interface
-        basis, _ = interface.relative_motion()
         moved, moving = (
             np.reshape(each @ interface.displacement.T, (len(each), interface.count, 3))
-            for each in (period.displacement, period.velocity)
+            for each in (displacement, velocity)
         )
-        elastic, viscous = contact_tangents(interface.points, basis, moved, moving)
-        return np.concatenate([elastic, self.frequency * viscous], axis=2)
+        return moved, moving
 
 
 def _seen(structure: ModalStructure) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array, ComplexArray
 from timedomain.closed_march import ClosedMarch
@@ -30,9 +31,15 @@ class PeriodicOrbit:
     rows: Array
     """of the probes that :attr:`error` speaks of, shape (probes, dofs)"""
     multipliers: ComplexArray
-    """Floquet multipliers, extrapolated, the largest first, shape (2 dofs,)"""
+    """Floquet multipliers, extrapolated, the largest first, shape (2 dofs + sliders,)
+
+    A slider that never slips has one of exactly 1, since its position is free: these
+    are left out.
+    """
     multiplier_error: Array
-    """how far extrapolation moved them, shape (2 dofs,)"""
+    """how far extrapolation moved them, of the same shape"""
+    stuck: NDArray[np.bool_]
+    """points that remember and never slip, shape (points,)"""
     friction_energy: float
     """taken out by friction per period, extrapolated [J]"""
     neutral: int
@@ -70,7 +77,10 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
     harmonics = coarse.map.steps // SHARE
     before, after = (_coefficients(each, harmonics) for each in (coarse, fine))
     moved = (after - before) / 3.0
-    multipliers = extrapolated_multipliers(coarse.monodromy, fine.monodromy)
+    stuck = coarse.period.slides.stuck | fine.period.slides.stuck
+    multipliers = extrapolated_multipliers(
+        coarse.map.loose(coarse.monodromy, stuck), fine.map.loose(fine.monodromy, stuck)
+    )
     more = (fine.period.friction - coarse.period.friction) / 3.0
     return PeriodicOrbit(
         fine.map.frequency,
@@ -80,12 +90,21 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
         fine.map.problem.probes.rows,
         multipliers.values,
         multipliers.error,
+        _points(fine, stuck),
         fine.period.friction + more,
         max(coarse.neutral, fine.neutral),
         fine.map.steps,
         coarse.iterations + fine.iterations,
         fine.gap,
     )
+
+
+def _points(marched: ClosedMarch, stuck: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return which points have sliders that are stuck, shape (points,)."""
+    sliders = marched.map.sliders
+    found = np.zeros(sliders.points.load.size, dtype=bool)
+    found[sliders.point[stuck]] = True
+    return found
 
 
 def _coefficients(marched: ClosedMarch, harmonics: int) -> Array:

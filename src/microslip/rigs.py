@@ -42,3 +42,17 @@ def sector_of(scene: Scene) -> CyclicProblem | None:
     from microslip.scenes.bladed_disk.build import sector
 
     return sector(scene.rig)
+
+
+def unpruned_of(scene: Scene) -> Problem:
+    """Return a problem with the same response, from which nothing is left out.
+
+    It has the contact points of the full model, and all sectors of a disk.
+    """
+    if isinstance(scene.rig, TwoBlades):
+        return build.unpruned(scene.rig)
+    if isinstance(scene.rig, BladedDisk):
+        from microslip.scenes.bladed_disk.build import disk
+
+        return disk(scene.rig)
+    return problem_of(scene)

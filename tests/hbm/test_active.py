@@ -1,5 +1,7 @@
 """What a symmetry keeps at zero, and what is solved for instead."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -8,6 +10,7 @@ from contact_tables import contact_points
 from hbm.active import extended, moving, symmetric
 from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis
+from hbm.path import along_frequency
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import HarmonicBalance
 from hbm.step_control import StepControl
@@ -183,3 +186,36 @@ def test_more_harmonics_go_on_as_the_first_ones() -> None:
     assert more[:, 0].tolist() == odd_rows
     assert more[:, 1].tolist() == [not each for each in odd_rows]
     assert more[:, 2].all()
+
+
+@pytest.mark.parametrize("model", ["A", "full"])
+def test_tangents_that_are_zero_change_nothing(model: str) -> None:
+    problem, _ = rig(model=model)
+    some = HarmonicBalance(problem, FOURIER)
+    every = HarmonicBalance(replace(problem, pruned=False), FOURIER)
+    point = solved(some) * 1.001
+
+    residual, linearised = some(point)
+    other, whole = every(point)
+
+    assert len(every.contact.tangents) == 18 * len(problem.points.load)
+    assert len(some.contact.tangents) < len(every.contact.tangents)
+    np.testing.assert_array_equal(residual, other)
+    size = np.abs(linearised.jacobian).max()
+    np.testing.assert_allclose(
+        whole.jacobian, linearised.jacobian, rtol=0.0, atol=1e-13 * size
+    )
+
+
+def test_a_path_that_is_not_pruned_has_all_coordinates_and_orders() -> None:
+    problem = rig_problem(model="A")
+    rest = static_equilibrium(problem)
+
+    some, every = (
+        along_frequency(problem, rest, FREQUENCY, 1.1 * FREQUENCY, pruned=pruned)
+        for pruned in (True, False)
+    )
+
+    assert every.mask(HARMONICS).all()
+    assert every.rank == relative(problem).rank > some.rank
+    assert every.problem.odd is None

@@ -28,6 +28,7 @@ COMMANDS = (
     "tables",
     "scenes",
     "explain",
+    "report",
     "plot",
 )
 

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from microslip.cli import main
+from microslip.scene_file import load_scene
 from microslip.studies.grid import (
     FRICTIONS,
     LAWS,
@@ -15,9 +17,11 @@ from microslip.studies.grid import (
     cases,
 )
 
+RIG = load_scene("two-blades")
+
 
 def test_the_grid_has_each_value_with_each_load() -> None:
-    grid = cases()
+    grid = cases(RIG)
 
     assert len(grid) == len(set(grid)) == 108
     for values, name in (
@@ -47,11 +51,11 @@ def test_the_grid_has_each_value_with_each_load() -> None:
     ],
 )
 def test_a_quick_grid_misses_no_value(name: str, values: set[float]) -> None:
-    assert {getattr(case, name) for case in cases()[::QUICK]} == set(values)
+    assert {getattr(case, name) for case in cases(RIG)[::QUICK]} == set(values)
 
 
 def test_an_attempt_tells_how_it_ended() -> None:
-    sticking = replace(cases()[0], friction=5.0, preload=100.0, drive=0.1)
+    sticking = replace(cases(RIG)[0], friction=5.0, preload=100.0, drive=0.1)
     impossible = replace(sticking, sigma=-1.0)
 
     whole, wrong = attempts("two-blades", ("model=A",), [sticking, impossible])
@@ -61,3 +65,15 @@ def test_an_attempt_tells_how_it_ended() -> None:
     assert whole.error < 1e-3
     assert wrong.points == 0
     assert "[contact] sigma = -1.0" in wrong.ending
+
+
+@pytest.mark.parametrize("name", ["bladed-disk", "jenkins"])
+def test_a_scene_without_these_numbers_is_refused_in_a_line(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["grid", name]) == 2
+
+    output, error = capsys.readouterr()
+    assert output == ""
+    assert error.startswith("microslip: grid changes the numbers of two blades")
+    assert error.count("\n") == 1

@@ -43,7 +43,7 @@ def loaded_by(*arguments: str, folder: Path) -> set[str]:
     [
         ("--help",),
         ("--version",),
-        *[(command, "--help") for command in ("frc", "sweep", "verify", "tables")],
+        *[(command, "--help") for command in ("frc", "sweep", "verify", "report")],
         ("scenes",),
         ("scenes", "two-blades"),
     ],

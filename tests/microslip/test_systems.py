@@ -199,6 +199,36 @@ def test_frc_draws_and_prints_a_system(run: Run) -> None:
     assert Path("duffing-frc.nc").is_file()
 
 
+def test_frc_knows_the_stability_of_contacts_that_remember(run: Run) -> None:
+    short = ("curve.tolerance=1e-2", "curve.lowest=18", "curve.highest=18.8")
+    sets = (word for each in short for word in ("--set", each))
+
+    status, output, error = run("frc", "jenkins", *sets)
+
+    assert (status, error) == (0, "")
+    assert "every point is stable" in output
+
+
+def test_sweep_says_that_what_remembers_has_no_estimated_error(run: Run) -> None:
+    short = ("sweep.end=0.2", "sweep.duration=0.3", "march.time_step=1e-3")
+    sets = [word for each in short for word in ("--set", each)]
+
+    status, output, error = run("sweep", "jenkins", *sets)
+
+    assert (status, error) == (0, "")
+    assert "0.001 s, and no tolerance: no error is estimated" in output
+
+
+def test_modes_of_a_slider_go_from_sticking_to_slipping(run: Run) -> None:
+    status, output, error = run(
+        "modes", "jenkins", "--harmonics", "3", "--amplitudes", "0.1", "10"
+    )
+
+    assert (status, error) == (0, "")
+    assert "mode at 19.4924 Hz" in output
+    assert "most damped" in output
+
+
 def test_explain_lists_each_element_with_its_equation(run: Run) -> None:
     status, output, _ = run("explain", "chain")
 

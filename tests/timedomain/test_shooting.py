@@ -112,6 +112,23 @@ def test_multipliers_of_the_march_are_those_of_the_trapezoidal_rule() -> None:
     np.testing.assert_allclose(in_order(values), in_order(exact), atol=1e-9)
 
 
+def test_motions_too_fast_for_the_steps_do_not_seem_to_grow() -> None:
+    problem = cantilever(mass_damping=2.0, stiffness_damping=1e-7)
+    frequency = TURN * 30.0
+    found = periodic_orbit(
+        problem,
+        frequency,
+        start=still(problem),
+        options=ShootingOptions(steps=64, most=128, error=ONCE),
+    )
+
+    assert found.multiplier_error.max() > 0.1
+    assert np.abs(found.multipliers).max() < 1.0
+    every = poles(problem)
+    slowest = np.exp(every[np.abs(every.imag).argmin()] * TURN / frequency)
+    assert np.abs(found.multipliers - slowest).min() < 1e-4
+
+
 def test_the_extrapolated_linear_orbit_is_the_exact_one() -> None:
     found = shot(linear(), FREQUENCY, 256)
 
@@ -149,7 +166,7 @@ def test_the_monodromy_is_the_derivative_of_the_march(
     found = closed(carried, carried.state(still(problem)))
     # Not on the orbit: there the first and the last tangents are the same.
     state = found.state * 1.1
-    monodromy = carried.monodromy(carried.march(state))
+    monodromy = carried.sensitivity(carried.march(state)).monodromy
 
     step = 1e-6 * np.linalg.norm(state)
     for column, each in enumerate(np.eye(state.size)):
@@ -160,8 +177,7 @@ def test_the_monodromy_is_the_derivative_of_the_march(
 
 def after(carried: PeriodMap, state: Array) -> Array:
     """Return the state after a period."""
-    period = carried.march(state)
-    return carried.state(Start(period.displacement[-1], period.velocity[-1]))
+    return carried.end(carried.march(state))
 
 
 def test_a_march_with_the_same_steps_repeats_the_orbit() -> None:

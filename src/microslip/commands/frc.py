@@ -12,6 +12,7 @@ from microslip.commands.columns import SHOWN, headed, titled
 if TYPE_CHECKING:
     from microslip.experiments import Curve
     from microslip.progress import Watch
+    from microslip.scene_file import Scene
     from microslip.studies.curve import Traced
     from microslip_mechanics.response import ResponseCurve
     from microslip_mechanics.static import StaticState
@@ -46,27 +47,28 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="also seek curves that do not hang together with the first one, by "
         "varying the drive at 15 frequencies",
     )
+    parser.add_argument(
+        "--unpruned",
+        action="store_true",
+        help="leave nothing out: all contact points, sectors, coordinates, orders and "
+        "samples, whatever stays at zero; the curve is the same and takes longer, see "
+        "microslip explain --time",
+    )
     arguments.add_output(parser, "frc")
     parser.set_defaults(run=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.curve import curve_figure
-    from microslip.rigs import problem_of, sector_of
     from microslip.scene_file import load_scene
     from microslip.store import Stored, save, save_figure
-    from microslip.studies.curve import LOST, Wanted, trace_curve, trace_sector
+    from microslip.studies.curve import LOST
 
     data, picture = arguments.outputs(options, "frc")
     if options.tolerance is not None:
         options.overrides.append(f"curve.tolerance={options.tolerance}")
     scene = load_scene(options.scene, options.overrides)
-    wanted, watch = Wanted(options.branches, options.detached), watched(scene.curve)
-    sector = sector_of(scene)
-    if sector is None:
-        traced = trace_curve(problem_of(scene), scene.curve, watch, wanted)
-    else:
-        traced = trace_sector(sector, scene.curve, watch, wanted)
+    traced = _traced(options, scene)
     save(data, Stored(traced.curve, scene.text, options.command))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     print(_table(traced))
@@ -80,6 +82,20 @@ def _run(options: argparse.Namespace) -> int:
     if options.detached and sought and "detached" not in traced.curve.event:
         print("no detached curve was found")
     return arguments.ended(traced.curve.ending)
+
+
+def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
+    """Return the curve of a scene, or of one sector that stands for a disk."""
+    from microslip.rigs import problem_of, sector_of, unpruned_of
+    from microslip.studies.curve import Wanted, trace_curve, trace_sector
+
+    wanted, watch = Wanted(options.branches, options.detached), watched(scene.curve)
+    if options.unpruned:
+        return trace_curve(unpruned_of(scene), scene.curve, watch, wanted, pruned=False)
+    sector = sector_of(scene)
+    if sector is None:
+        return trace_curve(problem_of(scene), scene.curve, watch, wanted)
+    return trace_sector(sector, scene.curve, watch, wanted)
 
 
 def _events(curve: ResponseCurve) -> str:
@@ -100,6 +116,8 @@ def _events(curve: ResponseCurve) -> str:
         )
     elif (curve.unstable == 0).all():
         lines.append("every point is stable")
+    else:
+        lines.append("stability is not known: no Floquet multipliers are computed")
     return "\n".join(lines)
 
 

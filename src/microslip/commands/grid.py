@@ -41,8 +41,8 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.grid import QUICK, attempts, cases
 
     table = arguments.table(options)
-    load_scene(options.scene, options.overrides)
-    chosen = cases()[:: QUICK if options.quick else 1]
+    scene = load_scene(options.scene, options.overrides)
+    chosen = cases(scene)[:: QUICK if options.quick else 1]
     found: list[Attempt] = []
     print(HEADER)
     try:

@@ -56,16 +56,17 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
+    from microslip_mechanics.contact.memory import remembers
 
     data, picture = _places(options)
     scene = load_scene(options.scene, options.overrides)
-    loads = load_history(scene)
+    problem, loads = problem_of(scene), load_history(scene)
     recording, end = Recording(data, scene.text, options.command), None
     envelope = options.envelope
     if options.resume is not None:
         recording, end, envelope = _resumed(options, scene)
     blocks = marched(
-        problem_of(scene),
+        problem,
         loads,
         scene.march,
         envelope=envelope,
@@ -78,6 +79,11 @@ def _run(options: argparse.Namespace) -> int:
     closed = _show(options, data, picture)
     unit = "cycles" if envelope else "times"
     print(f"{recording.rows} {unit} in {data}, picture in {picture}")
+    if options.tolerance and remembers(problem.interface.points).any():
+        print(
+            "contacts that remember are marched with the scene's steps, "
+            f"{scene.march.time_step:g} s, and no tolerance: no error is estimated"
+        )
     if ending == "complete" and not closed:
         ending = (
             "the energy balance does not close, so the march is wrong: give a smaller "

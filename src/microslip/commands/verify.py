@@ -222,7 +222,9 @@ def _draw(
         traced.curve,
         (
             np.array([each.response.frequency for each in made]) / math.tau,
-            np.array([each.found for each in made]),
+            np.array([each.found for each in made]).reshape(len(made), -1)
+            if made
+            else np.empty((0, len(traced.curve.probes))),
             np.array([each.difference for each in made]),
             np.array([each.admitted for each in made]),
         ),

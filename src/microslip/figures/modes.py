@@ -39,8 +39,9 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
     below = "amplitude of the highest probe [mm]"
     framed(left, x=below, y="natural frequency [Hz]", title="Frequency")
     framed(right, x=below, y="damping ratio [%]", title="Damping")
-    for axes in (left, right):
-        axes.set_xscale("log")
+    if len({amplitude for line in lines for amplitude in line.amplitude}) > 1:
+        for axes in (left, right):
+            axes.set_xscale("log")
     left.ticklabel_format(axis="y", useOffset=False)
     if all(ratio > 0.0 for line in lines for ratio in line.damping):
         right.set_ylim(bottom=0.0)

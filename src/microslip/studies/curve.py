@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -45,14 +45,21 @@ LOST = "a branch was lost"
 
 
 def trace_curve(
-    problem: Problem, curve: Curve, watch: Watch = iter, wanted: Wanted = ALONE
+    problem: Problem,
+    curve: Curve,
+    watch: Watch = iter,
+    wanted: Wanted = ALONE,
+    *,
+    pruned: bool = True,
 ) -> Traced:
     """Trace a scene's curve; keep what there is when it cannot go on or is stopped.
 
-    ``wanted`` says what is sought beside it.
+    ``wanted`` says what is sought beside it; ``pruned``, whether what always stays at
+    zero is left out of it.
     """
     rest = static_equilibrium(problem)
-    traced = _all(problem, rest, _options(curve), wanted)
+    options = replace(curve_options(curve), pruned=pruned)
+    traced = _all(problem, rest, options, wanted)
     return _gathered(problem, rest, traced, watch)
 
 
@@ -72,11 +79,11 @@ def trace_sector(
             "sector cannot show: give --set solve=disk"
         )
     standing = problem.standing()
-    traced = cyclic_response(problem, _options(curve))
+    traced = cyclic_response(problem, curve_options(curve))
     return _gathered(standing, static_equilibrium(standing), traced, watch)
 
 
-def _options(curve: Curve) -> CurveOptions:
+def curve_options(curve: Curve) -> CurveOptions:
     """Return what a scene asks of a curve."""
     return CurveOptions(
         2.0 * np.pi * curve.lowest,

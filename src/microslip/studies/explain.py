@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.active import extended, moving
-from hbm.relative import relative_problem
-from microslip.rigs import problem_of
+from hbm.fourier import FourierBasis
+from hbm.path import AlongFrequency
+from microslip.rigs import problem_of, sector_of, unpruned_of
 from microslip.scene_file import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
+from microslip.studies.imported import FRC, imported
+from microslip.studies.unpruned import path_of, unpruned_path_of
 from microslip_mechanics.contact.law import (
     BRISTLE,
     COULOMB,
@@ -19,10 +22,8 @@ from microslip_mechanics.contact.law import (
     FRICTIONLESS,
     GENERAL_KINETIC,
     TANH,
-    tangent_pattern,
 )
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.static import static_equilibrium
 
 HARMONICS = 63
 """for which unknowns are counted where their number follows from the tolerance"""
@@ -34,6 +35,15 @@ FRICTION_LAWS = {
     ELASTIC: "elastic friction",
     BRISTLE: "bristles",
 }
+EVALUATED = (
+    (
+        "moments evaluated of {} samples",
+        "the second half of a period mirrors the first",
+    ),
+    ("calls of the contact law", "of all contact points, for one residual"),
+    ("tangents at a moment", "the others are always zero"),
+)
+"""what a residual evaluates, and why not all of it"""
 LOADS = "friction uses the computed normal force, or a constant"
 
 
@@ -44,17 +54,22 @@ class Pruned:
     what: str
     kept: int
     whole: int
+    """what there is without pruning"""
     reason: str
 
 
 def pruned(scene: Scene) -> list[Pruned]:
-    """Count what a scene's solvers carry, and of how much."""
-    problem = problem_of(scene)
-    rig = isinstance(scene.rig, TwoBlades)
+    """Count what a scene's solvers carry, and what they would without pruning."""
+    sector, whole = sector_of(scene), unpruned_of(scene)
+    problem = problem_of(scene) if sector is None else sector.standing()
+    why = _load_reason(scene) if isinstance(scene.rig, TwoBlades) else LOADS
     return [
-        *(_rig(scene, problem) if rig else _system(scene, problem)),
-        *_contacts(problem, _load_reason(scene) if rig else LOADS),
-        *_unknowns(problem, scene),
+        *_structure(scene, problem, whole),
+        *_contacts(problem, why),
+        # one sector cannot be marched
+        _step(problem if sector is None else whole),
+        *_unknowns(path_of(scene), unpruned_path_of(scene), scene),
+        *_code(),
     ]
 
 
@@ -70,29 +85,25 @@ def obeyed(scene: Scene) -> list[tuple[str, str, str]]:
     ]
 
 
-def _rig(scene: Scene, problem: Problem) -> list[Pruned]:
-    """Count what the two-blade rig leaves out."""
-    rotations = "none locked" if scene.rig.model == "full" else "rotations locked"
-    count = problem.interface.count
-    return [
-        Pruned(
-            "degrees of freedom",
-            problem.structure.dofs,
-            _unlocked(scene),
-            f"{rotations} ({scene.rig.model})",
-        ),
-        Pruned("springs to ground", int(_roped(scene)), 1, _rope_reason(scene)),
-        Pruned("contact points", count, 8, f"four a face in full, here {count // 2}"),
-    ]
-
-
-def _system(scene: Scene, problem: Problem) -> list[Pruned]:
-    """Count what a system has, and what a reduction leaves of it."""
-    dofs, count = problem.structure.dofs, problem.interface.count
-    return [
-        Pruned("degrees of freedom", dofs, *_whole(scene, problem)),
-        Pruned("contact points", count, count, "rows that the elements' laws become"),
-    ]
+def _structure(scene: Scene, problem: Problem, whole: Problem) -> Iterator[Pruned]:
+    """Count what a kind of scene leaves out of its structure."""
+    dofs, most = problem.structure.dofs, whole.structure.dofs
+    count, points = problem.interface.count, whole.interface.count
+    if isinstance(scene.rig, TwoBlades):
+        yield Pruned("degrees of freedom", dofs, _unlocked(scene), _locked(scene))
+        roped = _roped(scene)
+        yield Pruned("springs to ground", int(roped), 1, _rope_reason(roped))
+        why = f"four a face in full, here {count // 2}"
+        yield Pruned("contact points", count, points, why)
+        return
+    sector = sector_of(scene)
+    if sector is not None:
+        yield Pruned("sectors", 1, sector.sectors, "the others move like it, later")
+        yield Pruned("degrees of freedom", dofs, most, "those of one sector")
+    else:
+        yield Pruned("degrees of freedom", dofs, *_whole(scene, problem))
+    why = "rows that the elements' laws become"
+    yield Pruned("contact points", count, points, why)
 
 
 def _whole(scene: Scene, problem: Problem) -> tuple[int, str]:
@@ -112,64 +123,86 @@ def _whole(scene: Scene, problem: Problem) -> tuple[int, str]:
     )
 
 
-def _contacts(problem: Problem, why: str) -> list[Pruned]:
+def _contacts(problem: Problem, why: str) -> Iterator[Pruned]:
     """Count what the contacts' laws need."""
     points, count = problem.interface.points, problem.interface.count
-    entries = sum(
-        int(pattern.sum())
-        for point in range(count)
-        for pattern in tangent_pattern(points, point)
-    )
     loads = int(np.sum(~points.constant_load & (points.friction != FRICTIONLESS)))
-    return [
-        Pruned("variable normal loads of friction", loads, count, why),
-        Pruned(
-            "friction laws called", *_laws(problem), "only those of the scene's points"
-        ),
-        Pruned(
-            "tangents per sample", entries, 18 * count, "the others are always zero"
-        ),
-    ]
+    yield Pruned("variable normal loads of friction", loads, count, why)
+    why = "only those of the scene's points"
+    yield Pruned("friction laws called", *_laws(problem), why)
 
 
-def _unknowns(problem: Problem, scene: Scene) -> list[Pruned]:
-    """Count what the solvers solve for."""
-    dofs = problem.structure.dofs
+def _step(problem: Problem) -> Pruned:
+    """Count what a time step solves for."""
     _, selection = problem.interface.relative_motion()
+    why = "relative motion of the faces; the structure is linear"
+    dofs = problem.structure.dofs
+    return _part("unknowns of a time step", len(selection), dofs, why)
+
+
+def _unknowns(
+    path: AlongFrequency, whole: AlongFrequency, scene: Scene
+) -> Iterator[Pruned]:
+    """Count what harmonic balance solves for, and what it evaluates for that."""
+    why = "relative motions that move; the structure is condensed exactly"
+    yield _part("coordinates of harmonic balance", path.rank, whole.rank, why)
     harmonics = scene.curve.harmonics or HARMONICS
-    size = 2 * harmonics + 1
-    return [
-        Pruned(
-            "unknowns of a time step",
-            len(selection),
-            dofs,
-            "relative motion of the faces; the structure is linear",
-        ),
-        Pruned(
-            "coordinates of harmonic balance",
-            len(selection),
-            dofs,
-            "the rest is condensed exactly, frequency by frequency",
-        ),
-        Pruned(
-            f"unknowns of harmonic balance with {harmonics} harmonics",
-            _active(problem, scene, harmonics),
-            size * len(selection),
-            "symmetry keeps the others at zero",
-        ),
-    ]
+    samples = scene.curve.samples or 16 * (harmonics + 1)
+    one, every = (each.mask(harmonics) for each in (path, whole))
+    why = "symmetry keeps the others at zero"
+    name = f"orders of {harmonics} harmonics and the mean"
+    yield _part(name, _orders(one), _orders(every), why)
+    name = f"unknowns of harmonic balance with {harmonics} harmonics"
+    yield _part(name, int(one.sum()), int(every.sum()), why)
+    fourier = FourierBasis(harmonics, samples)
+    evaluated = zip(*(_evaluated(each, fourier) for each in (path, whole)), strict=True)
+    for (name, why), (some, most) in zip(EVALUATED, evaluated, strict=True):
+        yield _part(name.format(samples), some, most, why)
+
+
+def _part(what: str, kept: int, whole: int, why: str) -> Pruned:
+    """Return what is kept, and why, if not all of it."""
+    return Pruned(what, kept, whole, why if kept < whole else "all are needed")
+
+
+def _orders(mask: np.ndarray) -> int:
+    """Return how many orders move, the mean among them."""
+    return int(mask[0].any()) + int(mask[1::2].any(axis=1).sum())
+
+
+def _evaluated(path: AlongFrequency, fourier: FourierBasis) -> tuple[int, int, int]:
+    """Return moments in a period, calls of the law in all, and tangents at a moment."""
+    contact = path.problem.contact(fourier)
+    halved = contact.symmetry.signs.size > 0
+    moments = fourier.samples // 2 if halved else fourier.samples
+    points = int(contact.points.load.size)
+    return moments, moments * points, len(contact.tangents)
+
+
+def _code() -> Iterator[Pruned]:
+    """Count what frc loads of all code."""
+    some, every = imported(FRC), imported(())
+    why = "those of frc; what another command needs is loaded by it"
+    yield Pruned("modules loaded", some.modules, every.modules, why)
+    yield Pruned("kernels loaded", some.kernels, every.kernels, why)
 
 
 def _unlocked(scene: Scene) -> int:
     return 2 * 6 * int(scene.rig.blade.elements) + 6
 
 
+def _locked(scene: Scene) -> str:
+    if scene.rig.model == "full":
+        return "none locked (full)"
+    return f"rotations locked ({scene.rig.model}), with and without pruning"
+
+
 def _roped(scene: Scene) -> bool:
     return scene.rig.rope is not None and scene.rig.rope.stiffness > 0.0
 
 
-def _rope_reason(scene: Scene) -> str:
-    return "the rope" if _roped(scene) else "no rope in the scene: no spring"
+def _rope_reason(roped: bool) -> str:
+    return "the rope" if roped else "no rope in the scene: no spring"
 
 
 def _load_reason(scene: Scene) -> str:
@@ -181,10 +214,3 @@ def _load_reason(scene: Scene) -> str:
 def _laws(problem: Problem) -> tuple[int, int]:
     used = set(problem.interface.points.friction.tolist()) - {FRICTIONLESS}
     return len(used), len(FRICTION_LAWS) - 1
-
-
-def _active(problem: Problem, scene: Scene, harmonics: int) -> int:
-    """Count the unknowns that move, at the curve's first frequency."""
-    whole = relative_problem(problem, static_equilibrium(problem))
-    active = moving(whole, 2.0 * np.pi * scene.curve.lowest)
-    return int(extended(active, harmonics).sum())

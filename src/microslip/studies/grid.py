@@ -7,8 +7,10 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from microslip.quantity import SceneError
 from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scene_file import Scene, load_scene
+from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.curve import trace_curve
 from microslip_mechanics.errors import MicroslipError
 
@@ -64,8 +66,19 @@ class Attempt:
     seconds: float
 
 
-def cases() -> list[Case]:
-    """Return all combinations of the contact's values, each with three of the loads."""
+def cases(scene: Scene) -> list[Case]:
+    """Return all combinations of the contact's values, each with three of the loads.
+
+    Raises
+    ------
+    SceneError
+        If the scene is not one of two blades, which alone has these numbers.
+    """
+    if not isinstance(scene.rig, TwoBlades):
+        raise SceneError(
+            "grid changes the numbers of two blades: give a scene of the kind "
+            'scene = "two-blades"'
+        )
     contacts = itertools.product(LAWS, SIGMAS, THRESHOLDS, FRICTIONS)
     return [
         Case(*contact, *LOADS[(number + number // 3 + 3 * turn) % len(LOADS)])

@@ -21,7 +21,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.time_history import joined
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.start import on_orbit
 
 LEAST = 4
 """rates: three unknowns of the fit, and one to judge it by"""
@@ -80,7 +80,17 @@ def folds_of(problem: Problem, traced: Traced, *, lead: float) -> list[Fold]:
     lead
         How far behind the fold sweeps end, over the fold's frequency; they begin as far
         before it, or where the stable motion begins.
+
+    Raises
+    ------
+    StudyError
+        If the stability of the curve is not known.
     """
+    if any(each.event == "fold" and each.unstable < 0 for each in traced.responses):
+        raise StudyError(
+            "the curve has folds, but its stability is not known: sweep through them "
+            "by microslip sweep"
+        )
     found = []
     for place, response in enumerate(traced.responses):
         if response.event != "fold" or not 0 < place < len(traced.responses) - 1:
@@ -196,10 +206,9 @@ def _swept(
     begin = fold.begin.frequency / (2.0 * np.pi)
     duration = abs(fold.end - begin) / rate
     sweep = SweptSine(0.0, 0.0, duration, duration, begin, fold.end)
-    displacement, velocity = fold.begin.at(np.zeros(1))
     stride = max(1, steps // ROWS)
     options = MarchOptions(1.0 / (stride * ROWS * fold.hertz), stride)
-    start = Start(displacement[0], velocity[0])
+    start = on_orbit(problem, fold.begin)
     blocks = list(integrate(problem, sweep, options, start=start, block=duration))
     history = joined(blocks, "complete")
     hertz, envelope = envelope_of(history, sweep.frequency(history.time), 0.0, duration)

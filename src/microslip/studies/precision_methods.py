@@ -39,10 +39,9 @@ def settings(case: Case, *, quick: bool) -> Iterator[Setting]:
     """Yield all settings that a case admits, method by method."""
     yield from _balances(quick)
     yield from _marches(case, quick)
-    if not remembers(case.problem.interface.points).any():
-        for steps in 2 ** np.arange(6, 11 if quick else 14):
-            run = partial(_shot, steps=int(steps))
-            yield Setting("shooting", f"{2 * steps} steps", run)
+    for steps in 2 ** np.arange(6, 11 if quick else 14):
+        run = partial(_shot, steps=int(steps))
+        yield Setting("shooting", f"{2 * steps} steps", run)
     try:
         outsiders = Outsiders.of(case)
     except ValueError:

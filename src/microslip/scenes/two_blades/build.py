@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from microslip.scenes.turning import turning
 from microslip.scenes.two_blades import layout
-from microslip.scenes.two_blades.faces import interface
+from microslip.scenes.two_blades.faces import interface, unpruned_interface
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.problem import Probes, Problem
 
@@ -42,3 +44,8 @@ def problem(rig: TwoBlades) -> Problem:
             np.array([*ends, element, *(element - end for end in ends)]),
         ),
     )
+
+
+def unpruned(rig: TwoBlades) -> Problem:
+    """Return the same problem with all the contact points of the full model."""
+    return replace(problem(rig), interface=unpruned_interface(rig, layout.frame(rig)))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from microslip_mechanics.contact.law import (
 )
 from microslip_mechanics.frame import Frame
 
+MOST = 4
+"""contact points of a face, in the full model"""
 KINDS = {"none": FRICTIONLESS, "coulomb": COULOMB, "gkf": GENERAL_KINETIC}
 
 
@@ -42,16 +45,16 @@ class Face:
 
 def interface(rig: TwoBlades, frame: Frame) -> Interface:
     """Return the contact points of both faces."""
-    rows, names, laws = [], [], []
-    for face in faces(rig):
-        places = _points(face, 4 if rig.model == "full" else 1)
-        for number, place in enumerate(places, start=1):
-            element = frame.motion(layout.ELEMENT, place)
-            end = frame.motion(layout.tip(rig, face.blade), place)
-            rows.append(face.axes @ (element - end))
-            names.append(f"{face.name}{number}")
-            laws.append(_law(rig, face, len(places)))
-    return Interface(contact_table(laws), np.vstack(rows), tuple(names))
+    return _seen(rig, frame, [(face, _needed(rig, face)) for face in faces(rig)])
+
+
+def unpruned_interface(rig: TwoBlades, frame: Frame) -> Interface:
+    """Return contact points as many as those of the full model, which act the same.
+
+    Where one point of a face is enough, three of its corners stand beside it, whose
+    normal force and friction are computed as all others are, and are zero.
+    """
+    return _seen(rig, frame, [(face, _all(rig, face)) for face in faces(rig)])
 
 
 def faces(rig: TwoBlades) -> tuple[Face, Face]:
@@ -78,6 +81,44 @@ def faces(rig: TwoBlades) -> tuple[Face, Face]:
             )
         )
     return made[0], made[1]
+
+
+def _seen(
+    rig: TwoBlades,
+    frame: Frame,
+    points: Sequence[tuple[Face, Sequence[tuple[Array, PointLaw]]]],
+) -> Interface:
+    """Return the interface of the points of each face, given by place and law."""
+    rows, names, laws = [], [], []
+    for face, carried in points:
+        for number, (place, law) in enumerate(carried, start=1):
+            element = frame.motion(layout.ELEMENT, place)
+            end = frame.motion(layout.tip(rig, face.blade), place)
+            rows.append(face.axes @ (element - end))
+            names.append(f"{face.name}{number}")
+            laws.append(law)
+    return Interface(contact_table(laws), np.vstack(rows), tuple(names))
+
+
+def _needed(rig: TwoBlades, face: Face) -> list[tuple[Array, PointLaw]]:
+    """Return place and law of the points that the model has on a face."""
+    count = MOST if rig.model == "full" else 1
+    return [(place, _law(rig, face, count)) for place in _points(face, count)]
+
+
+def _all(rig: TwoBlades, face: Face) -> list[tuple[Array, PointLaw]]:
+    """Return the same, and idle points up to the number of the full model."""
+    needed = _needed(rig, face)
+    idle = replace(
+        needed[0][1],
+        stiffness=0.0,
+        damping=0.0,
+        viscous=0.0,
+        constant_load=True,
+        load=0.0,
+    )
+    corners = _points(face, MOST)[: MOST - len(needed)]
+    return [*needed, *((place, idle) for place in corners)]
 
 
 def _points(face: Face, count: int) -> list[Array]:

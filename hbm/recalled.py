@@ -1,0 +1,214 @@
+"""Floquet multipliers where contacts remember (theory §6).
+
+The tractions T of friction that remembers are carried beside a small motion. Structure
+and mean tangents are one constant matrix A, diagonal in its own motions; what contacts
+add is held constant over a step,
+
+    f = (T₀ + T₁)/2 + K' (y₀ + y₁)/2 + C' (y₁ − y₀)/h ,
+
+of second order in the steps; T₁ follows from motion and T₀ as along the orbit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hbm.aft import AlternatingFrequencyTime
+from hbm.slide_events import SampledOrbit, SlidOrbit, slid_orbit
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.law import rubs
+from microslip_mechanics.contact.sliders import Sliders
+from microslip_mechanics.contact.tangents import contact_tangents
+
+STEPS = 256
+"""of a period, without those that events add; twice as many where a point slips along
+a curve in two tangents, which the law follows to first order"""
+LEAST = 0.05
+"""share of the period in which a slider is taken to stick in the mean, at least"""
+SKEW = 1e8
+"""condition of the eigenvectors of A from which they are no basis"""
+
+
+def recalled_multipliers(
+    matrices: tuple[Array, Array, Array],
+    basis: Array,
+    contact: AlternatingFrequencyTime,
+    frequency: float,
+) -> ComplexArray:
+    """Return the multipliers of motion and tractions, the largest modulus first.
+
+    Parameters
+    ----------
+    matrices
+        Mass, damping and stiffness, each (coordinates, coordinates), y first.
+    basis
+        Map from y to the contact points, shape (3 points, rank).
+    contact
+        Just called at the orbit.
+    frequency
+        Of the orbit [rad/s].
+
+    Returns
+    -------
+    Those of sliders that never slip, exactly one, are left out. None if they cannot be
+    known: regularised friction beside what remembers turns over too fast for equal
+    steps, and a body that nothing holds has no motions of its own.
+    """
+    points = contact.points
+    if any(rubs(points, point) for point in range(points.load.size)):
+        return np.empty(0, complex)
+    sliders = Sliders.of(points, basis)
+    orbit = SampledOrbit.of(contact, frequency)
+    twice = sliders.count > np.unique(sliders.point).size
+    slid = slid_orbit(sliders, orbit, 2 * STEPS if twice else STEPS)
+    middle = 0.5 * (slid.phase[1:] + slid.phase[:-1])
+    elastic, viscous = contact_tangents(points, basis, *orbit.at(middle))
+    share = np.diff(slid.phase) / (2.0 * np.pi)
+    held = np.tensordot(share, elastic, axes=1) + _springs(sliders, slid, share)
+    drag = np.tensordot(share, viscous, axes=1)
+    motions = _motions(matrices, held, drag, frequency)
+    if motions is None:
+        return np.empty(0, complex)
+    changes = _Changes(elastic - held, viscous - drag)
+    carried = _carried(motions, sliders, slid, changes, frequency)
+    values = np.linalg.eigvals(_loose(carried, sliders, slid)).astype(complex)
+    ordered: ComplexArray = values[np.argsort(-np.abs(values))]
+    return ordered
+
+
+def _springs(sliders: Sliders, slid: SlidOrbit, share: Array) -> Array:
+    """Return the stiffness of all sliders while they stick, as a mean of the period.
+
+    At least :data:`LEAST` of it, which holds what nothing else does.
+    """
+    along = sliders.along
+    sticks = np.einsum("tsr,sr->ts", slid.slides.past[1:], along)
+    sticks /= sliders.stiffness * (along**2).sum(axis=1)
+    mean = np.clip(share @ sticks, LEAST, 1.0)
+    made: Array = along.T @ ((mean * sliders.stiffness)[:, None] * along)
+    return made
+
+
+@dataclass(frozen=True, slots=True)
+class _Motions:
+    """Motions z of the structure on mean tangents, x = (u, u̇/ω) = Re(V z)."""
+
+    rates: ComplexArray
+    """[1/s], shape (motions,); of a pair of conjugates the first"""
+    shapes: ComplexArray
+    """V, shape (2 coordinates, motions)"""
+    parts: ComplexArray
+    """z of each x, shape (motions, 2 coordinates)"""
+    push: ComplexArray
+    """ż of a contact force on y, shape (motions, rank)"""
+    seen: ComplexArray
+    """(y, ẏ/ω) of z, shape (2 rank, motions)"""
+
+
+def _motions(
+    matrices: tuple[Array, Array, Array], elastic: Array, viscous: Array, scale: float
+) -> _Motions | None:
+    """Return the motions; None if they are no basis."""
+    mass, damping, stiffness = matrices
+    size, rank = len(mass), len(elastic)
+    damping, stiffness = damping.copy(), stiffness.copy()
+    damping[:rank, :rank] += viscous
+    stiffness[:rank, :rank] += elastic
+    inverse = np.linalg.inv(mass)
+    none = np.zeros_like(mass)
+    system = np.block(
+        [
+            [none, scale * np.eye(size)],
+            [-inverse @ stiffness / scale, -inverse @ damping],
+        ]
+    )
+    values, shapes = np.linalg.eig(system)
+    if not np.linalg.cond(shapes) < SKEW:
+        return None
+    kept = values.imag >= 0.0
+    parts = np.linalg.inv(shapes.astype(complex))[kept]
+    shapes = shapes[:, kept] * np.where(values[kept].imag > 0.0, 2.0, 1.0)
+    places = np.append(np.arange(rank), size + np.arange(rank))
+    push = parts[:, size:] @ inverse[:, :rank] / scale
+    return _Motions(
+        values[kept].astype(complex),
+        shapes.astype(complex),
+        parts,
+        push,
+        shapes[places],
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Changes:
+    """Tangents during each step, less their means, each (steps, rank, rank)."""
+
+    elastic: Array
+    viscous: Array
+
+
+def _carried(
+    motions: _Motions,
+    sliders: Sliders,
+    slid: SlidOrbit,
+    changes: _Changes,
+    frequency: float,
+) -> Array:
+    """Return the map of (x, T) over the period, shape (states, states)."""
+    lengths = np.diff(slid.phase) / frequency
+    sizes, kind = np.unique(lengths.round(15), return_inverse=True)
+    turn = np.exp(np.multiply.outer(sizes, motions.rates))
+    # ∫ exp(λ s) ds over a step; λ may be zero
+    safe = np.where(motions.rates == 0.0, 1.0, motions.rates)
+    kick = np.where(motions.rates == 0.0, sizes[:, None], (turn - 1.0) / safe)
+    kicks = kick[:, :, None] * motions.push
+    rank = motions.push.shape[1]
+    felt = np.einsum("rm,kmc->krc", motions.seen, kicks).real[kind]
+    past, ahead = _answers(sliders, slid, changes, lengths)
+    inverse = np.linalg.inv(np.eye(rank) + ahead @ felt)
+    steps = slid.slides
+    size = motions.parts.shape[1]
+    whole = np.eye(size + sliders.count)
+    state, held = motions.parts @ whole[:size], whole[size:]
+    watched = (motions.seen @ state).real
+    pull = 0.5 * sliders.along.T
+    for place in range(lengths.size):
+        memory = steps.traction_past[place + 1] @ held
+        memory -= steps.past[place + 1] @ watched[:rank]
+        state = turn[kind[place]][:, None] * state
+        moved = (motions.seen @ state).real
+        known = past[place] @ watched[:rank] + pull @ (held + memory)
+        force = inverse[place] @ (known + ahead[place] @ moved)
+        state -= kicks[kind[place]] @ force
+        watched = moved - felt[place] @ force
+        held = memory + steps.motion[place + 1] @ watched
+    return np.vstack([(motions.shapes @ state).real, held])
+
+
+def _answers(
+    sliders: Sliders, slid: SlidOrbit, changes: _Changes, lengths: Array
+) -> tuple[Array, Array]:
+    """Return the force of a step by y before it and by (y, ẏ/ω) after it.
+
+    Without what the tractions remember; shapes (steps, rank, rank) and
+    (steps, rank, 2 rank). The springs that the mean holds are taken off.
+    """
+    along, rank = sliders.along, sliders.along.shape[1]
+    half = 0.5 * changes.elastic
+    drag = changes.viscous / lengths[:, None, None]
+    ahead = 0.5 * along.T @ slid.slides.motion[1:]
+    ahead[:, :, :rank] += half + drag
+    return half - drag, ahead
+
+
+def _loose(carried: Array, sliders: Sliders, slid: SlidOrbit) -> Array:
+    """Return the map with sliders that never slip as springs."""
+    size, rank = len(carried), sliders.along.shape[1]
+    first, stuck = size - sliders.count, slid.slides.stuck
+    made = np.eye(size)
+    made[first:][stuck, :rank] = (sliders.stiffness[:, None] * sliders.along)[stuck]
+    kept = np.append(np.ones(first, dtype=bool), ~stuck)
+    found: Array = (carried @ made[:, kept])[kept]
+    return found

@@ -1,0 +1,231 @@
+"""microslip report: one page with all that is known of a scene."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import shlex
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from microslip.commands import arguments
+from microslip.commands.report_parts import PARTS, Part
+from microslip.page import DONE, FAILED, LEFT_OUT, STOPPED, Section, page
+
+if TYPE_CHECKING:
+    from microslip.scene_file import Scene
+
+INTERRUPTED = 130
+LIBRARIES = ("numpy", "scipy", "numba", "pyfftw", "matplotlib")
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "report",
+        help="one HTML page: curve, sweep, agreement, precision, tables, stress, …",
+        description="Run the commands that tell something of a scene, one after the "
+        "other, and write one page, index.html, with what they print and draw, that "
+        "needs no network. Their own files lie beside it. Exit status 1 if a section "
+        "fails.",
+        epilog="example: microslip report two-blades --set model=A -o report",
+    )
+    arguments.add_scene(parser)
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="folder of the page, made if there is none (default: SCENE-report here)",
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="fewer and looser settings in each section"
+    )
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from microslip.progress import shown
+    from microslip.scene_file import load_scene
+
+    scene = load_scene(options.scene, options.overrides)
+    folder = _folder(options)
+    made = [_scene(scene)]
+    try:
+        for section in shown(
+            _sections(options, scene, folder),
+            total=len(PARTS),
+            done=lambda _: float(len(made)),
+            unit="sections",
+            name="report",
+        ):
+            made.append(section)
+            print(f"{section.name:10s} {section.state:8s} {section.result}", flush=True)
+            _write(folder, options, made)
+            if section.state == STOPPED:
+                break
+    except KeyboardInterrupt:
+        made.append(Section("stopped", "Stopped", "", STOPPED, "interrupted"))
+    written = _write(folder, options, [*made, _versions()])
+    print(f"page in {written}")
+    states = {each.state for each in made}
+    if STOPPED in states:
+        return arguments.ended("interrupted")
+    return 0 if states <= {DONE, LEFT_OUT} else 1
+
+
+def _folder(options: argparse.Namespace) -> Path:
+    """Return the folder of the page, which is made if need be.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be made.
+    """
+    chosen: Path = options.output or Path(f"{Path(options.scene).stem}-report")
+    try:
+        chosen.mkdir(exist_ok=True)
+    except OSError as error:
+        reason = error.strerror or error
+        raise arguments.OutputError(
+            f"there is no folder {chosen} to write to: {reason}"
+        ) from None
+    return chosen
+
+
+def _sections(
+    options: argparse.Namespace, scene: Scene, folder: Path
+) -> Iterator[Section]:
+    """Yield a section for each part, also where it does not apply."""
+    for part in PARTS:
+        excuse = part.excuse(scene)
+        if options.quick and part.quick is None:
+            excuse = excuse or "Left out of a quick report: it takes minutes."
+        if excuse:
+            yield Section(part.command, part.title, part.about, LEFT_OUT, excuse)
+        else:
+            words = words_of(
+                part, options.scene, options.overrides, folder, quick=options.quick
+            )
+            yield _made(part, words, folder)
+
+
+def words_of(
+    part: Part, scene: str, overrides: Sequence[str], folder: Path, *, quick: bool
+) -> list[str]:
+    """Return the words of a part's command line."""
+    words = [part.command]
+    if part.scene:
+        words.append(scene)
+    words += (part.quick if quick else part.more) or ()
+    if part.scene:
+        words += [f"--set={each}" for each in overrides]
+    return [*words, "-o", str(folder / part.command)] if part.files else words
+
+
+def _made(part: Part, words: list[str], folder: Path) -> Section:
+    """Run a part's command in this process; return what it prints and draws."""
+    picture = (folder / part.command).with_suffix(".png")
+    picture.unlink(missing_ok=True)  # that of an earlier report
+    began = time.perf_counter()
+    status, said, complaints = _ran(words)
+    state = {0: DONE, INTERRUPTED: STOPPED}.get(status, FAILED)
+    result = _telling(part, said) if state == DONE else ""
+    if state != DONE:
+        result = complaints or _telling(part, said) or f"exit status {status}"
+    return Section(
+        part.command,
+        part.title,
+        part.about,
+        state,
+        result or "done",
+        shlex.join(["microslip", *words]),
+        said,
+        [picture] if part.files and picture.is_file() else [],
+        time.perf_counter() - began,
+    )
+
+
+def _ran(words: list[str]) -> tuple[int, str, str]:
+    """Return exit status, output and complaints of a command."""
+    from microslip.cli import main
+
+    said, complaints = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaints):
+        try:
+            status = main(words)
+        except Exception as error:  # a defect costs its section alone
+            status = 1
+            complaints.write(f"{type(error).__name__}: {error}")
+    told = " ".join(complaints.getvalue().removeprefix("microslip: ").split())
+    return status, said.getvalue().rstrip(), told
+
+
+def _telling(part: Part, said: str) -> str:
+    """Return the last line that says a part's result."""
+    lines = [
+        line.strip()
+        for line in said.splitlines()
+        if any(words in line for words in part.tells)
+    ]
+    return " ".join(lines[-1].split()) if lines else ""
+
+
+def _scene(scene: Scene) -> Section:
+    """Return the section with the scene's text."""
+    return Section(
+        "scene",
+        "The scene",
+        "All numbers, as TOML; what --set has replaced stands at the end.",
+        DONE,
+        f'scene = "{_kind(scene)}"',
+        text=scene.text.rstrip(),
+    )
+
+
+def _kind(scene: Scene) -> str:
+    return {"TwoBlades": "two-blades", "BladedDisk": "bladed-disk"}.get(
+        type(scene.rig).__name__, "system"
+    )
+
+
+def _versions() -> Section:
+    """Return the section with what made the page."""
+    import platform
+    from importlib.metadata import version
+
+    lines = [f"{name:12s} {version(name)}" for name in ("microslip", *LIBRARIES)]
+    lines.append(f"{'Python':12s} {platform.python_version()}")
+    lines.append(f"{'system':12s} {platform.platform()}, {platform.machine()}")
+    return Section(
+        "versions",
+        "Versions",
+        "What made this page.",
+        DONE,
+        lines[0].replace("  ", " "),
+        text="\n".join(lines),
+    )
+
+
+def _write(folder: Path, options: argparse.Namespace, sections: list[Section]) -> Path:
+    """Write the page with the sections that there are; return its path.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be written.
+    """
+    from microslip.store import told
+
+    path = folder / "index.html"
+    made = time.strftime("%Y-%m-%d %H:%M %Z")
+    about = f"microslip report, {made}"
+    with told(path):
+        path.write_text(
+            page(arguments.title(options), about, options.command, sections),
+            encoding="utf-8",
+        )
+    return path

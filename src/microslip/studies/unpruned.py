@@ -1,0 +1,112 @@
+"""A scene's curve with and without what is left out of it: time and difference."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import islice
+
+import numpy as np
+
+from hbm.cyclic import along_sector, cyclic_response
+from hbm.options import CurveOptions
+from hbm.path import AlongFrequency, along_frequency
+from hbm.solve import RESOLVED, frequency_response
+from microslip.progress import Watch
+from microslip.rigs import problem_of, sector_of, unpruned_of
+from microslip.scene_file import Scene
+from microslip.studies.curve import curve_options, gathered
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.reduction import reduced
+from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
+from microslip_mechanics.static import static_equilibrium
+
+HARMONICS = 31
+"""that are fixed where a scene's number follows from its tolerance"""
+
+
+@dataclass(frozen=True, slots=True)
+class Timed:
+    """A curve and what it took."""
+
+    seconds: float
+    """of processor time"""
+    curve: ResponseCurve
+
+
+def path_of(scene: Scene) -> AlongFrequency:
+    """Return the path of a scene's curve, in what moves."""
+    options = curve_options(scene.curve)
+    sector = sector_of(scene)
+    if sector is not None:
+        return along_sector(sector, options.start, options.end)
+    return _path(problem_of(scene), options)
+
+
+def unpruned_path_of(scene: Scene) -> AlongFrequency:
+    """Return the path of a scene's curve, from which nothing is left out."""
+    options = replace(curve_options(scene.curve), pruned=False)
+    return _path(unpruned_of(scene), options)
+
+
+def _path(problem: Problem, options: CurveOptions) -> AlongFrequency:
+    if problem.structure.sparse:
+        problem = reduced(problem, RESOLVED * options.end).problem
+    rest = static_equilibrium(problem)
+    return along_frequency(
+        problem, rest, options.start, options.end, pruned=options.pruned
+    )
+
+
+def timed(scene: Scene, watch: Watch = iter) -> Iterator[Timed]:
+    """Yield the curve of a scene as it is, then without pruning.
+
+    Both have the same harmonics, those of the scene or :data:`HARMONICS`, no estimate
+    of what more of them would change and, for one sector of a disk, no stability.
+    """
+    sector, whole = sector_of(scene), unpruned_of(scene)
+    fixed = replace(scene.curve, harmonics=scene.curve.harmonics or HARMONICS)
+    options = replace(curve_options(fixed), errors=False, stability=sector is None)
+    if sector is None:
+        problem = problem_of(scene)
+        yield _timed(problem, partial(_responses, problem), options, watch)
+    else:
+        trace = partial(cyclic_response, sector)
+        yield _timed(sector.standing(), trace, options, watch)
+    unpruned = replace(options, pruned=False)
+    yield _timed(whole, partial(_responses, whole), unpruned, watch)
+
+
+def _responses(problem: Problem, options: CurveOptions) -> Iterator[PeriodicResponse]:
+    return frequency_response(problem, static_equilibrium(problem), options)
+
+
+def _timed(
+    problem: Problem,
+    trace: Callable[[CurveOptions], Iterator[PeriodicResponse]],
+    options: CurveOptions,
+    watch: Watch,
+) -> Timed:
+    """Trace a curve and note its time, machine code being there before."""
+    for _ in islice(trace(replace(options, harmonics=1, samples=32)), 3):
+        pass
+    began = time.process_time()
+    responses, ending = gathered(watch(trace(options)))
+    seconds = time.process_time() - began
+    return Timed(seconds, response_curve(problem, responses, ending))
+
+
+def difference(one: ResponseCurve, other: ResponseCurve) -> float:
+    """Return by how much the amplitudes of two curves differ at most, relative.
+
+    They are compared at their ends, where both are at the same frequency, and at the
+    largest amplitude.
+    """
+    count = min(len(one.probes), len(other.probes))
+    rows = [
+        np.append(each.amplitude[[0, -1], :count], each.amplitude.max())
+        for each in (one, other)
+    ]
+    return float(np.abs(rows[1] - rows[0]).max() / np.abs(rows[0]).max())

@@ -1,0 +1,53 @@
+"""What contacts remember along a motion: where a point that touches begins to stick."""
+
+import numpy as np
+import pytest
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ELASTIC, PointLaw, contact_table
+from microslip_mechanics.contact.sliders import Sliders, Slides
+
+STEPS = 20_000
+SHOE = PointLaw(stiffness=60.0, gap=0.3, friction=ELASTIC, dynamic=40.0, tangential=8.0)
+EVERY = np.eye(3)
+
+
+def touched(deeper: float, *, continuous: bool = True) -> Slides:
+    """Return what a point remembers that comes down while it moves sideways."""
+    moved, moving = np.zeros((2, STEPS + 1, 1, 3))
+    time = np.linspace(0.0, 1.0, STEPS + 1)
+    moved[:, 0, 0], moving[:, 0, 0] = time**2 + deeper, 2.0 * time
+    moved[:, 0, 1], moving[:, 0, 1] = 0.3 * time, 0.3
+    moved[:, 0, 2], moving[:, 0, 2] = -0.2 * time**2, -0.4 * time
+    sliders = Sliders.of(contact_table([SHOE]), EVERY)
+    return sliders.slides(moved, moving, np.zeros(2), 1.0, continuous=continuous)
+
+
+def by_depth(slides: Slides) -> Array:
+    """Return the change of the last tractions if all depths are greater by one."""
+    deeper, change = EVERY[0], np.zeros(2)
+    for place in range(1, STEPS + 1):
+        change = slides.traction_past[place] @ change - slides.past[place] @ deeper
+        change += slides.motion[place, :, :3] @ deeper
+    return change
+
+
+def test_a_point_that_touches_sooner_sticks_sooner() -> None:
+    touch = np.sqrt(0.3)
+    slides = touched(0.0)
+
+    assert slides.traction[-1] == pytest.approx(
+        [8.0 * 0.3 * (1.0 - touch), -8.0 * 0.2 * (1.0 - touch**2)], rel=1e-3
+    )
+    # w_touch = w(t), and t = √(0.3 − deeper)
+    exact = 8.0 * np.array([0.3, -0.4 * touch]) / (2.0 * touch)
+    assert by_depth(slides) == pytest.approx(exact, rel=1e-3)
+    step = 0.01
+    ends = [touched(sign * step).traction[-1] for sign in (1.0, -1.0)]
+    assert by_depth(slides) == pytest.approx(
+        (ends[0] - ends[1]) / (2.0 * step), rel=1e-2
+    )
+
+
+def test_steps_that_touch_jump_and_know_nothing_of_it() -> None:
+    assert by_depth(touched(0.0, continuous=False)) == pytest.approx(np.zeros(2))

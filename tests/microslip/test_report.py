@@ -1,0 +1,222 @@
+"""The report: one page that needs nothing else, whatever becomes of its sections."""
+
+import argparse
+import base64
+import importlib
+import re
+from collections.abc import Callable
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import TypeAlias
+
+import pytest
+
+from microslip.commands.report import words_of
+from microslip.commands.report_parts import PARTS, Part
+from microslip.page import DONE, FAILED, LEFT_OUT, Section, page
+from microslip.scene_file import BUILT_IN, load_scene
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+PICTURE = b"\x89PNG\r\n\x1a\n" + bytes(range(64))
+OPEN_ENDED = {"meta", "img", "!doctype"}
+
+
+class Tags(HTMLParser):
+    """What a page is made of; every tag must be closed in its turn."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.seen: list[str] = []
+        self.sources: list[str] = []
+        self._open: list[str] = []
+        self.feed(text)
+        assert self._open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append(tag)
+        self.sources += [v or "" for name, v in attrs if name in ("src", "href")]
+        if tag not in OPEN_ENDED:
+            self._open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self._open.pop() == tag
+
+
+@pytest.fixture
+def only(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """Return what leaves some sections alone in a report."""
+
+    def kept(*names: str) -> None:
+        parts = tuple(part for part in PARTS if part.command in names)
+        monkeypatch.setattr("microslip.commands.report.PARTS", parts)
+
+    return kept
+
+
+def test_a_page_holds_its_pictures_and_needs_nothing_else(tmp_path: Path) -> None:
+    picture = tmp_path / "one.png"
+    picture.write_bytes(PICTURE)
+    section = Section("one", "One", "About it.", DONE, "good", pictures=[picture])
+
+    made = Tags(page("title", "about", "microslip report", [section]))
+
+    assert "script" not in made.seen
+    inside = [each for each in made.sources if not each.startswith("#")]
+    (source,) = inside
+    kind, content = source.split(",")
+    assert kind == "data:image/png;base64"
+    assert base64.b64decode(content) == PICTURE
+
+
+def test_what_a_scene_says_is_text_and_no_html() -> None:
+    wild = "<script>alert('1 < 2 & $x')</script>"
+    section = Section("one", wild, wild, FAILED, wild, wild, wild)
+
+    text = page(wild, wild, wild, [section])
+
+    assert "<script" not in text
+    assert "&lt;script&gt;alert(&#x27;1 &lt; 2 &amp; $x&#x27;)" in text
+    Tags(text)
+
+
+@pytest.mark.usefixtures("no_hang")
+def test_the_command_writes_what_its_sections_print_and_draw(
+    run: Run, quick_scene: Path, tmp_path: Path, only: Callable[..., None]
+) -> None:
+    only("frc", "sweep", "tables")
+
+    status, output, error = run("report", str(quick_scene), "--quick", "-o", "folder")
+
+    assert (status, error) == (0, "")
+    assert "page in folder/index.html" in output
+    text = (tmp_path / "folder" / "index.html").read_text(encoding="utf-8")
+    made = Tags(text)
+    pictures = [each for each in made.sources if each.startswith("data:image/png")]
+    for name, source in zip(("frc", "sweep"), pictures, strict=True):
+        drawn = (tmp_path / "folder" / f"{name}.png").read_bytes()
+        assert base64.b64decode(source.split(",")[1]) == drawn
+    assert "http" not in text
+    assert "[friction_element]" in text
+    assert "estimated error of amplitude: at most" in text
+    assert "energy until 0.01 s [J]" in text
+    assert "Left out of a quick report" in text
+    assert re.search(r"numpy +\d", text)
+    for command in ("report", "frc"):
+        assert f"<code>microslip {command} {quick_scene}" in text
+
+
+@pytest.mark.usefixtures("no_hang")
+def test_a_section_that_fails_says_why_and_the_others_are_made(
+    run: Run, quick_scene: Path, tmp_path: Path, only: Callable[..., None]
+) -> None:
+    only("frc", "verify", "sweep")
+    still = "--set=excitation.force=0"
+
+    status, _, error = run("report", str(quick_scene), "--quick", "-o", "page", still)
+
+    assert (status, error) == (1, "")
+    text = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
+    assert "[excitation] force = 0: nothing vibrates" in text
+    assert "energy until 0.01 s [J]" in text
+    assert [each for each in Tags(text).sources if "png" in each]
+
+
+@pytest.mark.usefixtures("no_hang")
+def test_a_defect_costs_its_section_alone(
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    only: Callable[..., None],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def broken(*_: object) -> None:
+        raise KeyError("lost")
+
+    only("frc", "sweep")
+    monkeypatch.setattr("microslip.figures.curve.curve_figure", broken)
+
+    status, output, _ = run("report", str(quick_scene), "-o", "page")
+
+    assert status == 1
+    assert re.search(r"frc +failed +KeyError: 'lost'", output)
+    assert re.search(r"sweep +done", output)
+    text = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
+    assert "KeyError: &#x27;lost&#x27;" in text
+
+
+@pytest.mark.usefixtures("no_hang", "no_picture")
+def test_an_interruption_keeps_the_sections_made_so_far(
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    only: Callable[..., None],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def stopped(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    only("frc", "sweep", "explain")
+    monkeypatch.setattr("microslip.studies.sweep.marched", stopped)
+
+    status, output, error = run("report", str(quick_scene), "-o", "page")
+
+    assert status == 130
+    assert "interrupted; what was computed is kept" in error
+    assert "explain" not in output
+    text = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
+    assert "estimated error of amplitude" in text
+    assert "interrupted" in text
+    assert "Versions" in text
+
+
+def test_sections_that_do_not_apply_say_so_and_nothing_fails(
+    run: Run, tmp_path: Path, only: Callable[..., None]
+) -> None:
+    only("sweep", "verify", "precision", "tables", "stress")
+
+    status, output, _ = run("report", "bladed-disk", "-o", "page")
+
+    assert status == 0
+    assert output.count("left out") == 5
+    text = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
+    assert text.count("one sector of a disk, which cannot be marched") == 2 * 3
+    assert text.count("the numbers of two blades, which this scene lacks") == 2 * 2
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_only_what_belongs_to_the_rig_or_to_a_march_is_left_out(name: str) -> None:
+    scene = load_scene(name)
+
+    out = {part.command for part in PARTS if part.excuse(scene)}
+
+    expected = set() if name == "two-blades" else {"tables", "stress"}
+    if name == "bladed-disk":
+        expected |= {"sweep", "verify", "precision"}
+    assert out == expected
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part.command)
+def test_options_of_a_section_are_those_of_its_command(part: Part) -> None:
+    for quick in (True, False):
+        words = words_of(part, "two-blades", ["model=A"], Path("x"), quick=quick)
+        commands = argparse.ArgumentParser().add_subparsers()
+        importlib.import_module(f"microslip.commands.{part.command}").add(commands)
+        commands.choices[part.command].parse_args(words[1:])
+
+
+def test_a_folder_that_cannot_be_made_is_told_in_a_line(
+    run: Run, quick_scene: Path
+) -> None:
+    status, output, error = run("report", str(quick_scene), "-o", "no/such/folder")
+
+    assert (status, output) == (1, "")
+    assert error.startswith("microslip: there is no folder no/such/folder to write to")
+
+
+def test_left_out_sections_show_no_time() -> None:
+    section = Section("one", "One", "", LEFT_OUT, "It does not apply.")
+
+    text = page("t", "a", "c", [section])
+
+    assert '<td class="time"></td>' in text
+    assert text.count("It does not apply.") == 2

@@ -1,0 +1,221 @@
+"""Shooting with friction that remembers: exact derivatives, closed forms, marches."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.contact.law import (
+    BRISTLE,
+    ELASTIC,
+    PointLaw,
+    contact_table,
+)
+from microslip_mechanics.contact.sliders import Sliders
+from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.structure import Structure
+from small_problems import dwelled
+from timedomain.closed_march import ClosedMarch, closed
+from timedomain.integrate import MarchOptions, integrate
+from timedomain.period_map import BLOCK, PeriodMap
+from timedomain.shooting import ShootingOptions, periodic_orbit
+from timedomain.start import Start
+
+TURN = 2.0 * np.pi
+STIFFNESS, LIMIT = 40.0, 0.3
+JENKINS = PointLaw(
+    friction=ELASTIC,
+    dynamic=1.0,
+    tangential=STIFFNESS,
+    constant_load=True,
+    load=LIMIT,
+)
+LUGRE = replace(
+    JENKINS, friction=BRISTLE, dynamic=0.7, static=1.0, stribeck=0.2, viscous=0.05
+)
+SHOE = PointLaw(
+    stiffness=60.0, gap=-0.01, friction=ELASTIC, dynamic=0.4, tangential=40.0
+)
+ALONG, ACROSS, EVERY = np.eye(3)[:, 1:2], np.eye(3)[:, [1, 0]], np.eye(3)[:, [1, 2, 0]]
+
+
+def masses(
+    law: PointLaw, seen: Array, drive: Array, *, damping: float = 4e-3
+) -> Problem:
+    """Return masses on springs, each of 1 kg, that one contact sees."""
+    dofs = seen.shape[1]
+    stiffness = np.diag([30.0, 45.0, 60.0][:dofs])
+    names = ("x", "y", "z")[:dofs]
+    return Problem(
+        Structure(np.eye(dofs), damping * stiffness, stiffness, names),
+        Interface(contact_table([law]), seen, ("shoe",)),
+        np.zeros(dofs),
+        drive,
+        Probes(names, np.eye(dofs)),
+    )
+
+
+CASES = [
+    pytest.param(masses(JENKINS, ALONG, np.array([0.35])), 6.5, id="jenkins"),
+    pytest.param(masses(LUGRE, ALONG, np.array([0.35])), 6.5, id="lugre"),
+    pytest.param(masses(SHOE, ACROSS, np.array([0.3, 0.6])), 6.0, id="lifting shoe"),
+    pytest.param(
+        masses(SHOE, EVERY, np.array([0.3, 0.1, 0.9])), 6.0, id="two tangents"
+    ),
+]
+
+
+def still(problem: Problem) -> Start:
+    rest = np.zeros(problem.structure.dofs)
+    return Start(rest, rest)
+
+
+def orbit(problem: Problem, frequency: float, steps: int = 24 * BLOCK) -> ClosedMarch:
+    carried = PeriodMap.of(problem, frequency, steps)
+    return closed(carried, carried.state(still(problem)))
+
+
+def after(carried: PeriodMap, state: Array) -> Array:
+    return carried.end(carried.march(state))
+
+
+@pytest.mark.parametrize(("problem", "frequency"), CASES)
+def test_the_monodromy_is_the_derivative_of_the_march(
+    problem: Problem, frequency: float
+) -> None:
+    found = orbit(problem, frequency)
+    carried, state = found.map, 1.05 * found.state
+    period = carried.march(state)
+    assert np.abs(period.slides.traction).max() > 0.1
+    sensitivity = carried.sensitivity(period)
+
+    step = 1e-7 * np.linalg.norm(state)
+    for column, each in enumerate(np.eye(state.size)):
+        periods = [carried.march(state + sign * step * each) for sign in (1.0, -1.0)]
+        ends = [carried.end(each) for each in periods]
+        slope = (ends[0] - ends[1]) / (2.0 * step)
+        np.testing.assert_allclose(sensitivity.monodromy[:, column], slope, atol=1e-5)
+        means = [each.slides.traction[1:].mean(axis=0) for each in periods]
+        slope = (means[0] - means[1]) / (2.0 * step) / carried.unit
+        np.testing.assert_allclose(sensitivity.mean[:, column], slope, atol=1e-5)
+
+
+@pytest.mark.parametrize(("problem", "frequency"), CASES)
+def test_the_orbit_is_where_a_long_march_ends(
+    problem: Problem, frequency: float
+) -> None:
+    found = orbit(problem, frequency, 480)
+    carried, state = found.map, found.state
+    assert found.gap < 1e-7
+
+    away = state + 0.02 * np.linalg.norm(state) * np.eye(state.size)[0]
+    for _ in range(60):
+        away = after(carried, away)
+
+    assert np.linalg.norm(away - state) < 1e-6 * np.linalg.norm(state)
+
+
+@pytest.mark.parametrize(("problem", "frequency"), CASES)
+def test_the_largest_multiplier_is_the_decay_of_a_disturbance(
+    problem: Problem, frequency: float
+) -> None:
+    found = orbit(problem, frequency, 480)
+    largest = float(np.abs(np.linalg.eigvals(found.monodromy)).max())
+    assert 0.05 < largest < 1.0
+
+    state = found.state + 1e-5 * np.linalg.norm(found.state) * np.ones(found.state.size)
+    sizes = [float(np.linalg.norm(state - found.state))]
+    for _ in range(8):
+        state = after(found.map, state)
+        sizes.append(float(np.linalg.norm(state - found.state)))
+    # a pair of complex ones turns within the periods: the mean of many
+    powers = np.linalg.matrix_power(found.monodromy, 8)
+    begun = 1e-5 * np.linalg.norm(found.state) * np.ones(found.state.size)
+    assert sizes[-1] == pytest.approx(float(np.linalg.norm(powers @ begun)), rel=2e-2)
+
+
+def test_jenkins_on_its_orbit_has_the_area_of_the_closed_form() -> None:
+    problem = masses(JENKINS, ALONG, np.array([0.35]))
+    options = ShootingOptions(steps=2048, most=8192)
+    found = periodic_orbit(problem, 6.5, start=still(problem), options=options)
+
+    assert not found.stuck.any()
+    phase = np.linspace(0.0, TURN, 20001)
+    orders = np.arange(1, len(found.coefficients) // 2 + 1)
+    angles = np.multiply.outer(phase, orders)
+    moved = np.cos(angles) @ found.coefficients[1::2]
+    moved += np.sin(angles) @ found.coefficients[2::2]
+    amplitude = 0.5 * float(np.ptp(moved))
+    assert amplitude > 2.0 * LIMIT / STIFFNESS
+    # Jenkins 1962: 4 µN (A − µN/k)
+    area = 4.0 * LIMIT * (amplitude - LIMIT / STIFFNESS)
+    assert found.friction_energy == pytest.approx(area, rel=1e-4)
+
+
+def test_a_slider_that_never_slips_is_a_spring_without_mean_force() -> None:
+    drive = np.array([0.02])
+    problem = replace(masses(JENKINS, ALONG, drive), preload=np.array([0.9]))
+    begun = Start(np.array([0.9 / 30.0]), np.zeros(1), np.array([[0.1, 0.0]]))
+
+    found = periodic_orbit(problem, 6.5, start=begun)
+
+    assert found.stuck.tolist() == [True]
+    stiff, damping = 30.0 + STIFFNESS, 4e-3 * 30.0
+    exact = abs(0.02 / (stiff - 6.5**2 + 6.5j * damping))
+    assert found.amplitude[0] == pytest.approx(exact, rel=1e-6)
+    assert found.coefficients[0, 0] == pytest.approx(0.9 / 30.0, rel=1e-9)
+    # its own multiplier, 1, says nothing and is left out
+    roots = np.roots([1.0, damping, stiff]) * TURN / 6.5
+    expected = sorted(np.exp(roots), key=lambda each: each.imag)
+    multipliers = sorted(found.multipliers, key=lambda each: each.imag)
+    assert np.abs(np.array(multipliers) - np.array(expected)).max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("reach", "first", "mean", "off"), [(0.6, 0.8, -0.1, -0.1), (0.8, 0.9, -0.3, -0.1)]
+)
+def test_the_mean_force_is_taken_off_as_far_as_the_limit_admits(
+    reach: float, first: float, mean: float, off: float
+) -> None:
+    # the wave reaches 1.5 up and 0.75 down from its mean; all numbers in limits
+    phase = TURN * np.arange(481) / 480
+    moved, moving = np.zeros((2, 481, 1, 3))
+    wave = np.cos(phase) + 0.5 * np.cos(2.0 * phase)
+    moved[:, 0, 1] = reach * LIMIT / STIFFNESS * wave
+    sliders = Sliders.of(contact_table([JENKINS]), ALONG)
+
+    slides = sliders.slides(moved, moving, np.array([first * LIMIT]), 6.5)
+
+    assert slides.stuck.tolist() == [True]
+    assert slides.traction[1:].mean() == pytest.approx(mean * LIMIT)
+    assert slides.mean[0] == pytest.approx(off * LIMIT)
+
+
+def test_a_dwell_ends_on_the_orbit_with_its_traction() -> None:
+    problem = masses(JENKINS, ALONG, np.array([0.35]))
+    found = orbit(problem, 6.5, 400)
+    history = dwelled(problem, 6.5, periods=60, steps=400)
+
+    assert history.displacement[-1, 0] == pytest.approx(
+        found.period.displacement[0, 0], abs=1e-8
+    )
+
+
+def test_what_was_found_can_be_marched_on() -> None:
+    problem = masses(SHOE, EVERY, np.array([0.3, 0.1, 0.9]))
+    found = periodic_orbit(problem, 6.0, start=still(problem))
+    period = TURN / 6.0
+    (block,) = integrate(
+        problem,
+        Dwell(6.0, period),
+        MarchOptions(period / found.steps, 1, residual=1e-12),
+        start=found.start,
+        block=period,
+    )
+    size = math.hypot(*found.start.displacement)
+    away = block.displacement[-1] - problem.probes.rows @ found.start.displacement
+    assert np.abs(away).max() < 1e-6 * size

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.effort import Effort
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Linearised, Outcome, SingularError, correct
 from hbm.resolution import Estimate, Resolution
@@ -41,16 +42,17 @@ class AdaptiveBalance:
         tolerance: float | None,
         most: int = HARMONICS,
         errors: bool = True,
+        effort: Effort | None = None,
     ) -> None:
         """Begin with ``start``; without ``tolerance`` stay there.
 
         ``tolerance`` is the relative error of the amplitude at each point; ``most`` the
         number of harmonics that are not exceeded. Without ``errors`` those of a fixed
-        resolution are not estimated.
+        resolution are not estimated. ``effort`` counts the evaluations.
         """
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
         self.fourier = self.settled = self._kept = start
-        self._wait = 0
+        self._wait, self._effort = 0, effort or Effort()
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold or none is asked for"""
@@ -59,6 +61,7 @@ class AdaptiveBalance:
 
     def __call__(self, point: Array) -> tuple[Array, Linearised]:
         """Return residual and derivative at the present resolution."""
+        self._effort.spend(self.fourier.harmonics)
         return self._resolution.at(self.fourier)(point)
 
     def restart(self, harmonics: int) -> None:

@@ -48,6 +48,8 @@ class Curve:
     resolution: PathResolution
     control: StepControl
     multipliers: Multipliers
+    events: bool
+    """whether they are located"""
 
     def followed(
         self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
@@ -60,7 +62,7 @@ class Curve:
         for correction in corrections:
             mark = beginning if before is None else "restart"
             made = self._made(correction, "" if correction.joined else mark)
-            if before is not None and correction.joined:
+            if self.events and before is not None and correction.joined:
                 yield from self._between(*before, correction, made, metric)
             yield made.response
             before = correction, made

@@ -6,8 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hbm.adaptive import HARMONICS
 from hbm.fourier import FourierBasis
 from hbm.step_control import StepControl
+
+POSITIVE = (
+    "error", "tolerance", "largest_step", "most_harmonics", "effort", "highest",
+)  # fmt: skip
+"""options that must be positive numbers"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +38,13 @@ class CurveOptions:
     """whether Floquet multipliers are computed"""
     errors: bool = True
     """whether the error of fixed harmonics is estimated, at twice as many"""
+    events: bool = True
+    """whether peaks, folds and changes of stability are located"""
+    most_harmonics: int = HARMONICS
+    """that an error tolerance may ask for"""
+    effort: float | None = None
+    """evaluations of the residual after which a curve is given up, see
+    :class:`~hbm.effort.Effort`"""
     highest: float | None = None
     """frequency up to which a sparse structure is resolved [rad/s], see
     :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger one if left out"""
@@ -42,7 +55,7 @@ class CurveOptions:
             raise ValueError(
                 f"from {self.start:g} to {self.end:g}: give two different finite values"
             )
-        for name in ("error", "tolerance", "largest_step", "highest"):
+        for name in POSITIVE:
             value = getattr(self, name)
             if value is not None and not 0.0 < value < np.inf:
                 raise ValueError(f"{name} {value:g}: give a positive number")

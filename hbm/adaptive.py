@@ -89,12 +89,17 @@ class AdaptiveBalance:
                 self.fourier = self._doubled(True, True)
 
     def settle(
-        self, correction: Correction, normal: Array, tolerance: float
+        self,
+        correction: Correction,
+        normal: Array,
+        tolerance: float,
+        small: Array | None = None,
     ) -> Correction:
         """Refine a converged point until its error is small enough, and note the error.
 
         The refined point lies in the plane through it, normal to ``normal``;
-        ``tolerance`` is that of the residual. What is returned may have failed.
+        ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`. What is
+        returned may have failed.
         """
         while True:
             self.settled = self.fourier
@@ -110,7 +115,8 @@ class AdaptiveBalance:
             if finer == self.fourier:
                 return correction
             self.fourier, self._wait = finer, WAIT
-            again = correct(self, self.estimate.corrected, normal, tolerance=tolerance)
+            guess = self.estimate.corrected
+            again = correct(self, guess, normal, tolerance=tolerance, small=small)
             correction = replace(
                 again, residuals=correction.residuals[:-1] + again.residuals
             )

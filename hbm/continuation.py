@@ -191,13 +191,16 @@ def _next(
     normal = direction / scale**2
     normal /= np.abs(normal).max()
     failures = 0
+    small = control.negligible * scale if control.negligible else None
     while True:
         predicted = past.predict(step)
-        candidate = correct(system, predicted, normal, tolerance=control.tolerance)
+        candidate = correct(
+            system, predicted, normal, tolerance=control.tolerance, small=small
+        )
         moved = float(np.linalg.norm((candidate.point - predicted) / scale))
         close = moved <= max(0.5 * step, control.slack)
         if candidate.outcome is Outcome.CONVERGED and close:
-            candidate = settler.settle(candidate, normal, control.tolerance)
+            candidate = settler.settle(candidate, normal, control.tolerance, small)
         candidate = _directed(candidate, direction, scale)
         if candidate.outcome is Outcome.CONVERGED:
             cosine = float((candidate.along / scale) @ (direction / scale))

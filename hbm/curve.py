@@ -16,6 +16,7 @@ from hbm.events import (
     PRECISION,
     ROUGH,
     ROUGHER,
+    SURE,
     Segment,
     crossings,
     excess,
@@ -79,7 +80,8 @@ class Curve:
         fourier = self.system.fourier
         self.system.fourier = self.system.settled
         scale, tolerance = metric(before.point), self.control.tolerance
-        segment = Segment(self.system, before, after, scale, tolerance)
+        exact = self.control.negligible == 0.0
+        segment = Segment(self.system, before, after, scale, tolerance, exact)
         tests = self._tests(last, made)
         found = [
             (segment.place(located.point), name, located)
@@ -89,7 +91,8 @@ class Curve:
         for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
-            settled = self.system.settle(located, normal, tolerance)
+            small = None if exact else PRECISION * SURE * scale
+            settled = self.system.settle(located, normal, tolerance, small)
             if settled.outcome is Outcome.CONVERGED:
                 yield self._made(settled, name).response
         self.system.fourier = fourier

@@ -95,6 +95,7 @@ class FoldBalance:
         correction: Correction,
         normal: Array,  # noqa: ARG002
         tolerance: float,  # noqa: ARG002
+        small: Array | None = None,  # noqa: ARG002
     ) -> Correction:
         """Return the point, and remember it."""
         self._settled = correction

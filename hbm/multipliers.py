@@ -23,6 +23,8 @@ LEADING = 3
 """how many of them are looked at"""
 ASIDE = 0.02
 """relative change of the amplitude from which a finer orbit is another one"""
+SMALL = 1e-6
+"""relative change of the motion that Newton's iteration may neglect"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +79,13 @@ class Multipliers:
         """Return the orbit at the same parameter with another resolution, if found."""
         normal = np.zeros_like(point)
         normal[-1] = 1.0
+        vibration = float(np.linalg.norm(point[self.resolution.rank : -1]))
         found = correct(
-            self.resolution.at(fourier), point, normal, tolerance=self.tolerance
+            self.resolution.at(fourier),
+            point,
+            normal,
+            tolerance=self.tolerance,
+            small=np.full_like(point, SMALL * vibration),
         )
         if found.outcome is not Outcome.CONVERGED:
             return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -15,6 +15,9 @@ ROUNDING = 1e-8
 """relative size of a step that cannot lower the residual because of rounding"""
 HALVINGS = 12
 """of a step, at the most"""
+STUCK = 10.0
+"""times what does not matter: a step of that size that does not lower the residual is
+taken to meet a small jump of it"""
 CHORD = 0.1
 """contraction that shows that the Jacobian has hardly changed"""
 
@@ -45,7 +48,7 @@ System: TypeAlias = Callable[[Array], tuple[Array, Linearised]]
 class Outcome(enum.Enum):
     """How a Newton correction ended."""
 
-    CONVERGED = "the residual fell below the tolerance, or to rounding"
+    CONVERGED = "the residual fell below the tolerance, or the step became negligible"
     EXHAUSTED = "the iteration limit was reached"
     STALLED = "no step along Newton's direction lowers the residual"
     SINGULAR = "the bordered Jacobian is singular"
@@ -85,6 +88,7 @@ def correct(
     normal: Array,
     *,
     tolerance: float,
+    small: Array | None = None,
     max_iterations: int = 25,
     chord: float = CHORD,
 ) -> Correction:
@@ -100,6 +104,9 @@ def correct(
         Row that borders the Jacobian, shape ``(n + 1,)``.
     tolerance
         Of the largest residual.
+    small
+        Changes that do not matter, shape ``(n + 1,)``: a whole step whose components,
+        over these, have a norm up to one is the last; none if left out.
     max_iterations
         Newton steps before the correction gives up.
     chord
@@ -123,25 +130,52 @@ def correct(
             return Correction(
                 point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
             )
-        merit = _merit(residual)
-        for halving in range(HALVINGS if slope is linearised else 1):
-            trial = point - step / 2**halving
-            tried, derivative = system(trial)
-            share = _merit(tried) / merit
-            if share < 1.0 - 1e-4 / 2**halving:
-                break
-        else:
-            if slope is not linearised:
-                slope = linearised
-                continue
-            small = float(np.linalg.norm(step)) <= ROUNDING * float(
-                np.linalg.norm(point[:-1])
-            )
-            outcome = Outcome.CONVERGED if small else Outcome.STALLED
+        stuck = _within(step, point, small, STUCK)
+        once = stuck or slope is not linearised
+        lowered = _lowered(system, point, residual, step, 1 if once else HALVINGS)
+        if lowered is None and slope is not linearised:
+            slope = linearised
+            continue
+        if lowered is None:
+            outcome = Outcome.CONVERGED if stuck else Outcome.STALLED
             return Correction(point, residual, linearised, outcome, tuple(sizes))
-        point, residual, linearised = trial, tried, derivative
+        point, residual, linearised, share, part = lowered
         slope = slope if share < chord else linearised
         sizes.append(_size(residual))
+        if small is not None and part == 1.0 and _within(step, point, small, 1.0):
+            return Correction(
+                point, residual, linearised, Outcome.CONVERGED, tuple(sizes)
+            )
+
+
+class Lowered(NamedTuple):
+    """What a step that lowers the residual has led to."""
+
+    point: Array
+    residual: Array
+    linearised: Linearised
+    share: float
+    """of the residual that is left"""
+    part: float
+    """of the step that was taken"""
+
+
+def _lowered(
+    system: System, point: Array, residual: Array, step: Array, attempts: int
+) -> Lowered | None:
+    """Return where the largest part of a step leads that lowers the residual.
+
+    It is halved until it does; None if it does not after so many ``attempts``.
+    """
+    merit = _merit(residual)
+    for halving in range(attempts):
+        part = 0.5**halving
+        trial = point - part * step
+        tried, derivative = system(trial)
+        share = _merit(tried) / merit
+        if share < 1.0 - 1e-4 * part:
+            return Lowered(trial, tried, derivative, share, part)
+    return None
 
 
 def _ended(sizes: list[float], tolerance: float, max_iterations: int) -> Outcome | None:
@@ -151,6 +185,13 @@ def _ended(sizes: list[float], tolerance: float, max_iterations: int) -> Outcome
     if sizes[-1] <= tolerance:
         return Outcome.CONVERGED
     return Outcome.EXHAUSTED if len(sizes) > max_iterations else None
+
+
+def _within(step: Array, point: Array, small: Array | None, times: float) -> bool:
+    """Return whether a step changes nothing that matters, or rounding only."""
+    if float(np.linalg.norm(step)) <= ROUNDING * float(np.linalg.norm(point[:-1])):
+        return True
+    return small is not None and float(np.linalg.norm(step / small)) <= times
 
 
 def _merit(residual: Array) -> float:

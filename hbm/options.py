@@ -14,6 +14,8 @@ POSITIVE = (
     "error", "tolerance", "largest_step", "most_harmonics", "effort", "highest",
 )  # fmt: skip
 """options that must be positive numbers"""
+SPARE = 1e-2
+"""change of the motion that Newton's iteration may neglect, over the error"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,4 +76,5 @@ class CurveOptions:
             tolerance=self.tolerance * force_scale,
             initial=min(0.02, self.largest_step),
             largest=self.largest_step,
+            negligible=0.0 if self.harmonics else min(SPARE * self.error, 1e-3),
         )

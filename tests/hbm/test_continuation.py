@@ -264,8 +264,13 @@ class Picky:
         self.refused, self.told = refused, list[str]()
 
     def settle(
-        self, correction: Correction, normal: Array, tolerance: float
+        self,
+        correction: Correction,
+        normal: Array,
+        tolerance: float,
+        small: Array | None = None,
     ) -> Correction:
+        assert small is None
         assert normal.shape == correction.point.shape
         assert tolerance == CONTROL.tolerance
         self.told.append("settle")

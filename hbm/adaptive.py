@@ -9,7 +9,14 @@ import numpy as np
 
 from hbm.effort import Effort
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, Linearised, Outcome, SingularError, correct
+from hbm.newton import (
+    Correction,
+    Linearised,
+    Outcome,
+    SingularError,
+    Small,
+    correct,
+)
 from hbm.resolution import Estimate, Resolution
 from microslip_mechanics.arrays import Array
 
@@ -24,6 +31,8 @@ SPARE = 6.0
 
 WAIT = 10
 """points before less is tried again, where more was needed"""
+PERSEVERANCE = 60
+"""iterations of Newton after the resolution has been raised"""
 PATIENCE = 3
 """failures in a row before the resolution is raised"""
 
@@ -93,7 +102,7 @@ class AdaptiveBalance:
         correction: Correction,
         normal: Array,
         tolerance: float,
-        small: Array | None = None,
+        small: Small | None = None,
     ) -> Correction:
         """Refine a converged point until its error is small enough, and note the error.
 
@@ -116,7 +125,14 @@ class AdaptiveBalance:
                 return correction
             self.fourier, self._wait = finer, WAIT
             guess = self.estimate.corrected
-            again = correct(self, guess, normal, tolerance=tolerance, small=small)
+            again = correct(
+                self,
+                guess,
+                normal,
+                tolerance=tolerance,
+                small=small,
+                max_iterations=PERSEVERANCE,
+            )
             correction = replace(
                 again, residuals=correction.residuals[:-1] + again.residuals
             )

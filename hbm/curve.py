@@ -91,8 +91,12 @@ class Curve:
         for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
-            small = None if exact else PRECISION * SURE * scale
-            settled = self.system.settle(located, normal, tolerance, small)
+            settled = self.system.settle(
+                located,
+                normal,
+                tolerance,
+                None if exact else lambda point: PRECISION * SURE * metric(point),
+            )
             if settled.outcome is Outcome.CONVERGED:
                 yield self._made(settled, name).response
         self.system.fourier = fourier

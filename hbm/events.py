@@ -92,7 +92,7 @@ class Segment:
             guess,
             normal / np.abs(normal).max(),
             tolerance=self.tolerance,
-            small=None if self.exact else SURE * near * self.scale,
+            small=None if self.exact else lambda _: SURE * near * self.scale,
         )
         if found.outcome is not Outcome.CONVERGED:
             raise _LostError

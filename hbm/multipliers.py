@@ -80,12 +80,13 @@ class Multipliers:
         normal = np.zeros_like(point)
         normal[-1] = 1.0
         vibration = float(np.linalg.norm(point[self.resolution.rank : -1]))
+        small = np.full_like(point, SMALL * vibration)
         found = correct(
             self.resolution.at(fourier),
             point,
             normal,
             tolerance=self.tolerance,
-            small=np.full_like(point, SMALL * vibration),
+            small=lambda _: small,
         )
         if found.outcome is not Outcome.CONVERGED:
             return None

@@ -17,7 +17,7 @@ HALVINGS = 12
 """of a step, at the most"""
 STUCK = 10.0
 """times what does not matter: a step of that size that does not lower the residual is
-taken to meet a small jump of it"""
+taken to meet a small jump of it, and is good enough where iterations run out"""
 CHORD = 0.1
 """contraction that shows that the Jacobian has hardly changed"""
 
@@ -43,6 +43,8 @@ class SingularError(ArithmeticError):
 
 System: TypeAlias = Callable[[Array], tuple[Array, Linearised]]
 """point (n + 1,) ↦ residual (n,) and what solves with its Jacobian"""
+Small: TypeAlias = Callable[[Array], Array]
+"""point (n + 1,) ↦ changes of its components that do not matter"""
 
 
 class Outcome(enum.Enum):
@@ -88,7 +90,7 @@ def correct(
     normal: Array,
     *,
     tolerance: float,
-    small: Array | None = None,
+    small: Small | None = None,
     max_iterations: int = 25,
     chord: float = CHORD,
 ) -> Correction:
@@ -105,8 +107,8 @@ def correct(
     tolerance
         Of the largest residual.
     small
-        Changes that do not matter, shape ``(n + 1,)``: a whole step whose components,
-        over these, have a norm up to one is the last; none if left out.
+        Point ↦ changes that do not matter there, shape ``(n + 1,)``: a whole step whose
+        components, over these, have a norm up to one is the last; none if left out.
     max_iterations
         Newton steps before the correction gives up.
     chord
@@ -119,9 +121,11 @@ def correct(
     point = predicted
     residual, linearised = system(point)
     slope = linearised
-    sizes = [_size(residual)]
+    sizes, creeps = [_size(residual)], False
     while True:
         ended = _ended(sizes, tolerance, max_iterations)
+        if ended is Outcome.EXHAUSTED and creeps:
+            ended = Outcome.CONVERGED
         if ended is not None:
             return Correction(point, residual, linearised, ended, tuple(sizes))
         try:
@@ -130,7 +134,7 @@ def correct(
             return Correction(
                 point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
             )
-        stuck = _within(step, point, small, STUCK)
+        stuck = creeps = _within(step, point, small, STUCK)
         once = stuck or slope is not linearised
         lowered = _lowered(system, point, residual, step, 1 if once else HALVINGS)
         if lowered is None and slope is not linearised:
@@ -187,11 +191,11 @@ def _ended(sizes: list[float], tolerance: float, max_iterations: int) -> Outcome
     return Outcome.EXHAUSTED if len(sizes) > max_iterations else None
 
 
-def _within(step: Array, point: Array, small: Array | None, times: float) -> bool:
+def _within(step: Array, point: Array, small: Small | None, times: float) -> bool:
     """Return whether a step changes nothing that matters, or rounding only."""
     if float(np.linalg.norm(step)) <= ROUNDING * float(np.linalg.norm(point[:-1])):
         return True
-    return small is not None and float(np.linalg.norm(step / small)) <= times
+    return small is not None and float(np.linalg.norm(step / small(point))) <= times
 
 
 def _merit(residual: Array) -> float:

@@ -140,7 +140,9 @@ class Pieces:
             parameter = reached + leap * way
             if (heading - parameter) * way <= 0.0:
                 return None
-            coefficients = approached(self.path, parameter, self.control, self.effort)
+            coefficients = approached(
+                self.path, parameter, self.control, self.effort, self.metric
+            )
             if coefficients is not None:
                 guess = self._still(parameter)
                 guess[: coefficients.size] = coefficients.ravel()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from hbm.newton import Correction
+from hbm.newton import Correction, Small
 from microslip_mechanics.arrays import Array
 
 
@@ -16,7 +16,7 @@ class Settler(Protocol):
         correction: Correction,
         normal: Array,
         tolerance: float,
-        small: Array | None = None,
+        small: Small | None = None,
     ) -> Correction:
         """Return the point to keep, in the plane normal to ``normal``; it may fail.
 
@@ -38,7 +38,7 @@ class Unsettled:
         correction: Correction,
         normal: Array,  # noqa: ARG002
         tolerance: float,  # noqa: ARG002
-        small: Array | None = None,  # noqa: ARG002
+        small: Small | None = None,  # noqa: ARG002
     ) -> Correction:
         """Return the point."""
         return correction

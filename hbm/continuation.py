@@ -152,7 +152,7 @@ def _small(control: StepControl, metric: Metric | None) -> Small | None:
     """Return what a step of Newton's iteration may neglect, if it may."""
     if metric is None or control.negligible == 0.0:
         return None
-    return lambda point: control.negligible * metric(point)
+    return Small(lambda point: control.negligible * metric(point), control.loose)
 
 
 def _begun(first: Correction, direction: Array, scale: Array) -> Array:

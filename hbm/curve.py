@@ -80,8 +80,8 @@ class Curve:
         fourier = self.system.fourier
         self.system.fourier = self.system.settled
         scale, tolerance = metric(before.point), self.control.tolerance
-        exact = self.control.negligible == 0.0
-        segment = Segment(self.system, before, after, scale, tolerance, exact)
+        loose = self.control.loose if self.control.negligible else 0.0
+        segment = Segment(self.system, before, after, scale, tolerance, loose)
         tests = self._tests(last, made)
         found = [
             (segment.place(located.point), name, located)
@@ -91,12 +91,8 @@ class Curve:
         for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
-            settled = self.system.settle(
-                located,
-                normal,
-                tolerance,
-                None if exact else lambda point: PRECISION * SURE * metric(point),
-            )
+            small = segment.small(PRECISION * SURE)
+            settled = self.system.settle(located, normal, tolerance, small)
             if settled.outcome is Outcome.CONVERGED:
                 yield self._made(settled, name).response
         self.system.fourier = fourier

@@ -14,7 +14,7 @@ import numpy as np
 import scipy.optimize
 
 from hbm.continuation import tangent
-from hbm.newton import Correction, Outcome, SingularError, System, correct
+from hbm.newton import Correction, Outcome, SingularError, Small, System, correct
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.response import MARGIN
 
@@ -36,8 +36,9 @@ class Segment:
     """metric at the first, shape (n + 1,)"""
     tolerance: float
     """of the residual"""
-    exact: bool = True
-    """whether points between have no residual above it, even where that is needless"""
+    loose: float = 0.0
+    """residual with which a point may do whose next step is too small to matter; no
+    point may if it is zero"""
 
     @property
     def length(self) -> float:
@@ -73,6 +74,12 @@ class Segment:
         except (_LostError, SingularError):
             return None
 
+    def small(self, share: float) -> Small | None:
+        """Return what Newton's iteration may neglect, by a share of the scale."""
+        if self.loose == 0.0:
+            return None
+        return Small(lambda _: share * self.scale, self.loose)
+
     def place(self, point: Array) -> float:
         """Return the distance from the first point along its tangent."""
         along = self.before.along / self.scale
@@ -92,7 +99,7 @@ class Segment:
             guess,
             normal / np.abs(normal).max(),
             tolerance=self.tolerance,
-            small=None if self.exact else lambda _: SURE * near * self.scale,
+            small=self.small(SURE * near),
         )
         if found.outcome is not Outcome.CONVERGED:
             raise _LostError

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome, correct
+from hbm.newton import Outcome, Small, correct
 from hbm.resolution import PathResolution
 from hbm.stability import SmallMotions
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
 
 RATTLING = 0.5
@@ -34,8 +35,7 @@ class Multipliers:
     resolution: PathResolution
     motions: Callable[[float], SmallMotions] | None
     """parameter ↦ the structure for small motions, if stability is wanted"""
-    tolerance: float
-    """of the residual"""
+    control: StepControl
     fixed: bool
     """whether the harmonics are given, not found"""
 
@@ -80,13 +80,13 @@ class Multipliers:
         normal = np.zeros_like(point)
         normal[-1] = 1.0
         vibration = float(np.linalg.norm(point[self.resolution.rank : -1]))
-        small = np.full_like(point, SMALL * vibration)
+        changes = np.full_like(point, SMALL * vibration)
         found = correct(
             self.resolution.at(fourier),
             point,
             normal,
-            tolerance=self.tolerance,
-            small=lambda _: small,
+            tolerance=self.control.tolerance,
+            small=Small(lambda _: changes, self.control.loose),
         )
         if found.outcome is not Outcome.CONVERGED:
             return None

@@ -43,8 +43,15 @@ class SingularError(ArithmeticError):
 
 System: TypeAlias = Callable[[Array], tuple[Array, Linearised]]
 """point (n + 1,) ↦ residual (n,) and what solves with its Jacobian"""
-Small: TypeAlias = Callable[[Array], Array]
-"""point (n + 1,) ↦ changes of its components that do not matter"""
+
+
+class Small(NamedTuple):
+    """What does not matter near a solution."""
+
+    changes: Callable[[Array], Array]
+    """point (n + 1,) ↦ changes of its components that do not matter"""
+    residual: float
+    """largest residual with which a point may be taken for a solution"""
 
 
 class Outcome(enum.Enum):
@@ -107,8 +114,8 @@ def correct(
     tolerance
         Of the largest residual.
     small
-        Point ↦ changes that do not matter there, shape ``(n + 1,)``: a whole step whose
-        components, over these, have a norm up to one is the last; none if left out.
+        What does not matter: a whole step whose components, over its changes, have a
+        norm up to one is the last. None if left out.
     max_iterations
         Newton steps before the correction gives up.
     chord
@@ -134,7 +141,7 @@ def correct(
             return Correction(
                 point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
             )
-        stuck = creeps = _within(step, point, small, STUCK)
+        stuck = creeps = _within(step, point, sizes[-1], small, STUCK)
         once = stuck or slope is not linearised
         lowered = _lowered(system, point, residual, step, 1 if once else HALVINGS)
         if lowered is None and slope is not linearised:
@@ -146,7 +153,7 @@ def correct(
         point, residual, linearised, share, part = lowered
         slope = slope if share < chord else linearised
         sizes.append(_size(residual))
-        if small is not None and part == 1.0 and _within(step, point, small, 1.0):
+        if part == 1.0 and _negligible(step, point, sizes[-1], small, 1.0):
             return Correction(
                 point, residual, linearised, Outcome.CONVERGED, tuple(sizes)
             )
@@ -191,11 +198,25 @@ def _ended(sizes: list[float], tolerance: float, max_iterations: int) -> Outcome
     return Outcome.EXHAUSTED if len(sizes) > max_iterations else None
 
 
-def _within(step: Array, point: Array, small: Small | None, times: float) -> bool:
+def _within(
+    step: Array, point: Array, size: float, small: Small | None, times: float
+) -> bool:
     """Return whether a step changes nothing that matters, or rounding only."""
     if float(np.linalg.norm(step)) <= ROUNDING * float(np.linalg.norm(point[:-1])):
         return True
-    return small is not None and float(np.linalg.norm(step / small(point))) <= times
+    return _negligible(step, point, size, small, times)
+
+
+def _negligible(
+    step: Array, point: Array, size: float, small: Small | None, times: float
+) -> bool:
+    """Return whether a step changes nothing that matters, near a solution.
+
+    ``size`` is that of the residual.
+    """
+    if small is None or size > small.residual:
+        return False
+    return float(np.linalg.norm(step / small.changes(point))) <= times
 
 
 def _merit(residual: Array) -> float:

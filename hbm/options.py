@@ -16,6 +16,8 @@ POSITIVE = (
 """options that must be positive numbers"""
 SPARE = 1e-2
 """change of the motion that Newton's iteration may neglect, over the error"""
+LOOSE = 1e-4
+"""largest unbalanced force with which it may, over the drive"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,11 +72,17 @@ class CurveOptions:
         harmonics = self.harmonics or 1
         return FourierBasis(harmonics, self.samples or 16 * (harmonics + 1))
 
-    def control(self, force_scale: float) -> StepControl:
-        """Return the steps; ``force_scale`` [N] is what forces are compared with."""
+    def control(self, force_scale: float, drive: float = 0.0) -> StepControl:
+        """Return the steps; ``force_scale`` [N] is what forces are compared with.
+
+        With a ``drive`` [N], and without fixed harmonics, Newton's iteration ends where
+        it no longer changes the motion.
+        """
+        ends_early = drive > 0.0 and not self.harmonics
         return StepControl(
             tolerance=self.tolerance * force_scale,
             initial=min(0.02, self.largest_step),
             largest=self.largest_step,
-            negligible=0.0 if self.harmonics else min(SPARE * self.error, 1e-3),
+            negligible=min(SPARE * self.error, 1e-3) if ends_early else 0.0,
+            loose=LOOSE * drive,
         )

@@ -21,7 +21,9 @@ class StepControl:
     tolerance: float = 1e-9
     """of the largest residual"""
     negligible: float = 0.0
-    """length of a step of Newton's iteration that is the last one"""
+    """length of a step of Newton's iteration that is the last one, if …"""
+    loose: float = 0.0
+    """… the residual is not larger"""
     most_points: int = 5000
     """after which a curve is given up"""
     sharpest_turn: float = 0.5

@@ -34,10 +34,11 @@ class Tracer:
             errors=options.errors,
             effort=self.effort,
         )
-        self.control = options.control(problem.force_scale)
+        drive = float(np.abs(problem.drive).max(initial=0.0))
+        self.control = options.control(problem.force_scale, drive)
         motions = path.motions if options.stability else None
         multipliers = Multipliers(
-            resolution, motions, self.control.tolerance, options.harmonics is not None
+            resolution, motions, self.control, options.harmonics is not None
         )
         self.curve = Curve(
             problem,

@@ -45,7 +45,7 @@ def last_path(
         if seen < samples:
             mirror(whole[:, :samples], *contact.symmetry[:2])
             # friction does not see where its tangents' mean is, and no sign fits it
-            whole[:, middle:] += (motion[:, middle] - whole[:, middle])[:, None]
+            whole[:, middle:samples] += (motion[:, middle] - whole[:, middle])[:, None]
         whole[:, samples] = whole[:, 0]
         rows.append(np.ascontiguousarray(whole[:, : (middle if half else samples) + 1]))
     return Path(rows[0], rows[1], 2.0 * np.pi / frequency / samples)

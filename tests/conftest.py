@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from microslip.cli import main
 from microslip.scene_file import built_in_text
@@ -96,6 +98,12 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("figures.curve.curve_figure", "figures.result.result_figure"):
         monkeypatch.setattr(f"microslip.{name}", undrawn)
     monkeypatch.setattr("microslip.store.save_figure", undrawn)
+
+
+@pytest.fixture
+def axes() -> Axes:
+    """Return axes without a screen."""
+    return Figure().subplots()
 
 
 @pytest.fixture

@@ -11,17 +11,32 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from microslip.api import curve, scene, sweep
     from microslip_mechanics.element import Element
+    from microslip_mechanics.given_loads import BaseMotion, EngineOrder
     from microslip_mechanics.laws.catalogue import LAWS
+    from microslip_mechanics.reduced_problem import reduced_problem
     from microslip_mechanics.system import system
 
-__all__ = ["LAWS", "Element", "curve", "scene", "sweep", "system"]
+__all__ = [
+    "LAWS",
+    "BaseMotion",
+    "Element",
+    "EngineOrder",
+    "curve",
+    "reduced_problem",
+    "scene",
+    "sweep",
+    "system",
+]
 
 HOMES = {
     "curve": "microslip.api",
     "scene": "microslip.api",
     "sweep": "microslip.api",
     "system": "microslip_mechanics.system",
+    "reduced_problem": "microslip_mechanics.reduced_problem",
+    "BaseMotion": "microslip_mechanics.given_loads",
     "Element": "microslip_mechanics.element",
+    "EngineOrder": "microslip_mechanics.given_loads",
     "LAWS": "microslip_mechanics.laws.catalogue",
 }
 """module of each name; laws are found in the catalogue by the name of their class"""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from microslip.scene_file import Curve, March
+from microslip.experiments import Curve, March
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem

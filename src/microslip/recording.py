@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from microslip.quantity import SceneError
+from microslip.result_file import end_of
 from microslip.schema import Growing
-from microslip.store import StoreError, begin, end_of, told
+from microslip.store import StoreError, begin, told
 from microslip.stream import Head, Stream, rows_of
 from microslip_mechanics.time_history import Checkpoint
 

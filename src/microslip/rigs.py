@@ -30,7 +30,7 @@ def problem_of(scene: Scene) -> Problem:
                 "--set solve=disk"
             )
         return disk(scene.rig)
-    from microslip.scenes.systems.rig import problem
+    from microslip.scenes.systems.build import problem
 
     return problem(scene.rig)
 

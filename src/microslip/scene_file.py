@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import tomllib
-import types
 import typing
-from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
+from microslip.experiments import Curve, March, Sweep, check_experiments
 from microslip.force_file import Force, read_force
-from microslip.quantity import Quantity, SceneError, quantity
+from microslip.quantity import SceneError
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
+from microslip.table import meant, read_table
 
 KINDS = ("two-blades", "system", "bladed-disk")
 """what ``scene = "…"`` may name"""
@@ -24,45 +23,6 @@ BUILT_IN = ("two-blades", "bladed-disk", *SYSTEMS)
 """names of built-in scenes"""
 NESTED = (["element"], ["drive"], ["structure"])
 """tables of a system with tables in them"""
-
-
-@dataclass(frozen=True, slots=True)
-class Sweep:
-    """Load history of the time march."""
-
-    ramp: float = quantity("s", lowest=0.0)
-    start: float = quantity("s", lowest=0.0)
-    end: float = quantity("s", positive=True)
-    duration: float = quantity("s", positive=True)
-    lowest: float = quantity("Hz", positive=True)
-    highest: float = quantity("Hz", positive=True)
-    kind: typing.Literal["exponential", "linear", "stepped"] = quantity(
-        default="exponential"
-    )
-    direction: typing.Literal["up", "down", "up-down"] = quantity(default="up")
-    levels: tuple[float, ...] = quantity(positive=True, highest=1e6, default=(1.0,))
-    steps: int | None = quantity(lowest=2, highest=10**5, optional=True)
-    periods: int | None = quantity(lowest=1, highest=10**7, optional=True)
-    force_file: str | None = quantity(optional=True)
-
-
-@dataclass(frozen=True, slots=True)
-class Curve:
-    """Frequency response by harmonic balance."""
-
-    lowest: float = quantity("Hz", positive=True)
-    highest: float = quantity("Hz", positive=True)
-    tolerance: float = quantity(lowest=1e-6, highest=0.5)
-    harmonics: int | None = quantity(lowest=1, highest=255, optional=True)
-    samples: int | None = quantity(lowest=6, highest=2**16, optional=True)
-
-
-@dataclass(frozen=True, slots=True)
-class March:
-    """Time integration."""
-
-    time_step: float = quantity("s", positive=True, highest=1.0)
-    store_every: int = quantity(lowest=1, highest=10**6)
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,7 +151,7 @@ def _scene(source: str, document: dict[str, typing.Any], text: str) -> Scene:
         made[name] = read_table(source, f"[{name}] ", table, document.pop(name))
     known = [*experiments, "scene"]
     scene = Scene(_rig(source, str(kind), document, known), **made, text=text)
-    _check(source, scene)
+    check_experiments(source, scene.sweep, scene.curve)
     return scene
 
 
@@ -209,175 +169,3 @@ def _rig(
         return read_table(source, "", table, document, known)
     except ValueError as error:
         raise SceneError(f"{source}: {error}") from None
-
-
-def read_table(
-    source: str,
-    place: str,
-    table: type,
-    values: object,
-    known: typing.Sequence[str] = (),
-) -> typing.Any:  # noqa: ANN401  (an instance of ``table``)
-    """Make a dataclass from a TOML table; ``known`` are more names to suggest."""
-    if not isinstance(values, dict):
-        raise SceneError(f"{source}: {place}must be a table, not {values!r}")
-    hints = typing.get_type_hints(table)
-    fields = {field.name: field for field in dataclasses.fields(table)}
-    for key in values:
-        if key not in fields:
-            raise SceneError(
-                f"{source}: {place}{key}{shown(values[key])} is unknown"
-                f"{meant(key, [*fields, *known])}"
-            )
-    made = {}
-    for name, field in fields.items():
-        if name in values:
-            made[name] = _value(source, place, field, hints[name], values[name])
-        elif field.default is dataclasses.MISSING:
-            what = (
-                f"{place}{name}" if "quantity" in field.metadata else f"table [{name}]"
-            )
-            raise SceneError(f"{source}: {what} is missing: add it")
-    return table(**made)
-
-
-def _value(
-    source: str,
-    place: str,
-    field: dataclasses.Field[typing.Any],
-    hint: typing.Any,  # noqa: ANN401  (a type annotation)
-    value: object,
-) -> object:
-    """Read one key as its annotation says."""
-    if _optional(hint):
-        hint = typing.get_args(hint)[0]
-    if dataclasses.is_dataclass(hint):
-        return read_table(source, f"[{field.name}] ", typing.cast("type", hint), value)
-    try:
-        return _scalar(field.metadata["quantity"], hint, value)
-    except ValueError as error:
-        name = f"{place}{field.name}{shown(value)}"
-        raise SceneError(f"{source}: {name}: {error}") from None
-
-
-def _scalar(
-    kind: Quantity,
-    hint: typing.Any,  # noqa: ANN401  (a type annotation)
-    value: object,
-) -> object:
-    """Return a choice, a list, a text or a number."""
-    if typing.get_origin(hint) is typing.Literal:
-        choices = typing.get_args(hint)
-        if value not in choices:
-            raise ValueError(f"is unknown: give one of {', '.join(choices)}")
-        return value
-    if typing.get_origin(hint) is Mapping:
-        return _by_power(kind, value)
-    if typing.get_origin(hint) is tuple:
-        return _several(kind, value)
-    if hint is str:
-        if not isinstance(value, str) or not value:
-            raise ValueError("is not a text: give one in quotes")
-        return value
-    return _number(kind, hint, value)
-
-
-def _number(kind: Quantity, hint: type, value: object) -> object:
-    """Return a switch, a whole number or a quantity in SI units."""
-    if hint is bool:
-        if not isinstance(value, bool):
-            raise ValueError("is not a switch: give true or false")
-        return value
-    number = kind.read(value)
-    if hint is int:
-        if number != int(number):
-            raise ValueError("is not a whole number: give one")
-        return int(number)
-    return number
-
-
-def _by_power(kind: Quantity, value: object) -> dict[float, float]:
-    """Return numbers by the power to which they belong."""
-    if not isinstance(value, dict):
-        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
-            "is no table: give a number for each power, such as {1 = 10, 3 = 2e6}"
-        )
-    return {float(power): kind.read(each) for power, each in value.items()}
-
-
-def _several(kind: Quantity, value: object) -> tuple[float, ...]:
-    """Return one number or a list of them as a tuple."""
-    several = value if isinstance(value, list) else [value]
-    if not several:
-        raise ValueError("is empty: give at least one number")
-    return tuple(kind.read(each) for each in several)
-
-
-def shown(value: object) -> str:
-    """Return `` = value`` for a message; a table has too much to show."""
-    if isinstance(value, dict):
-        return ""
-    text = f'"{value}"' if isinstance(value, str) else str(value)
-    return f" = {text if len(text) <= 60 else text[:60] + '…'}"
-
-
-def _optional(hint: typing.Any) -> bool:  # noqa: ANN401  (a type annotation)
-    return isinstance(hint, types.UnionType) and types.NoneType in typing.get_args(hint)
-
-
-def meant(key: str, names: typing.Sequence[str]) -> str:
-    """Return what may have been meant, to end a message."""
-    close = difflib.get_close_matches(key, names, n=1)
-    if close:
-        return f": do you mean {close[0]}?"
-    return f": give one of {', '.join(names)}"
-
-
-def _check(source: str, scene: Scene) -> None:
-    """Check what more than one key decides."""
-    sweep, curve = scene.sweep, scene.curve
-    if not sweep.ramp <= sweep.start < sweep.end <= sweep.duration:
-        raise SceneError(
-            f"{source}: [sweep] ramp {sweep.ramp:g} s, start {sweep.start:g} s, end "
-            f"{sweep.end:g} s, duration {sweep.duration:g} s: "
-            "give ramp <= start < end <= duration"
-        )
-    for name, table in (("sweep", sweep), ("curve", curve)):
-        if not table.lowest < table.highest:
-            raise SceneError(
-                f"{source}: [{name}] lowest = {table.lowest:g} Hz, highest = "
-                f"{table.highest:g} Hz: give lowest < highest"
-            )
-    _check_kind(source, sweep)
-    if curve.samples is not None and curve.harmonics is None:
-        raise SceneError(
-            f"{source}: [curve] samples = {curve.samples}: they follow from the "
-            "tolerance unless harmonics are given: give both, or neither"
-        )
-    fewest = 4 * (curve.harmonics or 0) + 2
-    if curve.samples is not None and curve.samples < fewest:
-        raise SceneError(
-            f"{source}: [curve] samples = {curve.samples}: too few for "
-            f"{curve.harmonics} harmonics: give at least {fewest}"
-        )
-
-
-def _check_kind(source: str, sweep: Sweep) -> None:
-    """Check that a sweep has the keys of its kind, and those alone."""
-    steps = {"steps": sweep.steps, "periods": sweep.periods}
-    for name, value in steps.items():
-        if sweep.kind == "stepped" and value is None:
-            raise SceneError(
-                f'{source}: [sweep] {name} is missing: kind = "stepped" needs it'
-            )
-        if sweep.kind != "stepped" and value is not None:
-            raise SceneError(
-                f"{source}: [sweep] {name} = {value}: only for "
-                'kind = "stepped": leave it out'
-            )
-    plain = (sweep.kind, sweep.direction, sweep.levels) == ("exponential", "up", (1.0,))
-    if sweep.force_file is not None and not plain:
-        raise SceneError(
-            f'{source}: [sweep] force_file = "{sweep.force_file}": the force takes the '
-            "place of the sine: leave kind, direction and levels out"
-        )

@@ -1,50 +1,97 @@
-"""Damping of a structure: a matrix, one ratio for all modes, or Rayleigh's."""
+"""Damping of a structure: a matrix, ratios of modes, Rayleigh's, a loss factor."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
-import scipy.linalg
 import scipy.sparse
+from numpy.typing import ArrayLike
 
 from microslip_mechanics.arrays import Matrix
 from microslip_mechanics.factors import indefinite_factors
+from microslip_mechanics.given_matrices import check_like, square_matrix
+from microslip_mechanics.hysteretic import Hysteretic
+from microslip_mechanics.modal_damping import ModalDamping
+from microslip_mechanics.rayleigh import Rayleigh
+from microslip_mechanics.structure import Structure
 
 ROUNDING = 1e-9
 """over the largest entry: so little energy from a damping matrix is rounding"""
 
 
-def rayleigh(mass: Matrix, stiffness: Matrix, alpha: float, beta: float) -> Matrix:
-    """Return α M + β K, α in 1/s and β in s."""
-    for name, value in (("alpha", alpha), ("beta", beta)):
-        if not 0.0 <= value < np.inf:
+@dataclass(frozen=True, slots=True)
+class Damping:
+    """One of several ways to say what a structure loses; none of them is no damping."""
+
+    matrix: ArrayLike | Matrix | None = None
+    """C [N s/m]"""
+    ratio: float | Sequence[float] | None = None
+    """of all modes, or of the slowest ones"""
+    rayleigh: tuple[float, float] | None = None
+    """α [1/s] and β [s] of C = α M + β K"""
+    loss_factor: float | None = None
+    """η of the stiffness"""
+
+    def of(self, mass: Matrix, stiffness: Matrix, names: tuple[str, ...]) -> Matrix:
+        """Return C [N s/m]; of a sparse structure it may be a linear operator.
+
+        Raises
+        ------
+        ValueError
+            In one line, with what is wrong and what to give instead.
+        """
+        self._check_single()
+        if self.matrix is not None:
+            given = square_matrix(self.matrix, "damping")
+            check_like(given, mass, "damping")
+            _check_dissipates(given, names)
+            return given
+        bare = Structure(mass, 0.0 * mass, stiffness, names)
+        if self.loss_factor is not None:
+            _check_all(bare, "loss_factor")
+            return Hysteretic(self.loss_factor).viscous(bare.dofs).matrix(bare)
+        if self.rayleigh is not None:
+            return Rayleigh(*self.rayleigh).matrix(bare)
+        if self.ratio is not None:
+            return ModalDamping(self._ratios(bare)).matrix(bare)
+        return bare.damping
+
+    def _check_single(self) -> None:
+        ways = (self.matrix, self.ratio, self.rayleigh, self.loss_factor)
+        if sum(each is not None for each in ways) > 1:
             raise ValueError(
-                f"Rayleigh damping {name} = {value:g}: give 0 or more, a negative one "
-                "puts energy in"
+                "damping is given twice: give one of damping, damping_ratio, "
+                "rayleigh_damping and loss_factor"
             )
-    return alpha * mass + beta * stiffness
+
+    def _ratios(self, bare: Structure) -> tuple[float, ...]:
+        """Return the ratio of each mode that has one."""
+        single = isinstance(self.ratio, (int, float))
+        ratios = np.atleast_1d(np.asarray(self.ratio, dtype=float))
+        for ratio in ratios:
+            if not 0.0 <= ratio < 1.0:
+                raise ValueError(
+                    f"damping_ratio = {ratio:g}: give 0 to below 1, a share of "
+                    "critical damping"
+                )
+        if single:
+            _check_all(bare, "damping_ratio")
+            ratios = np.repeat(ratios, bare.dofs)
+        return tuple(map(float, ratios))
 
 
-def modal(mass: Matrix, stiffness: Matrix, ratio: float) -> Matrix:
-    """Return the matrix that damps each mode of M, K by one ratio of critical.
-
-    Modes that no stiffness holds are not damped.
-    """
-    if scipy.sparse.issparse(mass):
+def _check_all(structure: Structure, name: str) -> None:
+    """Check that all modes of a structure can be had."""
+    if structure.sparse:
         raise ValueError(
-            "damping_ratio needs all modes of the structure, which is sparse: give "
-            "Rayleigh damping or a damping matrix"
+            f"{name} needs all modes of the structure, which is sparse: give a list "
+            "of ratios of the slowest modes, Rayleigh damping or a damping matrix"
         )
-    if not 0.0 <= ratio < 1.0:
-        raise ValueError(
-            f"damping_ratio = {ratio:g}: give 0 to below 1, a share of critical damping"
-        )
-    squares, shapes = scipy.linalg.eigh(stiffness, mass)
-    rates = np.sqrt(np.maximum(squares, 0.0))
-    momenta = mass @ shapes
-    return (momenta * (2.0 * ratio * rates)) @ momenta.T
 
 
-def check_dissipates(damping: Matrix, names: tuple[str, ...]) -> None:
+def _check_dissipates(damping: Matrix, names: tuple[str, ...]) -> None:
     """Check that a symmetric damping matrix puts no energy in.
 
     Raises

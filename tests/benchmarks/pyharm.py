@@ -32,6 +32,7 @@ import numpy as np
 
 from benchmarks.pyharm_cases import Case, Evaluation, blisk, chain, contacts, duffing
 from benchmarks.pyharm_side import median
+from hbm.continuation import ContinuationError
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.relative import relative_problem
@@ -64,7 +65,7 @@ def main() -> int:
         python = given.pyharm or installed(Path(folder))
         print(
             "system     microslip [ms]  pyHarm [ms]   ratio  target  difference"
-            "  points  pyHarm: solver, points, tried"
+            "  points  pyHarm: solver, points, tried, end"
         )
         met = [row(name, python, Path(folder)) for name in given.only]
     print("all targets are met" if all(met) else "a target is missed")
@@ -133,36 +134,48 @@ def traced(python: Path, folder: Path, case: Case) -> Measured:
         list(frequency_response(case.problem, rest, options))
         spent.append(time.process_time() - began)
     other = answered(python, folder, case.told(REPEATS))
+    apart, lost = deviation(case, points, np.array(other["curve"]))
     return (
         float(np.median(spent)) / len(points),
         other["seconds"],
-        deviation(case, points, np.array(other["curve"])),
-        f"{len(points):6d}  {other['solver']}, {other['points']}, {other['tried']}",
+        apart,
+        f"{len(points):6d}  {other['solver']}, {other['points']}, {other['tried']}"
+        f", to {other['reached']:.2f} rad/s; {lost} of them not found again",
     )
 
 
-def deviation(case: Case, points: list[PeriodicResponse], curve: Array) -> float:
+def deviation(
+    case: Case, points: list[PeriodicResponse], curve: Array
+) -> tuple[float, int]:
     """Return the largest difference of amplitudes at pyHarm's points, over the largest.
 
-    microslip solves anew at each of them within the range.
+    microslip solves anew at each of them within the range; the second number counts
+    those where it finds no response beside pyHarm's.
     """
     shape = (-1, 2 * case.harmonics + 1, case.problem.structure.dofs)
     waves, frequencies = curve[:, :-1].reshape(shape), curve[:, -1]
     largest = float(np.hypot(waves[:, 1], waves[:, 2]).max())
-    rest, found = static_equilibrium(case.problem), [0.0]
+    rest, found, lost = static_equilibrium(case.problem), [0.0], 0
     for wave, frequency in zip(waves, frequencies, strict=True):
         if case.lowest <= frequency <= case.highest:
-            own = periodic_response(
-                case.problem,
-                rest,
-                dataclasses.replace(points[0], frequency=frequency, coefficients=wave),
-                harmonics=case.harmonics,
-                samples=case.samples,
-                tolerance=1e-10,
-            ).coefficients
+            guess = dataclasses.replace(
+                points[0], frequency=frequency, coefficients=wave
+            )
+            try:
+                own = periodic_response(
+                    case.problem,
+                    rest,
+                    guess,
+                    harmonics=case.harmonics,
+                    samples=case.samples,
+                    tolerance=1e-10,
+                ).coefficients
+            except ContinuationError:
+                lost += 1
+                continue
             change = np.hypot(own[1], own[2]) - np.hypot(wave[1], wave[2])
             found.append(float(np.abs(change).max()) / largest)
-    return max(found)
+    return max(found), lost
 
 
 def evaluated(python: Path, folder: Path, case: Evaluation) -> Measured:

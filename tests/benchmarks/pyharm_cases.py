@@ -37,6 +37,8 @@ class Case:
     step: float
     """first and largest one of pyHarm"""
     solvers: tuple[str, ...] = ("scipyroot", "NewtonRaphson", "MoorePenrose")
+    most: int = 10_000
+    """points that pyHarm tries, accepted or not"""
 
     def told(self, repeats: int) -> dict[str, Any]:
         """Return the case for pyHarm."""
@@ -55,6 +57,8 @@ class Case:
                 "ds_max": self.step,
                 "ds_min": 1e-6,
                 "verbose": False,
+                "stopper": "solnumber",
+                "stopper_options": {"max_solutions": self.most},
             },
         }
 
@@ -101,7 +105,7 @@ def duffing() -> Case:
 
 
 def chain() -> Case:
-    """Return the scene of that name."""
+    """Return the scene of that name; pyHarm does not get past 1.65 rad/s."""
     slider = {"k": 20.0, "mu": 1.0, "N0": 1.0}
     elements: list[Told] = [
         ("Jenkins", [0], slider),
@@ -111,7 +115,7 @@ def chain() -> Case:
         ("PenaltyUnilateralGap", [2], {"k": 1.0, "g": 0.25}),
     ]
     problem = problem_of(load_scene("chain"))
-    return Case(problem, elements, 0.5, 2.0, 7, 1024, 0.2, ("scipyroot",))
+    return Case(problem, elements, 0.5, 2.0, 7, 1024, 0.2, ("scipyroot",), 100)
 
 
 SECTORS, ORDER = 24, 3

@@ -81,6 +81,7 @@ def traced(case: dict[str, Any], solver: str) -> dict[str, Any]:
         "seconds": statistics.median(seconds[1:]),
         "points": len(points),
         "tried": len(front.nls["curve"].SolList),
+        "reached": max(float(each.x[-1]) for each in points),
         "curve": [[*each.x[order].tolist(), float(each.x[-1])] for each in points],
     }
 

@@ -129,7 +129,7 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
         ("puts energy into", "negative eigenvalues"),
     ),
     "negative ratio": ({"damping_ratio": -0.1}, ("damping_ratio = -0.1", "0 to")),
-    "negative Rayleigh": ({"rayleigh_damping": (-1.0, 0.0)}, ("alpha = -1",)),
+    "negative Rayleigh": ({"rayleigh_damping": (-1.0, 0.0)}, ("by mass -1",)),
     "damping twice": (
         {"damping": [0.1, 0.1], "damping_ratio": 0.1},
         ("damping is given twice",),

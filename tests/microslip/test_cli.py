@@ -11,9 +11,10 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
+from microslip.result_file import load
 from microslip.scene_file import built_in_text
 from microslip.schema import Result
-from microslip.store import Stored, load, save
+from microslip.store import Stored, save
 from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 

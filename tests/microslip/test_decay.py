@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
-from microslip.scene_file import March
-from microslip.store import load
+from microslip.experiments import March
+from microslip.result_file import load
 from microslip.studies.decay import liveliest, measured, released
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.ring_down import RingDown

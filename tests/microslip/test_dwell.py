@@ -9,8 +9,8 @@ import pytest
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.scene_file import March
-from microslip.store import load
+from microslip.experiments import March
+from microslip.result_file import load
 from microslip.studies.dwell import amplitudes, dwelling
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

@@ -10,7 +10,7 @@ import pytest
 from hbm.detached import Sought
 from microslip.cli import main
 from microslip.quantity import SceneError
-from microslip.store import load
+from microslip.result_file import load
 from microslip.studies.curve import trace_curve
 from microslip.studies.follow import follow
 from microslip.studies.parameter import parameter

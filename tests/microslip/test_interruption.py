@@ -17,7 +17,7 @@ import pytest
 
 from hbm.continuation import ContinuationError
 from hbm.solve import frequency_response
-from microslip.store import load
+from microslip.result_file import load
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate

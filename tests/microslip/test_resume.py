@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from microslip.recording import last_state
-from microslip.store import StoreError, load
+from microslip.result_file import load
+from microslip.store import StoreError
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.integrate import integrate

@@ -11,15 +11,9 @@ import pytest
 from matplotlib.figure import Figure
 from scipy.io import netcdf_file
 
+from microslip.result_file import load
 from microslip.schema import SCHEMAS, Result
-from microslip.store import (
-    Stored,
-    StoreError,
-    load,
-    save,
-    save_figure,
-    save_table,
-)
+from microslip.store import Stored, StoreError, save, save_figure, save_table
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.thinning import thinned
@@ -367,7 +361,7 @@ def test_table_that_cannot_be_written_is_told_in_words(
 def test_a_long_history_is_read_thinned(
     small_history: TimeHistory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("microslip.store.CHUNK", 100)
+    monkeypatch.setattr("microslip.result_file.CHUNK", 100)
     rows = 1000
     many: dict[str, Any] = {
         field.name: np.resize(values, (rows, *values.shape[1:]))

@@ -10,8 +10,8 @@ from microslip.commands import arguments
 from microslip.commands.columns import SHOWN, headed, titled
 
 if TYPE_CHECKING:
+    from microslip.experiments import Curve
     from microslip.progress import Watch
-    from microslip.scene_file import Curve
     from microslip.studies.curve import Traced
     from microslip_mechanics.response import ResponseCurve
     from microslip_mechanics.static import StaticState

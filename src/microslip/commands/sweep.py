@@ -142,7 +142,8 @@ def _resumed(
 def _show(options: argparse.Namespace, data: Path, picture: Path) -> bool:
     """Print and draw what the file holds; return whether its energies balance."""
     from microslip.figures.result import result_figure
-    from microslip.store import load, save_figure
+    from microslip.result_file import load
+    from microslip.store import save_figure
     from timedomain.closure import closes
 
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)

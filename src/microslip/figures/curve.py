@@ -39,14 +39,18 @@ BEGINNINGS = ("branch", "detached", "restart")
 
 
 def curve_figure(curve: ResponseCurve, title: str) -> Figure:
-    """Draw amplitude, sliding velocity, dissipated energy and normal forces."""
+    """Draw amplitude, sliding velocity, dissipated energy and normal forces.
+
+    Where nothing presses, the estimated error takes the place of normal forces.
+    """
     curve = parted(curve)
     figure = Figure(figsize=(10.0, 7.0), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True)
     frequency_response(panels[0, 0], curve)
     sliding_velocity(panels[0, 1], curve)
     dissipated_energy(panels[1, 0], curve)
-    normal_forces(panels[1, 1], curve)
+    presses = bool(np.nanmax(curve.normal_largest, initial=0.0) > 0.0)
+    (normal_forces if presses else estimated_error)(panels[1, 1], curve)
     figure.suptitle(literal(title))
     return figure
 
@@ -134,6 +138,8 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
         (COLOURS[0], "friction", curve.friction_energy),
         (COLOURS[1], "normal contact damping", curve.damping_energy),
     ):
+        if name != "friction" and not np.nanmax(energy, initial=0.0) > 0.0:
+            continue
         axes.plot(
             abscissa(curve),
             1e3 * energy,
@@ -143,6 +149,20 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
         )
     framed(axes, x=abscissa_name(curve), y="energy [mJ]", title="Dissipated per period")
     legend_above(axes)
+
+
+def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
+    """Draw the estimated error of the amplitude at each point, where it is known."""
+    known = np.where(np.isfinite(curve.error), curve.error, np.nan)
+    axes.plot(abscissa(curve), 100.0 * known, color=COLOURS[0], linewidth=WIDTH * 1.5)
+    if (known > 0.0).any():
+        axes.set_yscale("log")
+    framed(
+        axes,
+        x=abscissa_name(curve),
+        y="error [%]",
+        title="Estimated error of amplitude",
+    )
 
 
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:

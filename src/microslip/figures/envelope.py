@@ -17,13 +17,14 @@ from microslip.figures.style import (
     readable,
     relative,
 )
-from microslip.figures.sweep import TIME, energies, grid_of
+from microslip.figures.sweep import TIME, energies, grid_of, pressed
 from microslip_mechanics.envelope import Envelope
 
 
 def envelope_figure(envelope: Envelope, title: str) -> Figure:
     """Draw ranges of each cycle over time, energies, and amplitude over frequency."""
-    slips, shrouds = relative(envelope.probes), faces(envelope.contacts)
+    slips = relative(envelope.probes)
+    shrouds = pressed(faces(envelope.contacts), envelope.normal_largest)
     blades, ways = absolute(envelope.probes)[:2], passes(envelope)
     count = len(blades) + len(slips) + len(shrouds) + 2
     figure, panels, others = grid_of(count, len(blades) if ways else 0)

@@ -19,6 +19,7 @@ from microslip.figures.style import (
     readable,
     relative,
 )
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import TimeHistory
 
@@ -30,7 +31,8 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
 
     Where the cycles of a sweep can be seen, their amplitude against frequency follows.
     """
-    slips, shrouds = relative(history.probes), faces(history.contacts)
+    slips = relative(history.probes)
+    shrouds = pressed(faces(history.contacts), history.normal_force)
     blades, ways = absolute(history.probes)[:2], passes(history)
     count = len(blades) + len(slips) + len(shrouds) + 2
     figure, panels, others = grid_of(count, len(blades) if ways else 0)
@@ -49,6 +51,15 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
         amplitude(axes, ways, place, history.probes[place])
     figure.suptitle(literal(title))
     return figure
+
+
+def pressed(shrouds: dict[str, list[int]], forces: Array) -> dict[str, list[int]]:
+    """Return the faces of which some point has a normal force; ``forces`` over time."""
+    return {
+        name: places
+        for name, places in shrouds.items()
+        if (forces[:, places] != 0.0).any()
+    }
 
 
 def grid_of(count: int, others: int) -> tuple[Figure, Iterator[Axes], list[Axes]]:
@@ -113,6 +124,8 @@ def energies(axes: Axes, history: TimeHistory | Envelope) -> None:
     """Draw the energies that flowed, and the closing error of their balance."""
     flows = ("input", "friction", "normal_damping", "structural_damping")
     for colour, name in zip(COLOURS, flows, strict=False):
+        if name == "normal_damping" and not history.of(name).any():
+            continue
         axes.plot(
             history.time,
             history.of(name),

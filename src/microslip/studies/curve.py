@@ -11,9 +11,9 @@ from hbm.continuation import ContinuationError
 from hbm.cyclic import cyclic_response
 from hbm.options import CurveOptions
 from hbm.solve import branches, frequency_response
+from microslip.experiments import Curve
 from microslip.progress import Watch
 from microslip.quantity import SceneError
-from microslip.scene_file import Curve
 from microslip.studies.detached import Searched, search
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from microslip.experiments import March
 from microslip.quantity import SceneError
-from microslip.scene_file import March
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.ring_down import RingDown, ring_down
 from microslip_mechanics.sine_test import SineTest, Tone

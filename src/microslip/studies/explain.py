@@ -52,7 +52,7 @@ def pruned(scene: Scene) -> list[Pruned]:
     problem = problem_of(scene)
     rig = isinstance(scene.rig, TwoBlades)
     return [
-        *(_rig(scene, problem) if rig else _system(problem)),
+        *(_rig(scene, problem) if rig else _system(scene, problem)),
         *_contacts(problem, _load_reason(scene) if rig else LOADS),
         *_unknowns(problem, scene),
     ]
@@ -86,14 +86,30 @@ def _rig(scene: Scene, problem: Problem) -> list[Pruned]:
     ]
 
 
-def _system(problem: Problem) -> list[Pruned]:
-    """Count what a system has; it leaves nothing out."""
+def _system(scene: Scene, problem: Problem) -> list[Pruned]:
+    """Count what a system has, and what a reduction leaves of it."""
     dofs, count = problem.structure.dofs, problem.interface.count
-    sparse = "sparse" if problem.structure.sparse else "dense"
     return [
-        Pruned("degrees of freedom", dofs, dofs, f"all of the scene's; {sparse}"),
+        Pruned("degrees of freedom", dofs, *_whole(scene, problem)),
         Pruned("contact points", count, count, "rows that the elements' laws become"),
     ]
+
+
+def _whole(scene: Scene, problem: Problem) -> tuple[int, str]:
+    """Return a system's number of degrees of freedom, and how it became smaller."""
+    made = None
+    if not isinstance(scene.rig, BladedDisk):
+        from microslip.scenes.systems.build import reduction
+
+        made = reduction(scene.rig)
+    if made is None:
+        sparse = "sparse" if problem.structure.sparse else "dense"
+        return problem.structure.dofs, f"all of the scene's; {sparse}"
+    wanted, hertz = scene.rig.structure.reduction, scene.curve.highest
+    return made.reduction.whole.dofs, (
+        f"{wanted.method}, modes up to {wanted.highest:g} Hz: stiffness at what is "
+        f"kept is off by {made.error(hertz):.1e} at {hertz:g} Hz"
+    )
 
 
 def _contacts(problem: Problem, why: str) -> list[Pruned]:

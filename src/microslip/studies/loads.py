@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from microslip.experiments import Sweep
 from microslip.quantity import SceneError
-from microslip.scene_file import Scene, Sweep
+from microslip.scene_file import Scene
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.force_record import ForceRecord
 from microslip_mechanics.sine_test import SineTest, Tone, stepped

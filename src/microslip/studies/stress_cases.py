@@ -6,8 +6,9 @@ import dataclasses
 import typing
 from dataclasses import dataclass
 
+from microslip.experiments import Curve, March, Sweep
 from microslip.quantity import SceneError
-from microslip.scene_file import Curve, March, Scene, Sweep
+from microslip.scene_file import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
 
 SIGMAS = (3e-6, 3e-7, 3e-8, 3e-9, 3e-10, 3e-11)

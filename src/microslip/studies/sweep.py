@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
+from microslip.experiments import March, Sweep
 from microslip.progress import Watch
-from microslip.scene_file import March, Sweep
 from microslip_mechanics.envelope import Envelope, enveloped, parted
 from microslip_mechanics.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem

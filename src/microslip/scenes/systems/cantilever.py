@@ -11,7 +11,6 @@ import numpy as np
 from microslip.quantity import quantity
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node, RigidBody
-from microslip_mechanics.structure import Structure
 
 FOOT, TIP = "foot", "tip"
 
@@ -36,7 +35,7 @@ class Cantilever:
     """whether it bends along z only, so that uz and ry are all its motions"""
 
 
-def assembled(beam: Cantilever, masses: Mapping[str, float]) -> Structure:
+def assembled(beam: Cantilever, masses: Mapping[str, float]) -> Frame:
     """Return beam and point masses [kg], undamped; a mass moves along x, y and z."""
     places = np.linspace(0.0, beam.length, beam.elements + 1)
     names = [FOOT, *(f"node{n}" for n in range(1, beam.elements)), TIP]
@@ -62,4 +61,4 @@ def assembled(beam: Cantilever, masses: Mapping[str, float]) -> Structure:
         RigidBody(name, mass, np.zeros((3, 3)), np.zeros(3))
         for name, mass in masses.items()
     ]
-    return Frame(tuple(nodes), tuple(beams), tuple(bodies)).structure()
+    return Frame(tuple(nodes), tuple(beams), tuple(bodies))

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from microslip.quantity import Quantity, SceneError
-from microslip.scene_file import meant, read_table, shown
-from microslip.scenes.systems.rig import Matrices, Numbers, System, Wave
-from microslip_mechanics.element import KEYS
-from microslip_mechanics.laws.catalogue import LAWS
+from microslip.scenes.systems.elements import read_elements
+from microslip.scenes.systems.tables import (
+    Base,
+    Matrices,
+    Numbers,
+    Order,
+    System,
+    Wave,
+)
+from microslip.table import meant, read_table, shown
 
-TABLES = ("structure", "element", "drive", "preload", "probes")
+TABLES = (
+    "structure", "element", "drive", "preload", "probes", "base", "engine_order"
+)  # fmt: skip
 MATRICES = ("mass", "stiffness", "damping")
-NUMBERS = ("beam", "damping_ratio", "mass_damping", "stiffness_damping")
+NUMBERS = tuple(each.name for each in fields(Numbers))
 FORCE = Quantity("N", float("-inf"), float("inf"), positive=False)
 MASS = Quantity("kg", 0.0, float("inf"), positive=True)
 
@@ -32,21 +41,13 @@ def read_system(source: str, document: dict[str, Any], known: list[str]) -> Syst
                 f"{source}: {key}{shown(document[key])} is unknown"
                 f"{meant(key, [*TABLES, *known])}"
             )
-    elements = document.get("element", [])
-    if not isinstance(elements, list):
-        raise SceneError(
-            f"{source}: [element] is one table: write [[element]], once for each"
-        )
-    laws: dict[str, Any] = {}
-    ends: dict[str, dict[str, Any]] = {}
-    for number, values in enumerate(elements, start=1):
-        name, law, given = _element(source, number, values)
-        if name in laws:
-            raise SceneError(
-                f"{source}: two elements are named {name}: give each its own name"
-            )
-        laws[name], ends[name] = law, given
     structure = _table(source, document, "structure")
+    sets = _sets(source, structure)
+    laws, ends = read_elements(source, document.get("element", []), sets)
+    if "drive" in document or not {"base", "engine_order"} & document.keys():
+        drive = _drive(source, _table(source, document, "drive"))
+    else:
+        drive = {}
     return System(
         source,
         _matrices(source, structure),
@@ -59,10 +60,37 @@ def read_system(source: str, document: dict[str, Any], known: list[str]) -> Syst
         _masses(source, structure),
         laws,
         ends,
-        _drive(source, _table(source, document, "drive")),
+        drive,
         _numbers(source, "preload", document.get("preload", {}), FORCE),
         document.get("probes"),
+        _optional(source, document, "base", Base),
+        _optional(source, document, "engine_order", Order),
+        sets,
     )
+
+
+def _optional(source: str, document: dict[str, Any], name: str, table: type) -> Any:  # noqa: ANN401  (an instance of ``table``)
+    """Return a table that may be left out."""
+    if name not in document:
+        return None
+    try:
+        return read_table(source, f"[{name}] ", table, document[name])
+    except ValueError as error:
+        raise SceneError(f"{source}: {error}") from None
+
+
+def _sets(source: str, values: dict[str, Any]) -> dict[str, tuple[str, ...]]:
+    """Return the nodes of each set."""
+    given = values.get("sets", {})
+    if not isinstance(given, dict):
+        raise SceneError(f"{source}: [structure.sets] must be a table, not {given!r}")
+    for name, nodes in given.items():
+        if not _texts(nodes) or not nodes:
+            raise SceneError(
+                f"{source}: [structure.sets] {name}{shown(nodes)}: give a list of "
+                'nodes as texts, such as ["12", "13"]'
+            )
+    return {name: tuple(nodes) for name, nodes in given.items()}
 
 
 def _table(source: str, document: dict[str, Any], name: str) -> dict[str, Any]:
@@ -76,7 +104,7 @@ def _table(source: str, document: dict[str, Any], name: str) -> dict[str, Any]:
 
 def _matrices(source: str, values: dict[str, Any]) -> Matrices:
     """Return the matrices as they stand there."""
-    known = (*MATRICES, *NUMBERS, "names", "masses")
+    known = (*MATRICES, *NUMBERS, "names", "masses", "sets")
     for key in values:
         if key not in known:
             raise SceneError(
@@ -129,34 +157,6 @@ def _rows(source: str, key: str, given: object) -> Any:  # noqa: ANN401  (text o
             "the name of a file"
         )
     return tuple(tuple(row) if isinstance(row, list) else row for row in given)
-
-
-def _element(
-    source: str, number: int, values: object
-) -> tuple[str, Any, dict[str, Any]]:
-    """Return name, law and directions of an element."""
-    if not isinstance(values, dict):
-        raise SceneError(f"{source}: [[element]] must be a table, not {values!r}")
-    left = dict(values)
-    name = left.pop("name", f"element-{number}")
-    law = left.pop("law", None)
-    if not isinstance(name, str) or not name:
-        raise SceneError(f"{source}: [[element]] name = {name!r}: give a text")
-    if law not in LAWS:
-        hint = meant(str(law), list(LAWS))
-        raise SceneError(f"{source}: element {name}: law = {law!r} is unknown{hint}")
-    given = {key: left.pop(key) for key in KEYS if key in left}
-    for key in KEYS[2:]:
-        if key in given and not isinstance(given[key], list):
-            raise SceneError(
-                f"{source}: element {name}: {key} = {given[key]!r}: give a list of "
-                'pairs, such as [["x1", "ground"]]'
-            )
-    try:
-        made = read_table(source, f"element {name}: ", LAWS[law], left, KEYS)
-    except ValueError as error:
-        raise SceneError(f"{source}: element {name}: {error}") from None
-    return name, made, given
 
 
 def _drive(source: str, values: dict[str, Any]) -> dict[str, Wave]:

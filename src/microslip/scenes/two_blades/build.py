@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from microslip.scenes.turning import turning
 from microslip.scenes.two_blades import layout
 from microslip.scenes.two_blades.faces import interface
 from microslip.scenes.two_blades.tables import TwoBlades
@@ -26,10 +27,15 @@ def problem(rig: TwoBlades) -> Problem:
     drive = layout.end_centre(rig, 0) + rig.excitation.offset * layout.blade_axis(
         rig, 0
     )
+    preload = rig.preload.force * frame.motion(layout.ELEMENT, push)[0]
+    structure = frame.structure()
+    if rig.rotation is not None:
+        turned = turning(frame, rig.rotation)
+        structure, preload = turned.structure(), preload + turned.load()
     return Problem(
-        frame.structure(),
+        structure,
         interface(rig, frame),
-        preload=rig.preload.force * frame.motion(layout.ELEMENT, push)[0],
+        preload=preload,
         drive=rig.excitation.force * frame.motion(layout.tip(rig, 0), drive)[2],
         probes=Probes(
             (*layout.BLADES, layout.ELEMENT, *SLIPS),

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from microslip.quantity import quantity
+from microslip.scenes.rotation import SteadyRotation
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +113,7 @@ class TwoBlades:
     excitation: Excitation
     model: Literal["full", "B", "A"] = quantity()
     rope: Rope | None = None
+    rotation: SteadyRotation | None = None
 
     def __post_init__(self) -> None:
         """Check what more than one number decides."""

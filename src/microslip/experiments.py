@@ -1,0 +1,102 @@
+"""What is done with a rig: tables [sweep], [curve] and [march] of a scene."""
+
+from __future__ import annotations
+
+import typing
+from dataclasses import dataclass
+
+from microslip.quantity import SceneError, quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """Load history of the time march."""
+
+    ramp: float = quantity("s", lowest=0.0)
+    start: float = quantity("s", lowest=0.0)
+    end: float = quantity("s", positive=True)
+    duration: float = quantity("s", positive=True)
+    lowest: float = quantity("Hz", positive=True)
+    highest: float = quantity("Hz", positive=True)
+    kind: typing.Literal["exponential", "linear", "stepped"] = quantity(
+        default="exponential"
+    )
+    direction: typing.Literal["up", "down", "up-down"] = quantity(default="up")
+    levels: tuple[float, ...] = quantity(positive=True, highest=1e6, default=(1.0,))
+    steps: int | None = quantity(lowest=2, highest=10**5, optional=True)
+    periods: int | None = quantity(lowest=1, highest=10**7, optional=True)
+    force_file: str | None = quantity(optional=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """Frequency response by harmonic balance."""
+
+    lowest: float = quantity("Hz", positive=True)
+    highest: float = quantity("Hz", positive=True)
+    tolerance: float = quantity(lowest=1e-6, highest=0.5)
+    harmonics: int | None = quantity(lowest=1, highest=255, optional=True)
+    samples: int | None = quantity(lowest=6, highest=2**16, optional=True)
+
+
+@dataclass(frozen=True, slots=True)
+class March:
+    """Time integration."""
+
+    time_step: float = quantity("s", positive=True, highest=1.0)
+    store_every: int = quantity(lowest=1, highest=10**6)
+
+
+def check_experiments(source: str, sweep: Sweep, curve: Curve) -> None:
+    """Check what more than one key decides.
+
+    Raises
+    ------
+    SceneError
+        With file, table, keys, values and remedy.
+    """
+    if not sweep.ramp <= sweep.start < sweep.end <= sweep.duration:
+        raise SceneError(
+            f"{source}: [sweep] ramp {sweep.ramp:g} s, start {sweep.start:g} s, end "
+            f"{sweep.end:g} s, duration {sweep.duration:g} s: "
+            "give ramp <= start < end <= duration"
+        )
+    for name, table in (("sweep", sweep), ("curve", curve)):
+        if not table.lowest < table.highest:
+            raise SceneError(
+                f"{source}: [{name}] lowest = {table.lowest:g} Hz, highest = "
+                f"{table.highest:g} Hz: give lowest < highest"
+            )
+    _check_kind(source, sweep)
+    if curve.samples is not None and curve.harmonics is None:
+        raise SceneError(
+            f"{source}: [curve] samples = {curve.samples}: they follow from the "
+            "tolerance unless harmonics are given: give both, or neither"
+        )
+    fewest = 4 * (curve.harmonics or 0) + 2
+    if curve.samples is not None and curve.samples < fewest:
+        raise SceneError(
+            f"{source}: [curve] samples = {curve.samples}: too few for "
+            f"{curve.harmonics} harmonics: give at least {fewest}"
+        )
+
+
+def _check_kind(source: str, sweep: Sweep) -> None:
+    """Check that a sweep has the keys of its kind, and those alone."""
+    steps = {"steps": sweep.steps, "periods": sweep.periods}
+    for name, value in steps.items():
+        if sweep.kind == "stepped" and value is None:
+            raise SceneError(
+                f'{source}: [sweep] {name} is missing: kind = "stepped" needs it'
+            )
+        if sweep.kind != "stepped" and value is not None:
+            raise SceneError(
+                f"{source}: [sweep] {name} = {value}: only for "
+                'kind = "stepped": leave it out'
+            )
+    plain = (sweep.kind, sweep.direction, sweep.levels) == ("exponential", "up", (1.0,))
+    if sweep.force_file is not None and not plain:
+        raise SceneError(
+            f'{source}: [sweep] force_file = "{sweep.force_file}": the force takes the '
+            "place of the sine: leave kind, direction and levels out"
+        )

@@ -1,0 +1,165 @@
+"""Results back from netCDF files; docs/files.md describes the schema."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.io import netcdf_file
+
+from microslip.schema import CURVE, GROWS, SCHEMAS, Growing, checkpoint_of
+from microslip.store import Stored, StoreError
+from microslip.stream import Head, rows_of
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.thinning import thinned
+from microslip_mechanics.time_history import TimeHistory, joined
+
+TEXTS = ("kind", "scene", "command")
+CHUNK = 50_000
+"""rows that are read at a time"""
+
+
+def load(path: Path, most: int | None = None) -> Stored:
+    """Read a result.
+
+    A time history of more than ``most`` rows comes thinned: of each stretch of rows the
+    extremes, and the energies at its end.
+
+    Raises
+    ------
+    StoreError
+        If there is no such file, or it is not a result.
+    """
+    with _told(path), netcdf_file(path, "r", mmap=True) as file:
+        texts = {name: getattr(file, name).decode() for name in TEXTS}
+        kind = _known(path, texts["kind"])
+        head = Head.read(file, kind) if kind in GROWS else None
+        if head is None:
+            return Stored(_curve(file), texts["scene"], texts["command"])
+    with _told(path):
+        return Stored(_grown(path, head, most), texts["scene"], texts["command"])
+
+
+def end_of(path: Path) -> tuple[Growing, Head]:
+    """Return the end of a march, without rows, and the head of its file.
+
+    Raises
+    ------
+    StoreError
+        If there is no such file, or its march cannot go on.
+    """
+    with _told(path), netcdf_file(path, "r", mmap=True) as file:
+        kind = _known(path, getattr(file, TEXTS[0]).decode())
+        if kind not in GROWS:
+            raise StoreError(f"{path} holds a {kind}: give what sweep or dwell wrote")
+        head = Head.read(file, kind)
+    if "checkpoint" not in head.fixed:
+        raise StoreError(f"{path} does not know where its march can go on: march anew")
+    # a march that was killed may have written half of a block behind it
+    head = dataclasses.replace(head, rows=int(head.fixed["checkpoint"][0]))
+    with _told(path):
+        end = _result(head, rows_of(path, head, 0, 0))
+        return end, head
+
+
+@contextlib.contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Make one line of what is wrong with a file that is read."""
+    try:
+        yield
+    except FileNotFoundError:
+        raise StoreError(f"there is no result file {path}") from None
+    except OSError as error:
+        raise StoreError(f"{path} cannot be read: {error.strerror or error}") from None
+    except (TypeError, ValueError, KeyError, AttributeError, IndexError):
+        raise StoreError(
+            f"{path} is not a result file: give what frc or sweep wrote"
+        ) from None
+
+
+def _known(path: Path, kind: str) -> str:
+    if kind not in SCHEMAS:
+        raise StoreError(f"{path} holds a {kind!r}, which this version does not know")
+    return kind
+
+
+def _grown(path: Path, head: Head, most: int | None) -> Growing:
+    """Return what a file has grown to, thinned if it is longer than ``most``."""
+    if most is None or head.rows <= most or head.kind != "time history":
+        return _result(head, rows_of(path, head, 0, head.rows))
+    stride = -(-2 * head.rows // most)
+    parts = []
+    chunk = stride * max(1, CHUNK // stride)
+    for first in range(0, head.rows, chunk):
+        rows = rows_of(path, head, first, min(chunk, head.rows - first))
+        part = _result(head, rows)
+        if isinstance(part, TimeHistory):
+            parts.append(thinned(part, stride))
+    whole = joined(parts, parts[0].ending)
+    return dataclasses.replace(
+        whole, iterations=parts[0].iterations, divided=parts[0].divided
+    )
+
+
+def _result(head: Head, rows: dict[str, Array]) -> Growing:
+    """Return a result of some rows; variables without content are empty."""
+    made: dict[str, Any] = {}
+    made_of, schema = SCHEMAS[head.kind]
+    count = len(rows["time"])
+    for field in dataclasses.fields(made_of):
+        if field.name in head.growing:
+            made[field.name] = rows[field.name]
+        elif field.name in head.fixed:
+            made[field.name] = _fixed(head.fixed[field.name])
+        elif field.name in head.about:
+            value = head.about[field.name]
+            made[field.name] = value.decode() if isinstance(value, bytes) else value
+        elif field.default is field.default_factory is dataclasses.MISSING:
+            names = schema[field.name][0]
+            if head.sizes.keys() >= set(names):
+                raise KeyError(field.name)
+            made[field.name] = () if "name" in names else np.zeros((count, 0))
+    return made_of(**made)  # type: ignore[return-value]
+
+
+def _fixed(values: np.ndarray) -> object:
+    """Return names or a checkpoint."""
+    if values.dtype.kind == "S":
+        return _names(values)
+    return checkpoint_of(values.astype(float))
+
+
+def _curve(file: netcdf_file) -> ResponseCurve:
+    made: dict[str, Any] = {}
+    for field in dataclasses.fields(ResponseCurve):
+        if field.name in CURVE:
+            dimensions, *_ = CURVE[field.name]
+            made[field.name] = _variable(file, field.name, dimensions)
+        else:
+            value = getattr(file, field.name)
+            made[field.name] = (
+                value.decode() if isinstance(value, bytes) else value.item()
+            )
+    return ResponseCurve(**made)
+
+
+def _variable(file: netcdf_file, name: str, dimensions: tuple[str, ...]) -> object:
+    """Return names as a tuple of texts, numbers as float64 in native order.
+
+    What the file leaves out is empty, if one of its dimensions is.
+    """
+    sizes = [file.dimensions.get(each) or 0 for each in dimensions]
+    if name not in file.variables and 0 in sizes:
+        return () if "name" in dimensions else np.zeros(sizes)
+    data = file.variables[name].data
+    return _names(data) if data.dtype.kind == "S" else data.astype(float)
+
+
+def _names(data: np.ndarray) -> tuple[str, ...]:
+    rows = np.ascontiguousarray(data).view(f"S{data.shape[-1]}")
+    return tuple(text.decode() for text in rows.ravel())

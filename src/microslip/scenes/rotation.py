@@ -1,0 +1,26 @@
+"""Table [rotation]: the axes in which a structure of beams moves turn steadily."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from microslip.quantity import quantity
+
+
+@dataclass(frozen=True, slots=True)
+class SteadyRotation:
+    """Speed and axis of rotation."""
+
+    speed: float = quantity("rad/s")
+    axis: tuple[float, ...] = quantity()
+    """direction, of any length"""
+    centre: tuple[float, ...] = quantity("m", default=(0.0, 0.0, 0.0))
+    """a point of the axis"""
+
+    def __post_init__(self) -> None:
+        """Check that there is an axis."""
+        for name in ("axis", "centre"):
+            if len(getattr(self, name)) != 3:
+                raise ValueError(f"[rotation] {name}: give three numbers")
+        if not any(self.axis):
+            raise ValueError("[rotation] axis is zero: give a direction")

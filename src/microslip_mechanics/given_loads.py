@@ -1,0 +1,117 @@
+"""Loads as a user gives them: by name, by a moving base, by an engine order."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.base_excitation import base_excitation, translation
+from microslip_mechanics.engine_order import engine_order
+from microslip_mechanics.forms import place_of
+from microslip_mechanics.structure import Structure
+
+Drive: TypeAlias = Mapping[str, float | tuple[float, float]]
+"""amplitude [N], or amplitude and phase [rad], by degree of freedom"""
+Sets: TypeAlias = Mapping[str, Sequence[str]]
+"""nodes, by the name of their set"""
+
+
+@dataclass(frozen=True, slots=True)
+class EngineOrder:
+    """A wave that stands still around a disk that turns."""
+
+    blades: Sequence[str]
+    """the loaded degree of freedom of each blade, in the order around the disk"""
+    order: int
+    """maxima around the disk"""
+    amplitude: float
+    """on each blade [N]"""
+
+
+@dataclass(frozen=True, slots=True)
+class BaseMotion:
+    """Ground that moves all supports alike; motions are then relative to it."""
+
+    direction: Sequence[float]
+    """x, y, z; degrees of freedom say theirs by names such as ``12.z`` or ``tip.uz``"""
+    acceleration: float
+    """amplitude along it [m/s²]"""
+
+    def __post_init__(self) -> None:
+        """Check that there is a direction."""
+        if np.shape(self.direction) != (3,) or not np.any(self.direction):
+            raise ValueError(
+                f"base: direction {self.direction}: give three numbers, not all zero"
+            )
+
+    @property
+    def unit(self) -> Array:
+        """The direction, of length one."""
+        direction = np.asarray(self.direction, dtype=float)
+        unit: Array = direction / np.linalg.norm(direction)
+        return unit
+
+    def load(self, structure: Structure) -> ComplexArray:
+        """Return the load on a structure [N], shape (dofs,)."""
+        carried = translation(structure.names, self.unit)
+        return base_excitation(structure, carried).by_acceleration(self.acceleration)
+
+
+def driven(
+    drive: Drive,
+    structure: Structure,
+    sets: Sets,
+    order: EngineOrder | None = None,
+    base: BaseMotion | None = None,
+) -> Array | ComplexArray:
+    """Return the drive [N], shape (dofs,): real if all acts in phase with the sine.
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown or an amplitude is not finite.
+    """
+    names, waves = structure.names, {}
+    for name, wave in drive.items():
+        amplitude, phase = wave if isinstance(wave, tuple) else (wave, 0.0)
+        turn = math.remainder(phase, math.tau)
+        if turn in (0.0, math.pi, -math.pi):
+            waves[name] = complex(amplitude if turn == 0.0 else -amplitude)
+        else:
+            waves[name] = cmath.rect(1.0, phase) * amplitude
+    total = loads(waves, names, sets, "drive")
+    if order is not None:
+        total += engine_order(names, order.blades, order.order, order.amplitude)
+    if base is not None:
+        total += base.load(structure)
+    return total if total.imag.any() else total.real
+
+
+def loads(
+    given: Mapping[str, float] | Mapping[str, complex],
+    names: tuple[str, ...],
+    sets: Sets,
+    what: str,
+) -> ComplexArray:
+    """Return loads over the degrees of freedom; ``set.direction`` is all of a set."""
+    total = np.zeros(len(names), dtype=complex)
+    for name, force in given.items():
+        if not cmath.isfinite(force):
+            raise ValueError(f"{what} of {name} is {force}: give a finite number")
+        for each in _members(name, names, sets):
+            total[place_of(each, names, what)] += force
+    return total
+
+
+def _members(name: str, names: tuple[str, ...], sets: Sets) -> list[str]:
+    """Return the degrees of freedom that a name stands for."""
+    group, _, direction = name.rpartition(".")
+    if name in names or group not in sets:
+        return [name]
+    return [f"{node}.{direction}" for node in sets[group]]

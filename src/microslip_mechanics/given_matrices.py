@@ -1,0 +1,77 @@
+"""Matrices and names as a user gives them, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import scipy.sparse
+
+from microslip_mechanics.arrays import Matrix
+
+
+def square_matrix(given: Matrix, what: str) -> Matrix:
+    """Return a square matrix, of floating point numbers."""
+    sparse = bool(scipy.sparse.issparse(given))
+    if sparse:
+        return scipy.sparse.csc_array(given, dtype=float)
+    try:
+        matrix = np.array(given, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"{what} is no matrix of numbers: give rows of equal length, or the "
+            "diagonal alone"
+        ) from None
+    if matrix.ndim == 1:
+        matrix = np.diag(matrix)
+    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or matrix.size == 0:
+        raise ValueError(
+            f"{what} has shape {matrix.shape}: give a square matrix, or its diagonal"
+        )
+    if not np.isfinite(matrix).all():
+        row, column = np.argwhere(~np.isfinite(matrix))[0] + 1
+        raise ValueError(
+            f"{what} holds a value that is not finite, in row {row}, column {column}"
+        )
+    return matrix
+
+
+def dof_names(given: Sequence[str] | None, count: int) -> tuple[str, ...]:
+    """Return the names of the degrees of freedom."""
+    names = tuple(given) if given is not None else ()
+    if given is None:
+        return tuple(f"x{place}" for place in range(1, count + 1))
+    if len(names) != count:
+        raise ValueError(
+            f"there are {len(names)} names, but mass has shape ({count}, {count}): "
+            "give one name for each degree of freedom"
+        )
+    twice = {name for name in names if names.count(name) > 1 or name == "ground"}
+    if twice:
+        raise ValueError(
+            f"names of degrees of freedom: {', '.join(sorted(twice))} stands twice or "
+            "is the ground: give each its own name"
+        )
+    return names
+
+
+def check_like(matrix: Matrix, mass: Matrix, what: str) -> None:
+    """Check that a matrix is of the same degrees of freedom and kind as the mass."""
+    if matrix.shape != mass.shape:
+        raise ValueError(
+            f"{what} has shape {matrix.shape}, but mass has {mass.shape}: give "
+            "matrices of the same degrees of freedom"
+        )
+    if scipy.sparse.issparse(matrix) != scipy.sparse.issparse(mass):
+        raise ValueError(f"mass or {what} is sparse, the other is not: give both alike")
+
+
+def check_massive(mass: Matrix, names: tuple[str, ...]) -> None:
+    """Check that every degree of freedom has mass; others see to the matrix as such."""
+    diagonal = mass.diagonal()
+    if np.isfinite(diagonal).all() and diagonal.min() <= 0.0:
+        place = int(diagonal.argmin())
+        raise ValueError(
+            f"mass of {names[place]} is {diagonal[place]:g} kg: give each degree of "
+            "freedom some mass, or leave out those that have none"
+        )

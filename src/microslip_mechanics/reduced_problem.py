@@ -1,0 +1,106 @@
+"""A problem in few coordinates: what its contacts touch, and slow modes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from microslip_mechanics.given_loads import Sets
+from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.reduced_structure import (
+    ReducedStructure,
+    craig_bampton,
+    modal_truncation,
+)
+from microslip_mechanics.selection import selected
+
+Method = Literal["craig-bampton", "modal"]
+METHODS = {"craig-bampton": craig_bampton, "modal": modal_truncation}
+MOST = 100
+"""loaded degrees of freedom up to which they are kept by themselves"""
+
+
+@dataclass(frozen=True, slots=True)
+class ReducedProblem:
+    """A problem for the solvers, and the structure from which it came."""
+
+    problem: Problem
+    reduction: ReducedStructure
+
+    def error(self, hertz: float) -> float:
+        """Return the relative error of the stiffness at what is kept, at a frequency.
+
+        Raises
+        ------
+        ValueError
+            If it is a natural frequency of the structure.
+        """
+        return self.reduction.error(2.0 * math.pi * hertz)
+
+
+def reduced_problem(
+    problem: Problem,
+    highest: float,
+    *,
+    method: Method = "craig-bampton",
+    keep: Sequence[str] = (),
+    sets: Sets | None = None,
+) -> ReducedProblem:
+    """Return a problem whose structure has the contacts' coordinates and slow modes.
+
+    Parameters
+    ----------
+    problem
+        Of a sparse or dense structure.
+    highest
+        Modes are kept up to this frequency [Hz].
+    method
+        Modes of the structure held at what is kept (Craig, Bampton 1968), or its own
+        modes with static corrections (MacNeal 1971, Rubin 1975).
+    keep
+        Degrees of freedom to keep beside those of contacts and point loads: names,
+        nodes, patterns such as ``tip.*``, names of sets.
+    sets
+        Nodes by the name of their set.
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown, nothing is kept, or the structure moves freely.
+    """
+    if method not in METHODS:
+        raise ValueError(
+            f"method {method!r} is unknown: give one of {', '.join(get_args(Method))}"
+        )
+    if not 0.0 < highest < math.inf:
+        raise ValueError(f"modes up to {highest:g} Hz: give a positive frequency")
+    kept = _kept(problem, selected(problem.structure.names, keep, sets or {}))
+    made = METHODS[method](problem.structure, kept, 2.0 * math.pi * highest)
+    rows = made.rows(problem.interface.displacement)
+    return ReducedProblem(
+        Problem(
+            made.structure,
+            replace(problem.interface, displacement=rows),
+            preload=made.rows(problem.preload),
+            drive=problem.drive @ made.shapes,
+            probes=Probes(problem.probes.names, made.rows(problem.probes.rows)),
+        ),
+        made,
+    )
+
+
+def _kept(problem: Problem, wanted: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return what contacts and point loads touch, and what is wanted besides."""
+    touched = (problem.interface.displacement != 0.0).any(axis=0)
+    touched[wanted] = True
+    loaded = (problem.loads != 0.0).any(axis=0)
+    if np.count_nonzero(loaded) <= MOST:
+        touched |= loaded
+    if not touched.any():
+        raise ValueError("a reduction has nothing to keep: name what is of interest")
+    return np.flatnonzero(touched)

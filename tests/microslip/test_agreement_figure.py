@@ -1,0 +1,90 @@
+"""The picture of verify: the data that it shows, labels with units."""
+
+import itertools
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from figure_checks import UNIT, check_lines, legend, unmarked
+from microslip.figures import curve as curves
+from microslip.figures.agreement import agreement_figure
+from microslip.figures.track import track_figure
+from microslip_mechanics.response import ResponseCurve
+
+
+def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
+    small_curve: ResponseCurve,
+) -> None:
+    frequency = np.array([133.0, 130.0])
+    difference, admitted = np.array([2e-3, 1e-4]), np.array([1e-3, 5e-4])
+    marched = np.arange(8.0).reshape(2, 4) * 1e-4
+    swept = np.linspace(130.0, 134.0, 9)
+    slower, error = np.array([1.0, 4.0, 10.0]), np.array([0.4, -0.1, 0.05])
+
+    figure = agreement_figure(
+        unmarked(small_curve),
+        (frequency, marched, difference, admitted),
+        [("1 x as long", swept, 1e-4 * swept), ("4 x as long", swept, 2e-4 * swept)],
+        (slower, error),
+        "two-blades",
+    )
+
+    check_labels_of_agreement(figure)
+    response, deviations, envelopes, energies = figure.axes
+    check_lines(response.lines[3:], frequency, [*1e3 * marched.T[:3]])
+    limits, *dots = deviations.lines
+    check_lines([limits], [130.0, 133.0], [[0.05, 0.1]])
+    check_lines(dots[:1], [130.0], [[0.01]])
+    check_lines(dots[1:], [133.0], [[0.2]])
+    assert legend(deviations) == ["admitted", "difference", "too much"]
+    check_lines(envelopes.lines[:2], swept, [0.1 * swept, 0.2 * swept])
+    hertz = curves.abscissa(small_curve)
+    check_lines(envelopes.lines[2:], hertz, [1e3 * small_curve.peak[:, 0]])
+    assert legend(envelopes) == ["1 x as long", "4 x as long", "curve"]
+    check_lines(energies.lines, slower, [[40.0, 10.0, 5.0]])
+
+
+def check_labels_of_agreement(figure: Figure) -> None:
+    """Check the labels where each panel has a frequency or a factor of its own."""
+    figure.draw_without_rendering()
+    *others, energies = figure.axes
+    for axes in others:
+        assert UNIT.search(axes.get_xlabel())
+    for axes in figure.axes:
+        assert UNIT.search(axes.get_ylabel())
+    assert energies.get_xlabel() == "sweep slower by"
+
+
+def test_agreement_without_sweeps_is_drawn_too(small_curve: ResponseCurve) -> None:
+    nothing = np.zeros(0)
+    one = np.array([1e-3])
+    found = (np.array([130.0]), np.full((1, 4), 1e-4), one, 2.0 * one)
+
+    figure = agreement_figure(small_curve, found, [], (nothing, nothing), "title")
+
+    figure.draw_without_rendering()
+    assert len(figure.axes) == 2
+    for axes in figure.axes:
+        assert UNIT.search(axes.get_xlabel())
+        assert UNIT.search(axes.get_ylabel())
+
+
+@pytest.mark.parametrize(
+    "values", [[0.4, 0.6, 0.8, 20.0], [1e-3, 2e-3, 1.0], [0.125, 0.25, 0.375, 3.0]]
+)
+def test_labels_of_near_values_do_not_touch(values: list[float]) -> None:
+    peaks = [(value, 130.0, 1e-3) for value in values]
+
+    figure = track_figure(peaks, [], "excitation.force", "title")
+
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        boxes = [
+            label.get_window_extent()
+            for label in axes.get_xticklabels()
+            if label.get_text()
+        ]
+        assert len(boxes) >= 2
+        for left, right in itertools.pairwise(boxes):
+            assert left.x1 < right.x0

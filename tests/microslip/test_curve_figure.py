@@ -1,0 +1,130 @@
+"""Pictures of curves: the data that they show, labels with units."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+
+from figure_checks import check_labels, check_lines, legend, unmarked
+from microslip.figures import curve as curves
+from microslip_mechanics.response import ResponseCurve
+
+
+def test_unstable_stretches_and_events_are_marked_on_the_largest_amplitude(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.frequency_response(axes, small_curve)
+
+    largest = 1e3 * small_curve.amplitude[:, :3].max(axis=1)
+    unstable, *marks = axes.lines[3:]
+    drawn = np.asarray(unstable.get_ydata(), dtype=float)
+    np.testing.assert_allclose(drawn[2:], largest[2:])
+    assert np.isnan(drawn[:2]).all()
+    seen = {
+        str(mark.get_label()): (mark.get_xdata()[0], mark.get_ydata()[0])  # type: ignore[index]
+        for mark in marks
+    }
+    hertz = curves.abscissa(small_curve)
+    assert seen == {
+        "peak": (hertz[1], largest[1]),
+        "fold": (hertz[2], largest[2]),
+    }
+
+
+def test_frequency_response_shows_absolute_motions_in_millimetres(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    small_curve = unmarked(small_curve)
+
+    curves.frequency_response(axes, small_curve)
+
+    hertz = [130.0, 131.0, 133.0, 134.0]
+    check_lines(axes.lines, hertz, [*1e3 * small_curve.amplitude.T[:3]])
+    assert legend(axes) == ["excited blade", "follower blade", "element"]
+    assert axes.get_xlabel() == "excitation frequency [Hz]"
+    assert axes.get_ylabel() == "amplitude [mm]"
+    assert axes.get_ylim()[0] == 0.0
+
+
+def test_sliding_velocity_shows_relative_motions(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.sliding_velocity(axes, small_curve)
+
+    hertz = curves.abscissa(small_curve)
+    check_lines(axes.lines, hertz, [small_curve.velocity_peak[:, 3]])
+    assert legend(axes) == ["element to excited"]
+    assert axes.get_ylabel() == "velocity [m/s]"
+    assert axes.get_yscale() == "log"
+
+
+def test_dissipated_energy_shows_friction_and_contact_damping_in_millijoules(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.dissipated_energy(axes, small_curve)
+
+    energies = [1e3 * small_curve.friction_energy, 1e3 * small_curve.damping_energy]
+    check_lines(axes.lines, curves.abscissa(small_curve), energies)
+    assert legend(axes) == ["friction", "normal contact damping"]
+    assert axes.get_ylabel() == "energy [mJ]"
+
+
+def test_normal_forces_show_the_range_of_every_point(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.normal_forces(axes, small_curve)
+
+    hertz = curves.abscissa(small_curve)
+    check_lines(axes.lines, hertz, [*small_curve.normal_largest.T])
+    assert legend(axes) == ["B1", "B2", "A1"]
+    assert axes.get_ylabel() == "force [N]"
+    low = small_curve.normal_smallest
+    for place, band in enumerate(axes.collections):
+        (path,) = band.get_paths()
+        shown = np.asarray(path.vertices)
+        assert shown[:, 1].min() == pytest.approx(low[:, place].min())
+        assert shown[:, 1].max() == pytest.approx(
+            small_curve.normal_largest[:, place].max()
+        )
+
+
+def test_curve_figure_has_four_labelled_panels(small_curve: ResponseCurve) -> None:
+    figure = curves.curve_figure(small_curve, "two-blades, model=A")
+
+    check_labels(figure)
+    assert len(figure.axes) == 4
+    assert figure.get_suptitle() == "two-blades, model=A"
+
+
+def test_curve_that_folds_back_is_drawn_as_it_was_traced(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    small_curve.frequency[:] = 2.0 * np.pi * np.array([130.0, 132.0, 131.0, 133.0])
+
+    curves.frequency_response(axes, small_curve)
+
+    shown = np.asarray(axes.lines[0].get_xdata())
+    np.testing.assert_allclose(shown, [130.0, 132.0, 131.0, 133.0])
+
+
+def test_without_normal_forces_the_error_takes_their_place(
+    small_curve: ResponseCurve,
+) -> None:
+    none = np.zeros_like(small_curve.normal_largest)
+    curve = dataclasses.replace(
+        small_curve,
+        normal_smallest=none,
+        normal_largest=none,
+        damping_energy=none[:, 0],
+    )
+
+    figure = curves.curve_figure(curve, "duffing")
+
+    check_labels(figure)
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    assert titles[-1] == "Estimated error of amplitude"
+    assert legend(figure.axes[2]) == ["friction"]
+    known = np.isfinite(curve.error)
+    drawn = np.asarray(figure.axes[3].lines[0].get_ydata())
+    assert drawn[known] == pytest.approx(100.0 * curve.error[known])

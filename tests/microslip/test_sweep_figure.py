@@ -1,0 +1,123 @@
+"""Pictures of sweeps: the data that they show, labels with units."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+
+from figure_checks import check_labels, check_lines, legend
+from microslip.figures import curve as curves
+from microslip.figures import sweep as sweeps
+from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.time_history import TimeHistory
+
+
+def test_displacement_shows_one_probe_in_millimetres(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.displacement(axes, small_history, 1, "C0")
+
+    moved = 1e3 * small_history.displacement[:, 1]
+    check_lines(axes.lines, small_history.time, [moved])
+    assert "follower blade" in axes.get_title(loc="left")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time [s]", "displacement [mm]")
+
+
+def test_relative_velocity_shows_one_probe(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.relative_velocity(axes, small_history, 3)
+
+    check_lines(axes.lines, small_history.time, [small_history.velocity[:, 3]])
+    assert "element to excited" in axes.get_title(loc="left")
+    assert axes.get_ylabel() == "velocity [m/s]"
+
+
+def test_normal_force_shows_the_points_of_one_face(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.normal_force(axes, small_history, "B", [0, 1])
+
+    check_lines(axes.lines, small_history.time, [*small_history.normal_force.T[:2]])
+    assert legend(axes) == ["B1", "B2"]
+    assert axes.get_ylabel() == "force [N]"
+
+
+def test_friction_power_is_shown_negative_as_in_the_paper(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.friction_power(axes, small_history)
+
+    power = -small_history.friction_power
+    check_lines(axes.lines, small_history.time, [power])
+    assert axes.get_ylabel() == "power [W]"
+
+
+def test_energies_show_all_flows_with_their_totals(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.energies(axes, small_history)
+
+    check_lines(axes.lines, small_history.time, [*small_history.energy.T[:4]])
+    names = ("input", "friction", "normal damping", "structural damping")
+    totals = small_history.energy[-1, :4]
+    assert legend(axes) == [
+        f"{name}: {total:.4g} J" for name, total in zip(names, totals, strict=True)
+    ]
+    assert axes.get_ylabel() == "energy [J]"
+    closing = np.abs(small_history.closing_error).max()
+    assert f"{closing:.1e} J" in axes.get_title(loc="left")
+
+
+def test_sweep_figure_has_a_labelled_panel_for_each_thing_to_see(
+    small_history: TimeHistory,
+) -> None:
+    figure = sweeps.sweep_figure(small_history, "two-blades")
+
+    check_labels(figure)
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    # two blades, one slip, two faces, power, energies
+    assert len(titles) == len(set(titles)) == 7
+    assert figure.get_suptitle() == "two-blades"
+
+
+def test_sweep_figure_shows_both_blades_on_one_scale(
+    small_history: TimeHistory,
+) -> None:
+    figure = sweeps.sweep_figure(small_history, "two-blades")
+
+    limits = [axes.get_ylim() for axes in figure.axes[:2]]
+    largest = 1e3 * np.abs(small_history.displacement[:, :2]).max()
+    assert limits[0] == limits[1]
+    assert limits[0] == pytest.approx((-1.05 * largest, 1.05 * largest))
+
+
+@pytest.mark.parametrize("panel", ["sweep", "curve"])
+def test_legend_of_energies_lies_above_their_lines(
+    axes: Axes, panel: str, small_history: TimeHistory, small_curve: ResponseCurve
+) -> None:
+    if panel == "sweep":
+        sweeps.energies(axes, small_history)
+    else:
+        curves.dissipated_energy(axes, small_curve)
+
+    axes.figure.draw_without_rendering()  # type: ignore[union-attr]
+    shown = axes.get_legend()
+    assert shown is not None
+    below = axes.transData.inverted().transform(shown.get_window_extent())[0, 1]
+    assert below > max(np.max(line.get_ydata()) for line in axes.lines)
+
+
+def test_without_normal_forces_there_is_no_panel_of_them(
+    small_history: TimeHistory,
+) -> None:
+    none = np.zeros_like(small_history.normal_force)
+
+    pressed = sweeps.sweep_figure(small_history, "rig")
+    free = sweeps.sweep_figure(
+        dataclasses.replace(small_history, normal_force=none), "rig"
+    )
+
+    assert any("Normal" in each.get_title(loc="left") for each in pressed.axes)
+    assert not any("Normal" in each.get_title(loc="left") for each in free.axes)

@@ -1,0 +1,1 @@
+"""Reference problems: published or closed-form answers beside microslip's own."""

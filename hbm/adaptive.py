@@ -7,8 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.effort import Effort
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, Linearised, Outcome, SingularError, correct
+from hbm.newton import (
+    Correction,
+    Linearised,
+    Outcome,
+    SingularError,
+    Small,
+    correct,
+)
 from hbm.resolution import Estimate, Resolution
 from microslip_mechanics.arrays import Array
 
@@ -24,6 +32,8 @@ SHARPER = 4.0
 
 WAIT = 10
 """points before less is tried again, where more was needed"""
+PERSEVERANCE = 60
+"""iterations of Newton after the resolution has been raised"""
 PATIENCE = 3
 """failures in a row before the resolution is raised"""
 
@@ -42,6 +52,7 @@ class AdaptiveBalance:
         tolerance: float | None,
         most: int = HARMONICS,
         errors: bool = True,
+        effort: Effort | None = None,
     ) -> None:
         """Begin with ``start``; without ``tolerance`` stay there.
 
@@ -49,11 +60,12 @@ class AdaptiveBalance:
 
         ``tolerance`` is the relative error of the amplitude at each point; ``most`` the
         number of harmonics that are not exceeded. Without ``errors`` those of a fixed
-        resolution are not estimated.
+        resolution are not estimated. ``effort`` counts the evaluations.
         """
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
         self.fourier = self.settled = self._kept = start
-        self._wait, self._smoothest = 0, start.threshold
+        self._wait, self._effort = 0, effort or Effort()
+        self._smoothest = start.threshold
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold or none is asked for"""
@@ -62,6 +74,7 @@ class AdaptiveBalance:
 
     def __call__(self, point: Array) -> tuple[Array, Linearised]:
         """Return residual and derivative at the present resolution."""
+        self._effort.spend(self.fourier.harmonics)
         return self._resolution.at(self.fourier)(point)
 
     def restart(self, harmonics: int) -> None:
@@ -90,12 +103,17 @@ class AdaptiveBalance:
                 self.fourier = self._doubled(True, True)
 
     def settle(
-        self, correction: Correction, normal: Array, tolerance: float
+        self,
+        correction: Correction,
+        normal: Array,
+        tolerance: float,
+        small: Small | None = None,
     ) -> Correction:
         """Refine a converged point until its error is small enough, and note the error.
 
         The refined point lies in the plane through it, normal to ``normal``;
-        ``tolerance`` is that of the residual. What is returned may have failed.
+        ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`. What is
+        returned may have failed.
         """
         while True:
             self.settled = self.fourier
@@ -111,7 +129,15 @@ class AdaptiveBalance:
             if finer == self.fourier:
                 return correction
             self.fourier, self._wait = finer, WAIT
-            again = correct(self, self.estimate.corrected, normal, tolerance=tolerance)
+            guess = self.estimate.corrected
+            again = correct(
+                self,
+                guess,
+                normal,
+                tolerance=tolerance,
+                small=small,
+                max_iterations=PERSEVERANCE,
+            )
             correction = replace(
                 again, residuals=correction.residuals[:-1] + again.residuals
             )

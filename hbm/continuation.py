@@ -13,6 +13,7 @@ from hbm.newton import (
     Linearised,
     Outcome,
     SingularError,
+    Small,
     System,
     correct,
 )
@@ -76,7 +77,8 @@ def trace(
     ContinuationError
         If the first point or, after the shortest step, a later one does not converge.
     """
-    accepted, step = correct_at(system, start, control, settler), control.initial
+    accepted = correct_at(system, start, control, settler, metric)
+    step = control.initial
     begin = float(start[-1]) if begin is None else begin
     if direction is None:
         direction = np.zeros_like(start)
@@ -93,10 +95,11 @@ def trace(
             step = control.after(went, missed, past.order, accepted.iterations)
         candidate, went = _next(system, past, direction, scale, step, control, settler)
         if not low < candidate.point[-1] < high:
-            yield _border(system, accepted, candidate, (low, high), control, settler)
+            limits = (low, high)
+            yield _border(system, accepted, candidate, limits, control, settler, metric)
             return
         if number >= FEWEST and _passes(first, accepted, candidate, scale):
-            closed = correct_at(system, first.point, control, settler)
+            closed = correct_at(system, first.point, control, settler, metric)
             yield replace(closed, tangent=first.tangent)
             return
         scale = metric(candidate.point)
@@ -111,9 +114,15 @@ def trace(
 
 
 def correct_at(
-    system: System, guess: Array, control: StepControl, settler: Settler = UNSETTLED
+    system: System,
+    guess: Array,
+    control: StepControl,
+    settler: Settler = UNSETTLED,
+    metric: Metric | None = None,
 ) -> Correction:
     """Correct a guess at its own parameter.
+
+    With a ``metric`` steps that :class:`StepControl` neglects end the iteration.
 
     Raises
     ------
@@ -122,15 +131,28 @@ def correct_at(
     """
     normal = np.zeros_like(guess)
     normal[-1] = 1.0
+    small = _small(control, metric)
     found = correct(
-        system, guess, normal, tolerance=control.tolerance, max_iterations=60
+        system,
+        guess,
+        normal,
+        tolerance=control.tolerance,
+        small=small,
+        max_iterations=60,
     )
     if found.outcome is Outcome.CONVERGED:
-        found = settler.settle(found, normal, control.tolerance)
+        found = settler.settle(found, normal, control.tolerance, small)
         settler.keep()
     if found.outcome is not Outcome.CONVERGED:
         raise ContinuationError(_text(float(guess[-1]), found, control))
     return found
+
+
+def _small(control: StepControl, metric: Metric | None) -> Small | None:
+    """Return what a step of Newton's iteration may neglect, if it may."""
+    if metric is None or control.negligible == 0.0:
+        return None
+    return Small(lambda point: control.negligible * metric(point), control.loose)
 
 
 def _begun(first: Correction, direction: Array, scale: Array) -> Array:
@@ -191,13 +213,16 @@ def _next(
     normal = direction / scale**2
     normal /= np.abs(normal).max()
     failures = 0
+    small = _small(control, lambda _: scale)
     while True:
         predicted = past.predict(step)
-        candidate = correct(system, predicted, normal, tolerance=control.tolerance)
+        candidate = correct(
+            system, predicted, normal, tolerance=control.tolerance, small=small
+        )
         moved = float(np.linalg.norm((candidate.point - predicted) / scale))
         close = moved <= max(0.5 * step, control.slack)
         if candidate.outcome is Outcome.CONVERGED and close:
-            candidate = settler.settle(candidate, normal, control.tolerance)
+            candidate = settler.settle(candidate, normal, control.tolerance, small)
         candidate = _directed(candidate, direction, scale)
         if candidate.outcome is Outcome.CONVERGED:
             cosine = float((candidate.along / scale) @ (direction / scale))
@@ -233,6 +258,7 @@ def _border(
     limits: tuple[float, float],
     control: StepControl,
     settler: Settler,
+    metric: Metric,
 ) -> Correction:
     """Return the point exactly on the limit that lies between two points."""
     limit = limits[0] if candidate.point[-1] <= limits[0] else limits[1]
@@ -240,7 +266,7 @@ def _border(
     share = (limit - before) / (after - before)
     guess = accepted.point + share * (candidate.point - accepted.point)
     guess[-1] = limit
-    found = correct_at(system, guess, control, settler)
+    found = correct_at(system, guess, control, settler, metric)
     return replace(found, tangent=candidate.tangent)
 
 

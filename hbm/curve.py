@@ -16,6 +16,7 @@ from hbm.events import (
     PRECISION,
     ROUGH,
     ROUGHER,
+    SURE,
     Segment,
     crossings,
     excess,
@@ -53,6 +54,8 @@ class Curve:
     resolution: PathResolution
     control: StepControl
     multipliers: Multipliers
+    events: bool
+    """whether they are located"""
 
     def followed(
         self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
@@ -65,7 +68,7 @@ class Curve:
         for correction in corrections:
             mark = beginning if before is None else "restart"
             made = self._made(correction, "" if correction.joined else mark)
-            if before is not None and correction.joined:
+            if self.events and before is not None and correction.joined:
                 yield from self._between(*before, correction, made, metric)
             yield made.response
             before = correction, made
@@ -82,7 +85,8 @@ class Curve:
         fourier = self.system.fourier
         self.system.fourier = self.system.settled
         scale, tolerance = metric(before.point), self.control.tolerance
-        segment = Segment(self.system, before, after, scale, tolerance)
+        loose = self.control.loose if self.control.negligible else 0.0
+        segment = Segment(self.system, before, after, scale, tolerance, loose)
         tests = self._tests(last, made)
         found = [
             (segment.place(located.point), name, located)
@@ -93,7 +97,8 @@ class Curve:
         for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
-            settled = self.system.settle(located, normal, tolerance)
+            small = segment.small(PRECISION * SURE)
+            settled = self.system.settle(located, normal, tolerance, small)
             if settled.outcome is Outcome.CONVERGED:
                 yield self._made(settled, name).response
         self.system.fourier = fourier

@@ -2,7 +2,8 @@
 
 At a few frequencies the drive grows from little to a multiple of its value, through
 folds. A response that is passed at the wanted drive and does not lie on a known curve
-is a point of another one, which is followed to both sides until it closes.
+is a point of another one, which is followed to both sides until it closes. What that
+may cost is bounded.
 """
 
 from __future__ import annotations
@@ -28,8 +29,26 @@ LEAST, MOST = 0.05, 4.0
 """drives between which is sought, over the wanted one"""
 COARSE = 1e-2
 """relative error of amplitude while seeking"""
+HARMONICS = 31
+"""most while seeking"""
 ALIKE = 0.03
 """relative difference up to which two responses are one"""
+SEEKING, FOLLOWING = 2e3, 1e5
+"""evaluations for a curve of drives, and for a detached curve"""
+
+
+@dataclass(frozen=True, slots=True)
+class Sought:
+    """What the search at one frequency has come to."""
+
+    frequency: float
+    """[rad/s]"""
+    share: float
+    """largest drive up to which responses were followed, over the wanted one"""
+    cause: str
+    """why no larger one was reached; empty if all were"""
+    lost: str
+    """why a detached curve was not followed to its end; empty if none was lost"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,13 +58,17 @@ class Search:
     problem: Problem
     path: AlongFrequency
     options: CurveOptions
+    effort: float = 1.0
+    """that is granted, over the usual one"""
 
     def curves(
         self,
         known: Sequence[PeriodicResponse],
         frequencies: Iterable[float],
-    ) -> Iterator[PeriodicResponse]:
+    ) -> Iterator[PeriodicResponse | Sought]:
         """Yield the responses on detached curves, the first of each side marked so.
+
+        After those that are found at a frequency comes what the search there was.
 
         Parameters
         ----------
@@ -53,40 +76,62 @@ class Search:
             Responses along the known curve, in order.
         frequencies
             At which the drive is varied [rad/s].
+        """
+        found = list(known)
+        for frequency in frequencies:
+            candidates, sought = self.at_frequency(frequency)
+            for candidate in candidates:
+                if self._lies_on(found, candidate):
+                    continue
+                try:
+                    for each in self._followed(candidate):
+                        found.append(each)
+                        yield each
+                except ContinuationError as cause:
+                    sought = replace(sought, lost=str(cause))
+            yield sought
+
+    def _followed(self, candidate: PeriodicResponse) -> Iterator[PeriodicResponse]:
+        """Yield the responses to both sides of one.
 
         Raises
         ------
         ContinuationError
-            If a detached curve cannot be followed.
+            If they cannot be followed to their end.
         """
-        found = list(known)
-        for frequency in frequencies:
-            for candidate in self.at_frequency(frequency):
-                if self._lies_on(found, candidate):
-                    continue
-                tracer = Tracer(self.problem, self.path, self.options)
-                selection = self.path.problem.selection
-                for each in tracer.from_response(candidate, selection, "detached"):
-                    found.append(each)
-                    yield each
+        options = replace(self.options, effort=FOLLOWING * self.effort)
+        tracer = Tracer(self.problem, self.path, options)
+        selection = self.path.problem.selection
+        yield from tracer.from_response(candidate, selection, "detached")
 
-    def at_frequency(self, frequency: float) -> list[PeriodicResponse]:
-        """Return the responses at the wanted drive that lie on one curve of drives."""
+    def at_frequency(self, frequency: float) -> tuple[list[PeriodicResponse], Sought]:
+        """Return the responses at the wanted drive that lie on one curve of drives.
+
+        And how far that curve was followed.
+        """
         options = replace(
-            self.options, start=LEAST, end=MOST, error=COARSE, stability=False
+            self.options,
+            start=LEAST,
+            end=MOST,
+            error=COARSE,
+            stability=False,
+            events=False,
+            most_harmonics=HARMONICS,
+            effort=SEEKING * self.effort,
         )
         path = AlongParameter(self._driven, frequency, LEAST, MOST)
         tracer = Tracer(self.problem, path, options)
         passed: list[PeriodicResponse] = []
         before: PeriodicResponse | None = None
+        share, cause = 0.0, ""
         try:
             for each in tracer.responses():
                 if before is not None and _between(before, each):
                     passed += self._wanted(before, each)
-                before = each
-        except ContinuationError:
-            return passed
-        return passed
+                before, share = each, max(share, each.parameter)
+        except ContinuationError as error:
+            cause = str(error)
+        return passed, Sought(frequency, share, cause, "")
 
     def _wanted(
         self, before: PeriodicResponse, after: PeriodicResponse

@@ -14,13 +14,15 @@ import numpy as np
 import scipy.optimize
 
 from hbm.continuation import tangent
-from hbm.newton import Correction, Outcome, SingularError, System, correct
+from hbm.newton import Correction, Outcome, SingularError, Small, System, correct
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.response import MARGIN
 
 PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
 """of a located place, over the length of the step in which it is; the second where a
 test function is less accurate than that, the third where it is costly too"""
+SURE = 0.1
+"""of that: step of Newton's iteration that is the last one"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +36,9 @@ class Segment:
     """metric at the first, shape (n + 1,)"""
     tolerance: float
     """of the residual"""
+    loose: float = 0.0
+    """residual with which a point may do whose next step is too small to matter; no
+    point may if it is zero"""
 
     @property
     def length(self) -> float:
@@ -60,28 +65,41 @@ class Segment:
         def value(place: float) -> float:
             if place <= 0.0:
                 return first
-            return last if place >= length else test(self._at(place, length))
+            return last if place >= length else test(self._at(place, length, near))
 
         near = precision * length
         try:
             root = scipy.optimize.brentq(value, 0.0, length, xtol=near, rtol=1e-12)
-            return self._at(float(root), length)
+            return self._at(float(root), length, near)
         except (_LostError, SingularError):
             return None
+
+    def small(self, share: float) -> Small | None:
+        """Return what Newton's iteration may neglect, by a share of the scale."""
+        if self.loose == 0.0:
+            return None
+        return Small(lambda _: share * self.scale, self.loose)
 
     def place(self, point: Array) -> float:
         """Return the distance from the first point along its tangent."""
         along = self.before.along / self.scale
         return float(along @ ((point - self.before.point) / self.scale))
 
-    def _at(self, place: float, length: float) -> Correction:
-        """Return the point of the curve at a distance, with its tangent."""
+    def _at(self, place: float, length: float, near: float) -> Correction:
+        """Return the point of the curve at a distance, with its tangent.
+
+        It is known better than to ``near``.
+        """
         direction = self.before.along
         bend = self.after.point - self.before.point - length * direction
         guess = self.before.point + place * direction + (place / length) ** 2 * bend
         normal = direction / self.scale**2
         found = correct(
-            self.system, guess, normal / np.abs(normal).max(), tolerance=self.tolerance
+            self.system,
+            guess,
+            normal / np.abs(normal).max(),
+            tolerance=self.tolerance,
+            small=self.small(SURE * near),
         )
         if found.outcome is not Outcome.CONVERGED:
             raise _LostError

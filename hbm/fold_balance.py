@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.linearisation import Linearisation
-from hbm.newton import Correction
+from hbm.newton import Correction, Small
 from microslip_mechanics.arrays import Array
 
 SHIFT = 1e-5
@@ -95,6 +95,7 @@ class FoldBalance:
         correction: Correction,
         normal: Array,  # noqa: ARG002
         tolerance: float,  # noqa: ARG002
+        small: Small | None = None,  # noqa: ARG002
     ) -> Correction:
         """Return the point, and remember it."""
         self._settled = correction

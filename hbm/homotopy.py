@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.continuation import ContinuationError, correct_at
+from hbm.continuation import ContinuationError, Metric, correct_at
+from hbm.effort import Effort
 from hbm.fourier import FourierBasis
 from hbm.path import Path
 from hbm.relative import RelativeProblem
@@ -22,16 +23,25 @@ SMOOTH = 1e4
 """times the threshold velocity with which a homotopy begins"""
 
 
-def approached(path: Path, parameter: float, control: StepControl) -> Array | None:
+def approached(
+    path: Path,
+    parameter: float,
+    control: StepControl,
+    effort: Effort,
+    metric: Metric,
+) -> Array | None:
     """Return coefficients of the response at a parameter, (2H + 1, rank), if found.
 
     The drive grows from nothing, or the threshold velocity of friction falls from a
     large value, or friction grows from nothing, at coarse resolutions in turn.
+    ``effort`` counts what that takes; ``metric`` measures steps of Newton's iteration.
     """
     for fourier in FOURIERS:
         for easier in HOMOTOPIES:
             try:
-                return _followed(path, parameter, easier, fourier, control)
+                return _followed(
+                    path, parameter, easier, fourier, control, effort, metric
+                )
             except ContinuationError:
                 continue
     return None
@@ -43,6 +53,8 @@ def _followed(
     easier: Callable[[RelativeProblem, float], RelativeProblem],
     fourier: FourierBasis,
     control: StepControl,
+    effort: Effort,
+    metric: Metric,
 ) -> Array:
     """Return the coefficients at the end of a homotopy, shape (2H + 1, rank).
 
@@ -61,7 +73,8 @@ def _followed(
         target = min(1.0, place + step)
         balance = HarmonicBalance(easier(problem, target), fourier, mask)
         try:
-            found = correct_at(balance, point, control).point
+            counted = effort.counted(balance, fourier.harmonics)
+            found = correct_at(counted, point, control, metric=metric).point
         except ContinuationError:
             step *= 0.5
             if step < SMALLEST_STEP:

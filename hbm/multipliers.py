@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome, correct
+from hbm.newton import Outcome, Small, correct
 from hbm.resolution import PathResolution
 from hbm.stability import SmallMotions
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
 
 RATTLING = 0.5
@@ -23,6 +24,8 @@ LEADING = 3
 """how many of them are looked at"""
 ASIDE = 0.02
 """relative change of the amplitude from which a finer orbit is another one"""
+SMALL = 1e-6
+"""relative change of the motion that Newton's iteration may neglect"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +35,7 @@ class Multipliers:
     resolution: PathResolution
     motions: Callable[[float], SmallMotions] | None
     """parameter ↦ the structure for small motions, if stability is wanted"""
-    tolerance: float
-    """of the residual"""
+    control: StepControl
     fixed: bool
     """whether the harmonics are given, not found"""
 
@@ -77,8 +79,14 @@ class Multipliers:
         """Return the orbit at the same parameter with another resolution, if found."""
         normal = np.zeros_like(point)
         normal[-1] = 1.0
+        vibration = float(np.linalg.norm(point[self.resolution.rank : -1]))
+        changes = np.full_like(point, SMALL * vibration)
         found = correct(
-            self.resolution.at(fourier), point, normal, tolerance=self.tolerance
+            self.resolution.at(fourier),
+            point,
+            normal,
+            tolerance=self.control.tolerance,
+            small=Small(lambda _: changes, self.control.loose),
         )
         if found.outcome is not Outcome.CONVERGED:
             return None

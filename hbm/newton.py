@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -15,6 +15,9 @@ ROUNDING = 1e-8
 """relative size of a step that cannot lower the residual because of rounding"""
 HALVINGS = 12
 """of a step, at the most"""
+STUCK = 10.0
+"""times what does not matter: a step of that size that does not lower the residual is
+taken to meet a small jump of it, and is good enough where iterations run out"""
 CHORD = 0.1
 """contraction that shows that the Jacobian has hardly changed"""
 
@@ -42,10 +45,19 @@ System: TypeAlias = Callable[[Array], tuple[Array, Linearised]]
 """point (n + 1,) ↦ residual (n,) and what solves with its Jacobian"""
 
 
+class Small(NamedTuple):
+    """What does not matter near a solution."""
+
+    changes: Callable[[Array], Array]
+    """point (n + 1,) ↦ changes of its components that do not matter"""
+    residual: float
+    """largest residual with which a point may be taken for a solution"""
+
+
 class Outcome(enum.Enum):
     """How a Newton correction ended."""
 
-    CONVERGED = "the residual fell below the tolerance, or to rounding"
+    CONVERGED = "the residual fell below the tolerance, or the step became negligible"
     EXHAUSTED = "the iteration limit was reached"
     STALLED = "no step along Newton's direction lowers the residual"
     SINGULAR = "the bordered Jacobian is singular"
@@ -85,6 +97,7 @@ def correct(
     normal: Array,
     *,
     tolerance: float,
+    small: Small | None = None,
     max_iterations: int = 25,
     chord: float = CHORD,
 ) -> Correction:
@@ -100,6 +113,9 @@ def correct(
         Row that borders the Jacobian, shape ``(n + 1,)``.
     tolerance
         Of the largest residual.
+    small
+        What does not matter: a whole step whose components, over its changes, have a
+        norm up to one is the last. None if left out.
     max_iterations
         Newton steps before the correction gives up.
     chord
@@ -112,9 +128,11 @@ def correct(
     point = predicted
     residual, linearised = system(point)
     slope = linearised
-    sizes = [_size(residual)]
+    sizes, creeps = [_size(residual)], False
     while True:
         ended = _ended(sizes, tolerance, max_iterations)
+        if ended is Outcome.EXHAUSTED and creeps:
+            ended = Outcome.CONVERGED
         if ended is not None:
             return Correction(point, residual, linearised, ended, tuple(sizes))
         try:
@@ -123,25 +141,52 @@ def correct(
             return Correction(
                 point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
             )
-        merit = _merit(residual)
-        for halving in range(HALVINGS if slope is linearised else 1):
-            trial = point - step / 2**halving
-            tried, derivative = system(trial)
-            share = _merit(tried) / merit
-            if share < 1.0 - 1e-4 / 2**halving:
-                break
-        else:
-            if slope is not linearised:
-                slope = linearised
-                continue
-            small = float(np.linalg.norm(step)) <= ROUNDING * float(
-                np.linalg.norm(point[:-1])
-            )
-            outcome = Outcome.CONVERGED if small else Outcome.STALLED
+        stuck = creeps = _within(step, point, sizes[-1], small, STUCK)
+        once = stuck or slope is not linearised
+        lowered = _lowered(system, point, residual, step, 1 if once else HALVINGS)
+        if lowered is None and slope is not linearised:
+            slope = linearised
+            continue
+        if lowered is None:
+            outcome = Outcome.CONVERGED if stuck else Outcome.STALLED
             return Correction(point, residual, linearised, outcome, tuple(sizes))
-        point, residual, linearised = trial, tried, derivative
+        point, residual, linearised, share, part = lowered
         slope = slope if share < chord else linearised
         sizes.append(_size(residual))
+        if part == 1.0 and _negligible(step, point, sizes[-1], small, 1.0):
+            return Correction(
+                point, residual, linearised, Outcome.CONVERGED, tuple(sizes)
+            )
+
+
+class Lowered(NamedTuple):
+    """What a step that lowers the residual has led to."""
+
+    point: Array
+    residual: Array
+    linearised: Linearised
+    share: float
+    """of the residual that is left"""
+    part: float
+    """of the step that was taken"""
+
+
+def _lowered(
+    system: System, point: Array, residual: Array, step: Array, attempts: int
+) -> Lowered | None:
+    """Return where the largest part of a step leads that lowers the residual.
+
+    It is halved until it does; None if it does not after so many ``attempts``.
+    """
+    merit = _merit(residual)
+    for halving in range(attempts):
+        part = 0.5**halving
+        trial = point - part * step
+        tried, derivative = system(trial)
+        share = _merit(tried) / merit
+        if share < 1.0 - 1e-4 * part:
+            return Lowered(trial, tried, derivative, share, part)
+    return None
 
 
 def _ended(sizes: list[float], tolerance: float, max_iterations: int) -> Outcome | None:
@@ -151,6 +196,27 @@ def _ended(sizes: list[float], tolerance: float, max_iterations: int) -> Outcome
     if sizes[-1] <= tolerance:
         return Outcome.CONVERGED
     return Outcome.EXHAUSTED if len(sizes) > max_iterations else None
+
+
+def _within(
+    step: Array, point: Array, size: float, small: Small | None, times: float
+) -> bool:
+    """Return whether a step changes nothing that matters, or rounding only."""
+    if float(np.linalg.norm(step)) <= ROUNDING * float(np.linalg.norm(point[:-1])):
+        return True
+    return _negligible(step, point, size, small, times)
+
+
+def _negligible(
+    step: Array, point: Array, size: float, small: Small | None, times: float
+) -> bool:
+    """Return whether a step changes nothing that matters, near a solution.
+
+    ``size`` is that of the residual.
+    """
+    if small is None or size > small.residual:
+        return False
+    return float(np.linalg.norm(step / small.changes(point))) <= times
 
 
 def _merit(residual: Array) -> float:

@@ -6,8 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hbm.adaptive import HARMONICS
 from hbm.fourier import FourierBasis
 from hbm.step_control import StepControl
+
+POSITIVE = (
+    "error", "tolerance", "largest_step", "most_harmonics", "effort", "highest",
+)  # fmt: skip
+"""options that must be positive numbers"""
+SPARE = 1e-2
+"""change of the motion that Newton's iteration may neglect, over the error"""
+LOOSE = 1e-4
+"""largest unbalanced force with which it may, over the drive"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +45,13 @@ class CurveOptions:
     pruned: bool = True
     """whether what always stays at zero is left out: what a symmetry keeps still, the
     second half of a period that mirrors the first, tangents that a law does not have"""
+    events: bool = True
+    """whether peaks, folds and changes of stability are located"""
+    most_harmonics: int = HARMONICS
+    """that an error tolerance may ask for"""
+    effort: float | None = None
+    """evaluations of the residual after which a curve is given up, see
+    :class:`~hbm.effort.Effort`"""
     highest: float | None = None
     """frequency up to which a sparse structure is resolved [rad/s], see
     :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger one if left out"""
@@ -45,7 +62,7 @@ class CurveOptions:
             raise ValueError(
                 f"from {self.start:g} to {self.end:g}: give two different finite values"
             )
-        for name in ("error", "tolerance", "largest_step", "highest"):
+        for name in POSITIVE:
             value = getattr(self, name)
             if value is not None and not 0.0 < value < np.inf:
                 raise ValueError(f"{name} {value:g}: give a positive number")
@@ -58,10 +75,17 @@ class CurveOptions:
         harmonics = self.harmonics or 1
         return FourierBasis(harmonics, self.samples or 16 * (harmonics + 1))
 
-    def control(self, force_scale: float) -> StepControl:
-        """Return the steps; ``force_scale`` [N] is what forces are compared with."""
+    def control(self, force_scale: float, drive: float = 0.0) -> StepControl:
+        """Return the steps; ``force_scale`` [N] is what forces are compared with.
+
+        With a ``drive`` [N], and without fixed harmonics, Newton's iteration ends where
+        it no longer changes the motion.
+        """
+        ends_early = drive > 0.0 and not self.harmonics
         return StepControl(
             tolerance=self.tolerance * force_scale,
             initial=min(0.02, self.largest_step),
             largest=self.largest_step,
+            negligible=min(SPARE * self.error, 1e-3) if ends_early else 0.0,
+            loose=LOOSE * drive,
         )

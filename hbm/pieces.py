@@ -12,6 +12,7 @@ import numpy as np
 from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import ContinuationError, trace
 from hbm.corner import round_corner
+from hbm.effort import Effort
 from hbm.homotopy import approached
 from hbm.newton import Correction
 from hbm.path import Path
@@ -41,6 +42,7 @@ class Pieces:
     """parameter at which the curve begins"""
     end: float
     control: StepControl
+    effort: Effort
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
@@ -139,7 +141,9 @@ class Pieces:
             parameter = reached + leap * way
             if (heading - parameter) * way <= 0.0:
                 return None
-            coefficients = approached(self.path, parameter, self.control)
+            coefficients = approached(
+                self.path, parameter, self.control, self.effort, self.metric
+            )
             if coefficients is not None:
                 guess = self._still(parameter)
                 guess[: coefficients.size] = coefficients.ravel()

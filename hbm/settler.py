@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from hbm.newton import Correction
+from hbm.newton import Correction, Small
 from microslip_mechanics.arrays import Array
 
 
@@ -12,9 +12,16 @@ class Settler(Protocol):
     """What makes a converged point good enough to keep."""
 
     def settle(
-        self, correction: Correction, normal: Array, tolerance: float
+        self,
+        correction: Correction,
+        normal: Array,
+        tolerance: float,
+        small: Small | None = None,
     ) -> Correction:
-        """Return the point to keep, in the plane normal to ``normal``; it may fail."""
+        """Return the point to keep, in the plane normal to ``normal``; it may fail.
+
+        ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`.
+        """
 
     def keep(self) -> None:
         """Learn that the last point is kept."""
@@ -31,6 +38,7 @@ class Unsettled:
         correction: Correction,
         normal: Array,  # noqa: ARG002
         tolerance: float,  # noqa: ARG002
+        small: Small | None = None,  # noqa: ARG002
     ) -> Correction:
         """Return the point."""
         return correction

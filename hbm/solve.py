@@ -12,7 +12,7 @@ from hbm.along_parameter import AlongParameter
 from hbm.branches import Branching
 from hbm.continuation import correct_at
 from hbm.curve import response
-from hbm.detached import Search
+from hbm.detached import Search, Sought
 from hbm.fold_curve import FoldCurve, FoldPoint
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
@@ -96,24 +96,43 @@ def detached(
     known: Sequence[PeriodicResponse],
     *,
     frequencies: int = 15,
-) -> Iterator[PeriodicResponse]:
+    effort: float = 1.0,
+) -> Iterator[PeriodicResponse | Sought]:
     """Yield the responses on curves that do not hang together with known ones.
 
     They are sought by homotopy in the drive at some frequencies, spread evenly. The
-    first response to each side has ``event = "detached"``.
+    first response to each side has ``event = "detached"``. After those found at a
+    frequency comes what the search there was.
+
+    Parameters
+    ----------
+    problem, rest, options
+        As for :func:`frequency_response`.
+    known
+        The responses on the known curve.
+    frequencies
+        Number of them.
+    effort
+        What the search may cost, over the usual (theory §6).
 
     Raises
     ------
-    ContinuationError
-        If a detached curve cannot go on; what was yielded before stays valid.
+    ValueError
+        If the effort is not positive.
     """
+    if not 0.0 < effort < np.inf:
+        raise ValueError(f"effort {effort:g}: give a positive number")
     small, still, shapes = _small(problem, rest, options.highest or _most(options))
     path = along_frequency(small, still, options.start, options.end)
     shares = (np.arange(frequencies) + 0.5) / frequencies
     places = options.start + shares * (options.end - options.start)
     with threadpool_limits(1, "blas"):
-        for made in Search(small, path, options).curves(known, places.tolist()):
-            yield replace(made, shapes=shapes)
+        search = Search(small, path, options, effort)
+        for made in search.curves(known, places.tolist()):
+            if isinstance(made, Sought):
+                yield made
+            else:
+                yield replace(made, shapes=shapes)
 
 
 def parameter_response(

@@ -20,6 +20,10 @@ class StepControl:
     """distance by which a correction may leave the prediction in any case"""
     tolerance: float = 1e-9
     """of the largest residual"""
+    negligible: float = 0.0
+    """length of a step of Newton's iteration that is the last one, if …"""
+    loose: float = 0.0
+    """… the residual is not larger"""
     most_points: int = 5000
     """after which a curve is given up"""
     sharpest_turn: float = 0.5
@@ -31,6 +35,11 @@ class StepControl:
             raise ValueError(
                 f"steps {self.smallest:g}, {self.initial:g}, {self.largest:g}: give "
                 "0 < smallest <= initial <= largest"
+            )
+        if not 0.0 <= self.negligible < self.miss:
+            raise ValueError(
+                f"negligible step {self.negligible:g}: give 0 or more, and less than "
+                f"{self.miss:g}"
             )
         if self.tolerance <= 0.0:
             raise ValueError(f"tolerance {self.tolerance:g}: give a positive one")

@@ -9,6 +9,7 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.curve import Curve
+from hbm.effort import Effort
 from hbm.multipliers import Multipliers
 from hbm.options import CurveOptions
 from hbm.path import Path
@@ -26,23 +27,38 @@ class Tracer:
 
     def __init__(self, problem: Problem, path: Path, options: CurveOptions) -> None:
         """Plan for ``path``; ``problem``, one on it, says what is large."""
-        self.path = path
+        self.path, self.effort = path, Effort(options.effort)
         resolution = PathResolution(path, problem.probes.rows)
         self.system = AdaptiveBalance(
             resolution,
             replace(options.first, threshold=smoothest(path, options)),
             tolerance=None if options.harmonics else options.error,
+            most=options.most_harmonics,
             errors=options.errors,
+            effort=self.effort,
         )
-        self.control = options.control(problem.force_scale)
+        drive = float(np.abs(problem.drive).max(initial=0.0))
+        self.control = options.control(problem.force_scale, drive)
         rigid = bool((problem.interface.points.friction == RIGID).any())
         motions = path.motions if options.stability and not rigid else None
         multipliers = Multipliers(
-            resolution, motions, self.control.tolerance, options.harmonics is not None
+            resolution, motions, self.control, options.harmonics is not None
         )
-        self.curve = Curve(problem, self.system, resolution, self.control, multipliers)
+        self.curve = Curve(
+            problem,
+            self.system,
+            resolution,
+            self.control,
+            multipliers,
+            options.events,
+        )
         self.pieces = Pieces(
-            path, self.system, options.start, options.end, self.control
+            path,
+            self.system,
+            options.start,
+            options.end,
+            self.control,
+            self.effort,
         )
 
     def responses(self) -> Iterator[PeriodicResponse]:

@@ -164,6 +164,8 @@ def test_no_point_of_a_curve_errs_by_more_than_its_tolerance(error: float) -> No
 PESSIMISTIC = {
     "bouncing": "2e5: most of its points never part, and their series converge fast",
     "full": "72: the series of half of its points converge fast",
+    "A": "23; 19 with 70 points, 10 in the median of the points that slide",
+    "B": "23, as A",
 }
 """ratio of the medians, measured where it is too large
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hbm.continuation import ContinuationError, correct_at, tangent, trace
-from hbm.newton import Correction, Outcome, System
+from hbm.newton import Correction, Outcome, Small, System
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from systems import Dense
@@ -264,8 +264,13 @@ class Picky:
         self.refused, self.told = refused, list[str]()
 
     def settle(
-        self, correction: Correction, normal: Array, tolerance: float
+        self,
+        correction: Correction,
+        normal: Array,
+        tolerance: float,
+        small: Small | None = None,
     ) -> Correction:
+        assert small is None
         assert normal.shape == correction.point.shape
         assert tolerance == CONTROL.tolerance
         self.told.append("settle")

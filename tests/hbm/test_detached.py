@@ -5,8 +5,10 @@ import functools
 import numpy as np
 import pytest
 
+from hbm.detached import MOST, Sought
 from hbm.options import CurveOptions
 from hbm.solve import detached, frequency_response
+from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from small_problems import dwelled, last_harmonic, oscillator, sliding_block
@@ -32,12 +34,33 @@ ASIDE = 1.02
 """times the motion with which a march begins"""
 
 
+def sought(
+    problem: Problem, curve: list[PeriodicResponse], effort: float = 1.0
+) -> tuple[list[PeriodicResponse], list[Sought]]:
+    """Return what is detached from a curve, and how it was sought."""
+    found = list(
+        detached(
+            problem,
+            static_equilibrium(problem),
+            OPTIONS,
+            curve,
+            frequencies=3,
+            effort=effort,
+        )
+    )
+    responses = [each for each in found if not isinstance(each, Sought)]
+    return responses, [each for each in found if isinstance(each, Sought)]
+
+
+@functools.cache
+def known() -> list[PeriodicResponse]:
+    return list(frequency_response(BLOCK, static_equilibrium(BLOCK), OPTIONS))
+
+
 @functools.cache
 def curves() -> tuple[list[PeriodicResponse], list[PeriodicResponse]]:
     """Return the curve of the sticking block, and what is detached from it."""
-    rest = static_equilibrium(BLOCK)
-    curve = list(frequency_response(BLOCK, rest, OPTIONS))
-    return curve, list(detached(BLOCK, rest, OPTIONS, curve, frequencies=3))
+    return known(), sought(BLOCK, known())[0]
 
 
 def amplitude(response: PeriodicResponse) -> float:
@@ -97,7 +120,40 @@ def test_stable_points_of_it_are_kept_by_a_march_and_unstable_ones_left() -> Non
 
 def test_a_linear_block_has_no_detached_curve() -> None:
     problem = oscillator()
-    rest = static_equilibrium(problem)
-    curve = list(frequency_response(problem, rest, OPTIONS))
+    curve = list(frequency_response(problem, static_equilibrium(problem), OPTIONS))
 
-    assert list(detached(problem, rest, OPTIONS, curve, frequencies=3)) == []
+    found, places = sought(problem, curve)
+
+    assert found == []
+    assert [each.share for each in places] == [MOST] * 3
+    assert {each.cause + each.lost for each in places} == {""}
+
+
+def test_a_search_without_the_effort_for_it_says_how_far_it_came() -> None:
+    found, places = sought(BLOCK, known(), effort=0.02)
+
+    assert found == []
+    assert [each.frequency for each in places] == pytest.approx([29 / 3, 13, 49 / 3])
+    assert all(0.0 < each.share < MOST for each in places)
+    assert all("40 evaluations, is spent" in each.cause for each in places)
+
+
+def test_a_curve_that_takes_more_than_the_effort_is_followed_in_part(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("hbm.detached.FOLLOWING", 5000.0)
+
+    found, places = sought(BLOCK, known())
+
+    assert found[0].event == "detached"
+    assert "5000 evaluations, is spent" in places[0].lost
+    whole = curves()[1]
+    assert 1 < len(found) < len(whole)
+    together = zip(found[:2], whole, strict=False)
+    assert all(one.frequency == other.frequency for one, other in together)
+
+
+def test_an_effort_is_positive() -> None:
+    rest = static_equilibrium(BLOCK)
+    with pytest.raises(ValueError, match="effort 0: give a positive number"):
+        next(detached(BLOCK, rest, OPTIONS, [], effort=0.0))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hbm.newton import Correction, Outcome, System, correct
+from hbm.newton import Correction, Outcome, Small, System, correct
 from microslip_mechanics.arrays import Array
 from systems import Dense
 
@@ -14,7 +14,12 @@ AT_ITS_PARAMETER = np.array([0.0, 1.0])
 
 
 def corrected(
-    system: System, start: float, *, parameter: float = 0.0, max_iterations: int = 15
+    system: System,
+    start: float,
+    *,
+    parameter: float = 0.0,
+    max_iterations: int = 15,
+    small: Small | None = None,
 ) -> Correction:
     """Correct one unknown at a fixed parameter."""
     return correct(
@@ -23,6 +28,7 @@ def corrected(
         AT_ITS_PARAMETER,
         tolerance=1e-12,
         max_iterations=max_iterations,
+        small=small,
     )
 
 
@@ -168,3 +174,68 @@ def test_a_system_without_unknowns_is_solved_where_it_stands() -> None:
 
     assert correction.outcome is Outcome.CONVERGED
     assert correction.point[0] == 3.0
+
+
+def within(changes: float, residual: float) -> Small:
+    """Return what does not matter: small changes where the residual is small."""
+    return Small(lambda _: np.array([changes, changes]), residual)
+
+
+def test_a_step_that_does_not_matter_is_the_last_one() -> None:
+    exact = corrected(root_of_two, 3.0)
+    steps = np.abs(np.diff(points_of(exact.iterations)))
+    rough = corrected(root_of_two, 3.0, small=within(1.01 * steps[3], 1.0))
+
+    assert rough.outcome is Outcome.CONVERGED
+    assert rough.iterations == 4
+    assert rough.residuals == exact.residuals[:5]
+    assert rough.residuals[-1] > 1e-14
+
+
+def points_of(iterations: int) -> Array:
+    """Return Newton's points on the way to the root of two from 3."""
+    points = [3.0]
+    for _ in range(iterations):
+        points.append(0.5 * (points[-1] + 2.0 / points[-1]))
+    return np.array(points)
+
+
+def test_a_small_step_far_from_balance_does_not_end_a_correction() -> None:
+    exact = corrected(root_of_two, 3.0)
+
+    rough = corrected(root_of_two, 3.0, small=within(10.0, 1e-13))
+
+    assert rough.residuals == exact.residuals
+
+
+def jumping(height: float) -> System:
+    """Return a line whose residual jumps by ``height`` where it would vanish."""
+
+    def system(point: Array) -> tuple[Array, Dense]:
+        jump = math.copysign(0.5 * height, point[0] - 1.0)
+        return np.array([point[0] - 1.0 + jump]), Dense(np.array([[1.0, 0.0]]))
+
+    return system
+
+
+@pytest.mark.parametrize(
+    ("small", "outcome"),
+    [
+        (within(1e-3, 1e-2), Outcome.CONVERGED),
+        (within(1e-4, 1e-2), Outcome.STALLED),
+        (within(1e-3, 1e-3), Outcome.STALLED),
+        (None, Outcome.STALLED),
+    ],
+)
+def test_a_jump_is_passed_only_if_neither_step_nor_residual_matters(
+    small: Small | None, outcome: Outcome
+) -> None:
+    # No point has a residual below 2.5e-3; ten times the small change may be left.
+    system = jumping(5e-3)
+
+    found = correct(
+        system, np.array([1.2, 0.0]), np.array([0.0, 1.0]), tolerance=1e-12, small=small
+    )
+
+    assert found.outcome is outcome
+    assert found.point[0] == pytest.approx(1.0, abs=6e-3)

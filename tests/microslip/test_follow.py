@@ -1,11 +1,13 @@
 """The response against a parameter of the scene, and the command that draws it."""
 
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from hbm.detached import Sought
 from microslip.cli import main
 from microslip.quantity import SceneError
 from microslip.result_file import load
@@ -86,4 +88,39 @@ def test_frc_says_that_nothing_is_detached(
     words += [word for each in short for word in ("--set", each)]
 
     assert main([*words, "-o", str(tmp_path / "curve")]) == 0
-    assert "no detached curve was found" in capsys.readouterr().out
+    output = capsys.readouterr().out
+    assert "no detached curve was found" in output
+    sought = "sought at 15 of 15 frequencies, 134.017 to 134.483 Hz, by 0.05 to 4 times"
+    assert sought in output
+    assert "only up to" not in output
+
+
+@pytest.mark.parametrize("frequencies", [0, 3])
+def test_an_interrupted_search_says_how_far_it_was(
+    frequencies: int,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def interrupted(*_: object, **__: object) -> Iterator[Sought]:
+        for number in range(frequencies):
+            yield Sought(math.tau * (134.0 + 0.1 * number), 1.5, "too hard", "")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("microslip.studies.detached.detached", interrupted)
+    short = (*STICKY, "curve.lowest=134 Hz", "curve.highest=134.5 Hz")
+    words = ["frc", "two-blades", "--detached"]
+    words += [word for each in short for word in ("--set", each)]
+
+    assert main([*words, "-o", str(tmp_path / "curve")]) == 130
+    printed = capsys.readouterr()
+    assert printed.err == "microslip: interrupted; what was computed is kept\n"
+    if frequencies == 0:
+        assert "no detached curve was sought" in printed.out
+    else:
+        assert "sought at 3 of 15 frequencies, 134.000 to 134.200 Hz" in printed.out
+        assert "at 134.100 Hz only up to 1.5 times the drive: too hard" in printed.out
+    stored = load(tmp_path / "curve.nc").result
+    assert isinstance(stored, ResponseCurve)
+    assert stored.ending == "interrupted"
+    assert stored.frequency.size > 5

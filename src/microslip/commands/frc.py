@@ -45,7 +45,16 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--detached",
         action="store_true",
         help="also seek curves that do not hang together with the first one, by "
-        "varying the drive at 15 frequencies",
+        "varying the drive at 15 frequencies; what was searched and what not is said",
+    )
+    parser.add_argument(
+        "--effort",
+        type=arguments.positive,
+        default=1.0,
+        metavar="TIMES",
+        help="work that the search for detached curves may take, over the usual: at "
+        "each frequency 2000 evaluations with 31 harmonics, and fifty times that to "
+        "follow a curve that is found (default: 1)",
     )
     parser.add_argument(
         "--unpruned",
@@ -62,7 +71,6 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.figures.curve import curve_figure
     from microslip.scene_file import load_scene
     from microslip.store import Stored, save, save_figure
-    from microslip.studies.curve import LOST
 
     data, picture = arguments.outputs(options, "frc")
     if options.tolerance is not None:
@@ -77,10 +85,8 @@ def _run(options: argparse.Namespace) -> int:
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
     print(_resolution(traced.curve))
-    ending = traced.curve.ending
-    sought = ending == "complete" or ending.startswith(LOST)
-    if options.detached and sought and "detached" not in traced.curve.event:
-        print("no detached curve was found")
+    if traced.searched is not None:
+        print("\n".join(traced.searched.lines()))
     return arguments.ended(traced.curve.ending)
 
 
@@ -89,13 +95,14 @@ def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
     from microslip.rigs import problem_of, sector_of, unpruned_of
     from microslip.studies.curve import Wanted, trace_curve, trace_sector
 
-    wanted, watch = Wanted(options.branches, options.detached), watched(scene.curve)
-    if options.unpruned:
-        return trace_curve(unpruned_of(scene), scene.curve, watch, wanted, pruned=False)
-    sector = sector_of(scene)
-    if sector is None:
-        return trace_curve(problem_of(scene), scene.curve, watch, wanted)
-    return trace_sector(sector, scene.curve, watch, wanted)
+    wanted = Wanted(options.branches, options.detached, options.effort)
+    watch, searching = watched(scene.curve), search_watched(scene.curve)
+    sector = None if options.unpruned else sector_of(scene)
+    if sector is not None:
+        return trace_sector(sector, scene.curve, watch, wanted)
+    problem = unpruned_of(scene) if options.unpruned else problem_of(scene)
+    pruned = not options.unpruned
+    return trace_curve(problem, scene.curve, watch, wanted, searching, pruned=pruned)
 
 
 def _events(curve: ResponseCurve) -> str:
@@ -143,6 +150,25 @@ def watched(curve: Curve) -> Watch:
         done=lambda response: abs(response.frequency / math.tau - curve.lowest),
         unit="Hz",
         name="curve",
+    )
+
+
+def search_watched(curve: Curve) -> Watch:
+    """Return what shows the progress of a search for detached curves."""
+    from hbm.detached import Sought
+    from microslip.progress import shown
+    from microslip.studies.detached import FREQUENCIES
+
+    width = math.tau * (curve.highest - curve.lowest)
+
+    def done(each: object) -> float:
+        if not isinstance(each, Sought):
+            return 0.0
+        share = (each.frequency - math.tau * curve.lowest) / width
+        return math.ceil(FREQUENCIES * share)
+
+    return lambda found: shown(
+        found, total=FREQUENCIES, done=done, unit="frequencies", name="detached"
     )
 
 

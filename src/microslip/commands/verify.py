@@ -117,7 +117,10 @@ def _run(options: argparse.Namespace) -> int:
             "sweep's range, or leave the sweeps out by --slower without a value"
         )
     wanted = Wanted(options.branches, options.detached)
-    traced = trace_curve(problem, scene.curve, frc.watched(scene.curve), wanted)
+    bars = frc.watched(curve), frc.search_watched(curve)
+    traced = trace_curve(problem, curve, bars[0], wanted, bars[1])
+    if traced.searched is not None:
+        print("\n".join(traced.searched.lines()))
     if traced.curve.ending != "complete":
         return arguments.ended(traced.curve.ending)
     found = Found()

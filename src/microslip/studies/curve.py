@@ -10,10 +10,11 @@ import numpy as np
 from hbm.continuation import ContinuationError
 from hbm.cyclic import cyclic_response
 from hbm.options import CurveOptions
-from hbm.solve import branches, detached, frequency_response
+from hbm.solve import branches, frequency_response
 from microslip.experiments import Curve
 from microslip.progress import Watch
 from microslip.quantity import SceneError
+from microslip.studies.detached import Searched, search
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
@@ -27,6 +28,8 @@ class Traced:
     curve: ResponseCurve
     responses: tuple[PeriodicResponse, ...]
     rest: StaticState
+    searched: Searched | None = None
+    """where detached curves were sought, if they were"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,11 +40,13 @@ class Wanted:
     """that begin at branch points"""
     detached: bool = False
     """curves that do not hang together with it"""
+    effort: float = 1.0
+    """that the search for them may take, over the usual"""
 
 
 ALONE = Wanted()
 LOST = "a branch was lost"
-"""begins the ending of a curve that is whole, as is the search for detached ones"""
+"""begins the ending of a curve that is whole"""
 
 
 def trace_curve(
@@ -49,18 +54,28 @@ def trace_curve(
     curve: Curve,
     watch: Watch = iter,
     wanted: Wanted = ALONE,
+    searching: Watch = iter,
     *,
     pruned: bool = True,
 ) -> Traced:
     """Trace a scene's curve; keep what there is when it cannot go on or is stopped.
 
-    ``wanted`` says what is sought beside it; ``pruned``, whether what always stays at
-    zero is left out of it.
+    ``wanted`` says what is sought beside it, and ``searching`` watches the search for
+    detached curves; ``pruned``, whether what always stays at zero is left out.
     """
-    rest = static_equilibrium(problem)
-    options = replace(curve_options(curve), pruned=pruned)
-    traced = _all(problem, rest, options, wanted)
-    return _gathered(problem, rest, traced, watch)
+    rest, options = (
+        static_equilibrium(problem),
+        replace(curve_options(curve), pruned=pruned),
+    )
+    traced = _gathered(problem, rest, _all(problem, rest, options, wanted), watch)
+    ending = traced.curve.ending
+    if not wanted.detached or not (ending == "complete" or ending.startswith(LOST)):
+        return traced
+    known = traced.responses
+    found = search(problem, rest, options, known, effort=wanted.effort, watch=searching)
+    responses = (*known, *found.responses)
+    ending = found.ending if ending == "complete" else ending
+    return Traced(response_curve(problem, responses, ending), responses, rest, found)
 
 
 def trace_sector(
@@ -73,7 +88,7 @@ def trace_sector(
     SceneError
         If more than the curve is wanted.
     """
-    if wanted != ALONE:
+    if wanted.branches or wanted.detached:
         raise SceneError(
             "branches and detached curves of a disk may break its symmetry, which one "
             "sector cannot show: give --set solve=disk"
@@ -109,23 +124,16 @@ def _gathered(
 def _all(
     problem: Problem, rest: StaticState, options: CurveOptions, wanted: Wanted
 ) -> Iterator[PeriodicResponse]:
-    """Yield the responses on the curve, then on what does not hang together with it."""
+    """Yield the responses on the curve, then on what branches off it."""
     known: list[PeriodicResponse] = []
-    lost: ContinuationError | None = None
     for response in frequency_response(problem, rest, options):
         known.append(response)
         yield response
     if wanted.branches:
         try:
-            for response in branches(problem, rest, options, tuple(known)):
-                known.append(response)
-                yield response
+            yield from branches(problem, rest, options, known)
         except ContinuationError as error:
-            lost = error
-    if wanted.detached:
-        yield from detached(problem, rest, options, known)
-    if lost is not None:
-        raise ContinuationError(f"{LOST}: {lost}")
+            raise ContinuationError(f"{LOST}: {error}") from None
 
 
 def gathered(

@@ -91,7 +91,10 @@ class Curve:
         found = [
             (segment.place(located.point), name, located)
             for name, test, ends, precision in tests
-            if (located := segment.locate(test, ends, precision)) is not None
+            if (
+                located := segment.locate(test, ends, precision, falling=name == "peak")
+            )
+            is not None
             and not (ends and self._leaps(test(located), ends))
         ]
         for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):

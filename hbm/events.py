@@ -50,16 +50,19 @@ class Segment:
         test: Callable[[Correction], float],
         ends: tuple[float, float] | None = None,
         precision: float = PRECISION,
+        *,
+        falling: bool = False,
     ) -> Correction | None:
         """Return the point between the two at which ``test`` is zero.
 
         ``ends`` are its values at the two, if they are known better; ``precision`` is
-        over the length of the step. None if it has no change of sign, or if a point
-        between does not converge.
+        over the length of the step; ``falling`` asks for a change from above zero to
+        below. None if it has no change of sign, or if a point between does not
+        converge.
         """
         first, last = ends or (test(self.before), test(self.after))
         length = self.length
-        if not first * last < 0.0 or length <= 0.0:
+        if not first * last < 0.0 or length <= 0.0 or (falling and first < 0.0):
             return None
 
         def value(place: float) -> float:

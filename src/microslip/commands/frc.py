@@ -132,9 +132,18 @@ def _resolution(curve: ResponseCurve) -> str:
     """Return how accurate the curve is, and with how many harmonics."""
     import numpy as np
 
+    known = 100.0 * curve.error[np.isfinite(curve.error)]
+    lost = curve.error.size - known.size
+    error = (
+        f"at most {known.max():.2g} % at a point, {float(np.median(known)):.2g} % in "
+        "the median"
+        if known.size
+        else "not known"
+    )
+    if known.size and lost:
+        error += f", not known at {lost} points, where more harmonics change too much"
     return (
-        f"estimated error of amplitude: at most {100.0 * curve.error.max():.2g} % at a "
-        f"point, {100.0 * float(np.median(curve.error)):.2g} % in the median; "
+        f"estimated error of amplitude: {error}; "
         f"{curve.harmonics.min():.0f} to {curve.harmonics.max():.0f} harmonics, "
         f"{curve.samples.min():.0f} to {curve.samples.max():.0f} samples"
     )

@@ -3,55 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 
+from hbm.dynamic_stiffness import dynamic_stiffness
+from hbm.stuck_poles import split, stuck_poles
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 
 WIDE = 12
 """coordinates from which matrix products are faster than loops that use symmetry"""
-
-
-class Condensed(Protocol):
-    """A structure as the relative coordinates y of its contacts see it."""
-
-    @property
-    def stiffness(self) -> Array:
-        """Static stiffness of mean motions [N/m], shape (rank, rank)."""
-
-    @property
-    def mass(self) -> Array:
-        """Mass that goes with it [kg], shape (rank, rank)."""
-
-    @property
-    def static(self) -> Array:
-        """T: static motion from y, shape (dofs, rank)."""
-
-    def restricted(self, kept: NDArray[np.int64], force: ComplexArray) -> Condensed:
-        """Return the structure seen by some coordinates, the others held still."""
-
-    def possible(self, orders: int) -> NDArray[np.bool_]:
-        """Return which coordinates can move in orders 0, 1, …, (orders, rank)."""
-
-    def dynamic_stiffness(
-        self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return S(s) and dS/ds, each (orders, rank, rank)."""
-
-    def load(
-        self, variable: ComplexArray, force: ComplexArray
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return the load that reaches y and its derivative by s, (orders, rank)."""
-
-    def motion(
-        self, variable: ComplexArray, relative: ComplexArray, force: ComplexArray
-    ) -> ComplexArray:
-        """Return u from y and the loads, shape (orders, dofs)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +108,7 @@ class CondensedStructure:
         if len(self.stiffness) >= WIDE and wanted.all() and not self.gyroscopic:
             parts = [self._whole(s) for s in variable]
             return np.array([one for one, _ in parts]), np.array([d for _, d in parts])
-        return _stiffness(
+        return dynamic_stiffness(
             self.stiffness,
             self.damping,
             self.mass,
@@ -209,63 +171,6 @@ class CondensedStructure:
         return relative @ self.static.T + modal @ self.modes.T
 
 
-@kernel
-def _stiffness(
-    stiffness: Array,
-    damping: Array,
-    mass: Array,
-    poles: ComplexArray,
-    viscous: ComplexArray,
-    inertial: ComplexArray,
-    viscous_back: ComplexArray,
-    inertial_back: ComplexArray,
-    variable: ComplexArray,
-    wanted: NDArray[np.bool_],
-    gyroscopic: bool,
-) -> tuple[ComplexArray, ComplexArray]:
-    """Return S(s) and dS/ds of the coordinates wanted (theory, eqs. 15–16)."""
-    orders, (rank, count) = variable.size, viscous.shape
-    value = np.zeros((orders, rank, rank), np.complex128)
-    change = np.zeros((orders, rank, rank), np.complex128)
-    into, turn = np.empty(count, np.complex128), np.empty(count, np.complex128)
-    for order in range(orders):
-        s = variable[order]
-        pole = 1.0 / (s - poles)
-        for b in range(rank):
-            if not wanted[order, b]:
-                continue
-            for p in range(count):
-                slow, fast = viscous[b, p], inertial[b, p]
-                into[p] = (slow + s * fast) * s * pole[p]
-                turn[p] = (slow + 2.0 * s * fast) * pole[p] - into[p] * pole[p]
-            for a in range(rank if gyroscopic else b + 1):
-                if not wanted[order, a]:
-                    continue
-                total, slope = 0.0j, 0.0j
-                for p in range(count):
-                    slow, fast = viscous_back[a, p], inertial_back[a, p]
-                    total += (slow + s * fast) * into[p]
-                    slope += (slow + 2.0 * s * fast) * into[p]
-                    slope += s * (slow + s * fast) * turn[p]
-                total = (
-                    stiffness[a, b] + s * (damping[a, b] + s * mass[a, b]) - (s * total)
-                )
-                slope = damping[a, b] + 2.0 * s * mass[a, b] - slope
-                _enter(value[order], a, b, total, gyroscopic)
-                _enter(change[order], a, b, slope, gyroscopic)
-    return value, change
-
-
-@kernel
-def _enter(
-    matrix: ComplexArray, row: int, column: int, value: complex, gyroscopic: bool
-) -> None:
-    """Write an entry; and its mirror image unless that is an entry of its own."""
-    matrix[row, column] = value
-    if not gyroscopic:
-        matrix[column, row] = value
-
-
 def condense(problem: Problem, selection: Array) -> CondensedStructure:
     """Return the structure condensed onto ``selection`` (shape (rank, dofs)).
 
@@ -277,7 +182,7 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
     """
     structure = problem.structure.dense
     static, free = split(structure.stiffness, selection)
-    poles, shapes, forcing = _poles(
+    poles, shapes, forcing = stuck_poles(
         *(free.T @ matrix @ free
           for matrix in (structure.mass, structure.damping, structure.stiffness))
     )  # fmt: skip
@@ -305,51 +210,3 @@ def _share(rows: ComplexArray) -> Array:
     sizes: Array = np.abs(rows).max(axis=1, initial=0.0)
     largest = sizes.max(initial=0.0)
     return sizes / largest if largest > 0.0 else sizes
-
-
-def split(stiffness: Array, selection: Array) -> tuple[Array, Array]:
-    """Return T (static response to y = selection u) and N (motion with y = 0).
-
-    Raises
-    ------
-    ValueError
-        If the structure can move freely while all contacts stick.
-    """
-    free = np.ascontiguousarray(
-        scipy.linalg.null_space(selection) if selection.size else np.eye(len(stiffness))
-    )
-    stuck = free.T @ stiffness @ free
-    rigidity = scipy.linalg.eigvalsh(stuck)
-    if rigidity.size and rigidity[0] <= 1e-12 * rigidity[-1]:
-        raise ValueError(
-            "the structure can move freely while all contacts stick: clamp it somewhere"
-        )
-    direct = np.linalg.pinv(selection)
-    static = direct - free @ np.linalg.solve(stuck, free.T @ stiffness @ direct)
-    return static, free
-
-
-def _poles(
-    mass: Array, damping: Array, stiffness: Array
-) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
-    """Return λ, V, W with (s²M + sC + K)⁻¹ = V diag(1/(s − λ)) W."""
-    squares, modes = scipy.linalg.eigh(stiffness, mass)
-    frequencies = np.diag(np.sqrt(squares))
-    count = len(squares)
-    # The state (Ω q, q̇) makes a nearly skew matrix, whose eigenvectors are well apart.
-    system = np.block(
-        [
-            [np.zeros((count, count)), frequencies],
-            [-frequencies, -modes.T @ damping @ modes],
-        ]
-    )
-    poles, vectors = (part.astype(complex) for part in np.linalg.eig(system))
-    inverse = np.linalg.inv(vectors)
-    error = np.abs(vectors @ (poles[:, None] * inverse) - system).max(initial=0.0)
-    if error > 1e-8 * np.abs(system).max(initial=0.0):
-        raise ValueError(
-            "two poles of the structure coincide (a critically damped mode): "
-            "change its damping slightly"
-        )
-    shapes = (modes / np.sqrt(squares)).astype(complex) @ vectors[:count]
-    return poles, shapes, inverse[:, count:] @ modes.T.astype(complex)

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.condensation import Condensed, condense
+from hbm.condensation import condense
+from hbm.condensed import Condensed
 from hbm.fourier import FourierBasis
 from hbm.tractions import Tractions
 from microslip_mechanics.arrays import Array, ComplexArray

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.condensation import split
 from hbm.recalled import recalled_multipliers
+from hbm.stuck_poles import split
 from hbm.tangents import StepTangents, step_tangents
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.memory import remembers

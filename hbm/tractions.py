@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.condensation import Condensed
+from hbm.condensed import Condensed
 from microslip_mechanics.arrays import Array, ComplexArray
 
 LOOSE = 1e-9

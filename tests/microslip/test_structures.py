@@ -15,23 +15,8 @@ from microslip.studies.explain import pruned
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduced_problem import Method
 from microslip_mechanics.static import static_equilibrium
+from scene_texts import EXPERIMENTS
 
-END = """
-[sweep]
-ramp = 0
-start = 0
-end = "1 s"
-duration = "1 s"
-lowest = 4
-highest = 7
-[curve]
-lowest = 4
-highest = 7
-tolerance = 1e-3
-[march]
-time_step = "1 ms"
-store_every = 1
-"""
 NODES = """
 scene = "system"
 [structure]
@@ -61,7 +46,7 @@ PULL = '[drive]\n"tip.uz" = 1\n'
 def made(folder: Path, text: str) -> Problem:
     """Return the problem of a scene."""
     path = folder / "mine.toml"
-    path.write_text(text + END, encoding="utf-8")
+    path.write_text(text + EXPERIMENTS, encoding="utf-8")
     return problem_of(load_scene(str(path)))
 
 

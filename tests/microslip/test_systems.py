@@ -15,25 +15,10 @@ from microslip.studies.parameter import parameter
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
+from scene_texts import EXPERIMENTS
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
-BEGIN = """\
-scene = "system"
-[sweep]
-ramp = 0
-start = 0
-end = "1 s"
-duration = "1 s"
-lowest = 4
-highest = 7
-[curve]
-lowest = 4
-highest = 7
-tolerance = 1e-3
-[march]
-time_step = "1 ms"
-store_every = 1
-"""
+BEGIN = 'scene = "system"\n' + EXPERIMENTS
 PAIR = """\
 [structure]
 names = ["a", "b"]

@@ -141,7 +141,7 @@ def _resolution(curve: ResponseCurve) -> str:
         else "not known"
     )
     if known.size and lost:
-        error += f", not known at {lost} points, where more harmonics change too much"
+        error += f", not known at {lost} of {curve.error.size} points"
     return (
         f"estimated error of amplitude: {error}; "
         f"{curve.harmonics.min():.0f} to {curve.harmonics.max():.0f} harmonics, "

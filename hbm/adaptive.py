@@ -30,7 +30,7 @@ SPARE = 6.0
 SHARPER = 4.0
 """times that a threshold velocity falls where friction is to be resolved better"""
 
-WAIT = 10
+WAIT = 4
 """points before less is tried again, where more was needed"""
 PERSEVERANCE = 60
 """iterations of Newton after the resolution has been raised"""

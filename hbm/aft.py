@@ -261,6 +261,18 @@ class AlternatingFrequencyTime:
         """
         return self._moved
 
+    def content(self, above: int, most: int) -> float:
+        """Return the norm of the impulse [N] of the last call between two orders.
+
+        It is that of the force integrated over the phase. Orders up to ``above`` are
+        left out, ``most`` is the highest one.
+        """
+        force = self._analysed(self._regular.force, most)
+        extra = self._analysed(self._extra.force, most)
+        force += extra / hat(most, self._fourier.samples)[:, None]
+        orders = (np.arange(2 * above + 1, 2 * most + 1) + 1) // 2
+        return float(np.linalg.norm(force[2 * above + 1 :] / orders[:, None]))
+
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
         """Return normal forces and energies over one period."""
         self(coefficients, frequency)
@@ -294,13 +306,13 @@ class AlternatingFrequencyTime:
             np.dot(self._basis, velocity[:, :seen]),
         )
 
-    def _analysed(self, rows: Array) -> Array:
+    def _analysed(self, rows: Array, harmonics: int | None = None) -> Array:
         """Return the coefficients of samples at the points, brought to y."""
         if self._direct:
             self._force.samples[:] = rows
         else:
             np.dot(self._basis.T, rows, out=self._force.samples)
-        return self._force.analysis(self._fourier.harmonics)
+        return self._force.analysis(harmonics or self._fourier.harmonics)
 
 
 def _entries(points: ContactPoints, pruned: bool) -> NDArray[np.int64]:

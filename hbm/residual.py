@@ -28,6 +28,9 @@ class Balance(Protocol):
     def residual(self, point: Array) -> tuple[Array, Array]:
         """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
 
+    def content(self, above: int, most: int) -> float:
+        """Return the norm of the contact force between two orders in the last call."""
+
     def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
         """Return harmonic balance at the point's parameter, and the point for it."""
 
@@ -132,6 +135,10 @@ class HarmonicBalance:
         whole = np.zeros(point.size - 1)
         whole[: residual.size] = np.where(self._active, residual, 0.0).ravel()
         return whole, by_frequency
+
+    def content(self, above: int, most: int) -> float:
+        """Return the norm of the contact force between two orders in the last call."""
+        return self.contact.content(above, most)
 
     def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
         """Return itself and the point, whose last component is the frequency."""

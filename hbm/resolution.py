@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, Linearised
+from hbm.newton import CHORD, Correction, Linearised
 from hbm.path import Path
 from hbm.residual import Balance
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -21,6 +21,9 @@ DEPARTS = 2.0
 """times that a residual grows in two steps that lead to no point"""
 SMOOTHER = 1e-3
 """relative change of a threshold velocity that tells what it does"""
+HALVED = 0.5
+FEW, WARY, SAFE = 16, 9.0, 4.5
+"""safety factors of impulses left out: with fewer harmonics than these, and with more"""
 TURNING = 0.25
 """share of a phasor's change that counts where its length just has an extremum"""
 
@@ -51,6 +54,21 @@ class Estimate:
         return self.truncation + self.sampling + self.smoothing
 
 
+class Refined(NamedTuple):
+    """What two Newton steps at a finer resolution make of a point."""
+
+    residual: Array
+    """of the finer resolution at the point"""
+    after: Array
+    """the point after one step"""
+    corrected: Array
+    """and after both"""
+    left: float
+    """what further steps would change, over the second"""
+    faster: float
+    """what further harmonics would change, over those of the finer resolution"""
+
+
 class Resolved(Protocol):
     """A system at one resolution."""
 
@@ -59,6 +77,9 @@ class Resolved(Protocol):
 
     def residual(self, point: Array) -> tuple[Array, object]:
         """Return the residual, and what belongs to it."""
+
+    def content(self, above: int, most: int) -> float:
+        """Return the norm of the contact force between two orders in the last call."""
 
 
 class Resolution(ABC):
@@ -94,27 +115,26 @@ class Resolution(ABC):
         """
         point = correction.point
         finer = fourier.doubled
-        residual, refined = self.at(finer)(point)
-        step = refined.solve(normal, np.append(-residual, 0.0))
-        again, _ = self.at(finer).residual(point + step)
-        second = refined.solve(normal, np.append(-again, 0.0))
-        corrected = point + step + second
-        low = residual.copy()
+        refined = self._refined(point, finer, normal)
+        low = refined.residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
         rights = np.zeros((point.size, 2))
         rights[:-1, 0] = -correction.residual
         rights[:-1, 1] = correction.residual - low
         newton, sampled = correction.linearised.solve(normal, rights).T
         before, at_newton, at_sampled, after, last = (
-            self.amplitudes(point + each)
-            for each in (0.0 * point, newton, newton + sampled, step, corrected - point)
-        )
+            self.amplitudes(each)
+            for each in (
+                point, point + newton, point + newton + sampled, refined.after,
+                refined.corrected,
+            )
+        )  # fmt: skip
         size = float(before.max(initial=0.0)) or 1.0
         sampling = float(np.abs(at_sampled - at_newton).max(initial=0.0)) / size
+        sampling *= HALVED
         truncation = float(np.abs(last - at_sampled).max(initial=0.0)) / size
-        truncation += float(np.abs(last - after).max(initial=0.0)) / size
-        if self._departs(finer, corrected, residual, again):
-            truncation = math.inf
+        truncation *= refined.faster
+        truncation += refined.left * float(np.abs(last - after).max(initial=0.0)) / size
         smoothing = 0.0
         if fourier.threshold > 0.0:
             change = self._resolved(correction, fourier, normal)
@@ -122,20 +142,26 @@ class Resolution(ABC):
             turned = float(np.abs(sharp - smooth).max(initial=0.0))
             moved = float(np.abs(np.abs(sharp) - np.abs(smooth)).max(initial=0.0))
             smoothing = max(moved, TURNING * turned) / size
-        return Estimate(truncation, sampling, smoothing, corrected, finer)
+        return Estimate(truncation, sampling, smoothing, refined.corrected, finer)
 
-    def _departs(
-        self, finer: FourierBasis, corrected: Array, residual: Array, again: Array
-    ) -> bool:
-        """Return whether two steps lead away from any point of twice the order.
+    def _refined(self, point: Array, finer: FourierBasis, normal: Array) -> Refined:
+        """Return what two steps at a finer resolution make of a point.
 
-        ``residual`` and ``again`` are its residuals before and after the first.
+        The second has factors of its own if the first leaves much.
         """
-        before = float(np.linalg.norm(residual))
-        if float(np.linalg.norm(again)) <= SURE * before:
-            return False
-        after, _ = self.at(finer).residual(corrected)
-        return float(np.linalg.norm(after)) > DEPARTS * before
+        system = self.at(finer)
+        residual, first = system(point)
+        orders = finer.harmonics // 2, finer.harmonics, 2 * finer.harmonics + 1
+        known = system.content(*orders[:2])
+        after = point + first.solve(normal, np.append(-residual, 0.0))
+        again, second = system(after)
+        sizes = [float(np.linalg.norm(residual)), float(np.linalg.norm(again))]
+        factors = first if sizes[1] <= CHORD * sizes[0] else second
+        corrected = after + factors.solve(normal, np.append(-again, 0.0))
+        sizes.append(float(np.linalg.norm(system.residual(corrected)[0])))
+        beyond = system.content(*orders[1:])
+        rest = _beyond(beyond / known, finer.harmonics) if known > 0.0 else 1.0
+        return Refined(residual, after, corrected, _left(*sizes), rest)
 
     def _resolved(
         self, correction: Correction, fourier: FourierBasis, normal: Array
@@ -145,6 +171,27 @@ class Resolution(ABC):
         other, _ = self.at(smoother).residual(correction.point)
         slope = (other - correction.residual) / SMOOTHER
         return correction.linearised.solve(normal, np.append(slope, 0.0))
+
+
+def _left(before: float, between: float, after: float) -> float:
+    """Return what steps to come change, over the second of two, from the residuals.
+
+    Infinite where they lead away.
+    """
+    if after <= SURE * between:
+        return after / (between - after) if between > 0.0 else 0.0
+    return math.inf if after > DEPARTS * before else 1.0
+
+
+def _beyond(share: float, harmonics: int) -> float:
+    """Return what still more harmonics would change, over what the last octave did.
+
+    ``share`` is that of the impulses: higher orders answer those, and act back on the
+    lower ones by what decays alike.
+    """
+    if harmonics < FEW:
+        return (WARY * share) ** 2
+    return min(2.0, (SAFE * share) ** 2)
 
 
 class PathResolution(Resolution):

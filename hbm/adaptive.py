@@ -158,14 +158,14 @@ class AdaptiveBalance:
         """Return the settled point as it is to be reported, its resolution and error.
 
         With a tolerance it is the corrected one; fixed harmonics stay what they are,
-        their error being up to twice the change that the correction would bring.
+        and have the error of what is not corrected.
         """
         if not self._estimates:
             return point, self.settled, math.nan
         if self.estimate is None or math.isinf(self.estimate.error):
             return point, self.settled, math.inf
         if self._tolerance is None:
-            return point, self.settled, 2.0 * self.estimate.error
+            return point, self.settled, self.estimate.before
         return self.estimate.corrected, self.estimate.fourier, self.estimate.error
 
     def _truncated(self, point: Array) -> Array:

@@ -261,11 +261,11 @@ class AlternatingFrequencyTime:
         """
         return self._moved
 
-    def content(self, above: int, most: int) -> float:
-        """Return the norm of the impulse [N] of the last call between two orders.
+    def impulses(self, above: int, most: int) -> float:
+        """Return the norm of the contact impulses [N] of the last call.
 
-        It is that of the force integrated over the phase. Orders up to ``above`` are
-        left out, ``most`` is the highest one.
+        They are forces integrated over the phase. Orders up to ``above`` are left out,
+        ``most`` is the highest one.
         """
         force = self._analysed(self._regular.force, most)
         extra = self._analysed(self._extra.force, most)

@@ -117,9 +117,9 @@ class ModalBalance:
         scale[:, -1] = STRIDE
         return np.append(scale.ravel(), 1.0)
 
-    def content(self, above: int, most: int) -> float:
-        """Return the norm of the contact force between two orders in the last call."""
-        return self._contact.content(above, most)
+    def impulses(self, above: int, most: int) -> float:
+        """Return the norm of the contact impulses between two orders, last call."""
+        return self._contact.impulses(above, most)
 
     def motion(self, point: Array) -> Array:
         """Return the coefficients of the motion about rest [m], (2H + 1, dofs)."""

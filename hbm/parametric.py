@@ -53,11 +53,11 @@ class ParametricBalance:
         balance, inner = self.at_frequency(point)
         return balance.residual(inner)
 
-    def content(self, above: int, most: int) -> float:
-        """Return the norm of the contact force between two orders in the last call."""
+    def impulses(self, above: int, most: int) -> float:
+        """Return the norm of the contact impulses between two orders, last call."""
         if self._balance is None:
             return 0.0
-        return self._balance.content(above, most)
+        return self._balance.impulses(above, most)
 
     def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
         """Return harmonic balance at the point's parameter, and the point for it."""

@@ -28,8 +28,8 @@ class Balance(Protocol):
     def residual(self, point: Array) -> tuple[Array, Array]:
         """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
 
-    def content(self, above: int, most: int) -> float:
-        """Return the norm of the contact force between two orders in the last call."""
+    def impulses(self, above: int, most: int) -> float:
+        """Return the norm of the contact impulses between two orders, last call."""
 
     def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
         """Return harmonic balance at the point's parameter, and the point for it."""
@@ -136,9 +136,9 @@ class HarmonicBalance:
         whole[: residual.size] = np.where(self._active, residual, 0.0).ravel()
         return whole, by_frequency
 
-    def content(self, above: int, most: int) -> float:
-        """Return the norm of the contact force between two orders in the last call."""
-        return self.contact.content(above, most)
+    def impulses(self, above: int, most: int) -> float:
+        """Return the norm of the contact impulses between two orders, last call."""
+        return self.contact.impulses(above, most)
 
     def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
         """Return itself and the point, whose last component is the frequency."""

@@ -55,6 +55,18 @@ def test_sliding_friction_has_the_harmonics_of_a_square_wave(order: int) -> None
     assert force[2 * order, 1] == pytest.approx(0.0, abs=1e-12)
 
 
+def test_impulses_beyond_an_order_are_those_of_the_square_wave() -> None:
+    points = contact_points(
+        constant_load=True, load=LOAD, dynamic=FRICTION, threshold=1e-9
+    )
+    contact = one_point(points, samples=1022)
+    contact(moved(first=(SINE, AMPLITUDE)), FREQUENCY)
+
+    # of the orders 5 and 7, over their numbers
+    expected = FRICTION * LOAD * 4.0 / np.pi * np.hypot(1.0 / 25.0, 1.0 / 49.0)
+    assert contact.impulses(3, 7) == pytest.approx(expected, rel=1e-3)
+
+
 def test_sliding_friction_has_neither_mean_nor_even_harmonics() -> None:
     force, _ = sliding(1022, 1e-9)
 

@@ -1,0 +1,74 @@
+"""Two Newton steps at a finer resolution, and what they say that they leave."""
+
+import math
+
+import numpy as np
+import pytest
+
+from hbm.newton import Linearised
+from hbm.refined import MOST, SAFE, WARY, Refined, refined
+from microslip_mechanics.arrays import Array
+
+UPRIGHT = np.array([0.0, 1.0])
+FEW, MANY = 7, 31
+"""harmonics"""
+
+
+class Slope:
+    """A derivative by the first of two components."""
+
+    def __init__(self, slope: float) -> None:
+        self._slope = slope
+
+    def solve(self, normal: Array, right: Array) -> Array:
+        del normal
+        return np.array([right[0] / self._slope, right[1]])
+
+
+class Root:
+    """x² = 2, or what steps lead away from, with contact impulses that are given."""
+
+    def __init__(self, *impulses: float, away: bool = False) -> None:
+        self._impulses, self._away = list(impulses), away
+
+    def __call__(self, point: Array) -> tuple[Array, Linearised]:
+        slope = 2.0 * point[0] if not self._away else -0.3 * point[0]
+        return self.residual(point)[0], Slope(slope)
+
+    def residual(self, point: Array) -> tuple[Array, None]:
+        return point[:1] ** 2 - 2.0, None
+
+    def impulses(self, above: int, most: int) -> float:
+        assert most == 2 * above + 1
+        return self._impulses.pop(0)
+
+
+def steps(start: float, system: Root, harmonics: int = MANY) -> Refined:
+    return refined(system, np.array([start, 5.0]), harmonics, UPRIGHT)
+
+
+@pytest.mark.parametrize("start", [2.5, 1.5])
+def test_the_steps_leave_what_the_next_ones_change(start: float) -> None:
+    found = steps(start, Root(1.0, 0.1))
+
+    second = found.corrected[0] - found.after[0]
+    assert abs(found.left * second) == pytest.approx(
+        abs(math.sqrt(2.0) - found.corrected[0]), rel=0.1
+    )
+    assert found.corrected[1] == 5.0
+
+
+def test_steps_that_lead_away_leave_everything() -> None:
+    assert steps(3.0, Root(1.0, 0.1, away=True)).left == math.inf
+
+
+@pytest.mark.parametrize("share", [0.01, 0.1])
+def test_series_that_fall_faster_leave_less_by_the_square(share: float) -> None:
+    assert steps(2.5, Root(2.0, 2.0 * share)).beyond == (SAFE * share) ** 2
+    few = steps(2.5, Root(2.0, 2.0 * share), FEW).beyond
+    assert few == pytest.approx((WARY * share) ** 2)
+
+
+def test_slow_series_of_many_harmonics_leave_twice_what_was_found() -> None:
+    assert steps(2.5, Root(1.0, 0.9)).beyond == MOST
+    assert steps(2.5, Root(1.0, 0.9), FEW).beyond > MOST

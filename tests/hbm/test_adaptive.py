@@ -163,8 +163,6 @@ def test_no_point_of_a_curve_errs_by_more_than_its_tolerance(error: float) -> No
 
 PESSIMISTIC = {
     "bouncing": "100: most of its points never part, and err by 1e-8",
-    "A, GKF": "4; 14 with 60 points",
-    "B, GKF": "as A",
 }
 """ratio of the medians, measured where it is too large"""
 

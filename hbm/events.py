@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.optimize
+from scipy.interpolate import BarycentricInterpolator
 
 from hbm.continuation import tangent
 from hbm.newton import Correction, Outcome, SingularError, Small, System, correct
@@ -21,6 +22,8 @@ from microslip_mechanics.response import MARGIN
 PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
 """of a located place, over the length of the step in which it is; the second where a
 test function is less accurate than that, the third where it is costly too"""
+NEAREST = 3
+"""points through which a guess between them is interpolated"""
 SURE = 0.1
 """of that: step of Newton's iteration that is the last one"""
 
@@ -50,7 +53,6 @@ class Segment:
         test: Callable[[Correction], float],
         ends: tuple[float, float] | None = None,
         precision: float = PRECISION,
-        *,
         falling: bool = False,
     ) -> Correction | None:
         """Return the point between the two at which ``test`` is zero.
@@ -68,12 +70,16 @@ class Segment:
         def value(place: float) -> float:
             if place <= 0.0:
                 return first
-            return last if place >= length else test(self._at(place, length, near))
+            if place >= length:
+                return last
+            solved[place] = self._at(self._guess(place, solved), near)
+            return test(solved[place])
 
         near = precision * length
+        solved: dict[float, Correction] = {}
         try:
             root = scipy.optimize.brentq(value, 0.0, length, xtol=near, rtol=1e-12)
-            return self._at(float(root), length, near)
+            return solved.get(root) or self._at(self._guess(root, solved), near)
         except (_LostError, SingularError):
             return None
 
@@ -88,14 +94,28 @@ class Segment:
         along = self.before.along / self.scale
         return float(along @ ((point - self.before.point) / self.scale))
 
-    def _at(self, place: float, length: float, near: float) -> Correction:
-        """Return the point of the curve at a distance, with its tangent.
+    def _guess(self, place: float, solved: dict[float, Correction]) -> Array:
+        """Return about where the curve is at a distance, from the points nearest to it.
+
+        As long as there are few, from both ends and the tangent at the first.
+        """
+        length = self.length
+        ends = {0.0: self.before, length: self.after}
+        points = {at: known.point for at, known in (ends | solved).items()}
+        near = sorted(points, key=lambda at: abs(at - place))[:NEAREST]
+        if len(near) == NEAREST:
+            return BarycentricInterpolator(near, [points[at] for at in near])(place)
+        start, direction = self.before.point, self.before.along
+        bend = self.after.point - start - length * direction
+        guess: Array = start + place * direction + (place / length) ** 2 * bend
+        return guess
+
+    def _at(self, guess: Array, near: float) -> Correction:
+        """Return the point of the curve across a guess, with its tangent.
 
         It is known better than to ``near``.
         """
         direction = self.before.along
-        bend = self.after.point - self.before.point - length * direction
-        guess = self.before.point + place * direction + (place / length) ** 2 * bend
         normal = direction / self.scale**2
         found = correct(
             self.system,

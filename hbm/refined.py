@@ -1,4 +1,4 @@
-"""Two Newton steps at a finer resolution, and what they leave to do (theory §6)."""
+"""Newton steps at a finer resolution, and what they leave to be done (theory §6)."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from microslip_mechanics.arrays import Array
 
 SURE = 0.25
 """share of a residual that a Newton step leaves, after which the next leaves less"""
-DEPARTS = 2.0
-"""times that a residual grows in two steps that lead to no point"""
+STEPS = 4
+"""that are taken at the most until one does"""
+LOST = 0.5
+"""share of a residual that is still there after steps that lead to no point"""
 FEW = 16
 """harmonics below which a series may not have begun to fall as it will"""
 WARY, SAFE = 9.0, 4.5
@@ -36,52 +38,58 @@ class Resolved(Protocol):
 
 
 class Refined(NamedTuple):
-    """A point after two Newton steps, and what they leave."""
+    """A point after some Newton steps, and what they leave."""
 
     residual: Array
     """of the finer resolution before them"""
-    after: Array
-    """the point after the first"""
+    before: Array
+    """the point before the last step"""
     corrected: Array
-    """and after both"""
+    """and after it"""
     left: float
-    """what further steps would change, over what the second did"""
+    """what further steps would change, over what the last did"""
     beyond: float
-    """what still more harmonics would change, over what both did"""
+    """what still more harmonics would change, over what all steps did"""
 
 
 def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Refined:
-    """Return a point after two Newton steps in the plane normal to ``normal``.
+    """Return a point after Newton steps in the plane normal to ``normal``.
 
-    ``harmonics`` are those of ``system``, about twice those of the point. The second
-    step has factors of its own if the first leaves much.
+    ``harmonics`` are those of ``system``, about twice those of the point. There are two
+    steps, and up to :data:`STEPS` until one leaves little. A step has the factors of
+    the one before if that left a tenth.
 
     Raises
     ------
     SingularError
         If the point lies on a fold.
     """
-    residual, first = system(point)
+    residual, slope = system(point)
     known = system.impulses(harmonics // 2, harmonics)
-    after = point + first.solve(normal, np.append(-residual, 0.0))
-    again, second = system(after)
-    before, between = float(np.linalg.norm(residual)), float(np.linalg.norm(again))
-    factors = first if between <= CHORD * before else second
-    corrected = after + factors.solve(normal, np.append(-again, 0.0))
-    last, _ = system.residual(corrected)
+    before, after, now, sizes = point, point, residual, [_size(residual)]
+    while len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS):
+        before = after
+        after = before + slope.solve(normal, np.append(-now, 0.0))
+        now, other = system(after)
+        sizes.append(_size(now))
+        slope = slope if sizes[-1] <= CHORD * sizes[-2] else other
     share = system.impulses(harmonics, 2 * harmonics + 1) / known if known else 0.0
-    left = _left(before, between, float(np.linalg.norm(last)))
-    return Refined(residual, after, corrected, left, _beyond(share, harmonics))
+    return Refined(residual, before, after, _left(sizes), _beyond(share, harmonics))
 
 
-def _left(before: float, between: float, after: float) -> float:
-    """Return what steps to come change, over the second of two, from the residuals.
+def _size(residual: Array) -> float:
+    return float(np.linalg.norm(residual))
 
-    Infinite where they lead away.
+
+def _left(sizes: list[float]) -> float:
+    """Return what steps to come change, over the last, from the residuals.
+
+    Infinite where the steps lead to no point.
     """
+    between, after = sizes[-2:]
     if after <= SURE * between:
         return after / (between - after) if between > 0.0 else 0.0
-    return math.inf if after > DEPARTS * before else 1.0
+    return math.inf if after > LOST * sizes[0] else 1.0
 
 
 def _beyond(share: float, harmonics: int) -> float:

@@ -25,7 +25,7 @@ TURNING = 0.25
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """What two Newton steps at twice the resolution say of a point, and leave."""
+    """What Newton steps at twice the resolution say of a point, and leave."""
 
     change: float
     """relative change of the amplitude by the steps"""
@@ -73,7 +73,7 @@ class Resolution(ABC):
     def estimate(
         self, correction: Correction, fourier: FourierBasis, normal: Array
     ) -> Estimate:
-        """Return the error of a converged point, by two steps at twice the order.
+        """Return the error of a converged point, by steps at twice the order.
 
         The corrected point lies in the plane through the point that is normal to
         ``normal``.
@@ -94,7 +94,7 @@ class Resolution(ABC):
         before, solved, resampled, after, last = (
             self.amplitudes(each)
             for each in (
-                point, point + newton, point + newton + sampled, made.after,
+                point, point + newton, point + newton + sampled, made.before,
                 made.corrected,
             )
         )  # fmt: skip

@@ -14,7 +14,7 @@ from microslip_mechanics.static import static_equilibrium
 from small_problems import cubic_oscillator
 
 DAMPING, DRIVE = 0.2, 6.0
-OPTIONS = CurveOptions(1.6, 0.8, error=1e-5)
+OPTIONS = CurveOptions(1.6, 0.8, error=1e-6)
 
 
 @functools.cache

@@ -51,8 +51,8 @@ def steps(start: float, system: Root, harmonics: int = MANY) -> Refined:
 def test_the_steps_leave_what_the_next_ones_change(start: float) -> None:
     found = steps(start, Root(1.0, 0.1))
 
-    second = found.corrected[0] - found.after[0]
-    assert abs(found.left * second) == pytest.approx(
+    last = found.corrected[0] - found.before[0]
+    assert abs(found.left * last) == pytest.approx(
         abs(math.sqrt(2.0) - found.corrected[0]), rel=0.1
     )
     assert found.corrected[1] == 5.0

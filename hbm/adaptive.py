@@ -30,7 +30,7 @@ SPARE = 6.0
 SHARPER = 4.0
 """times that a threshold velocity falls where friction is to be resolved better"""
 
-WAIT = 4
+WAIT = 10
 """points before less is tried again, where more was needed"""
 PERSEVERANCE = 60
 """iterations of Newton after the resolution has been raised"""
@@ -108,12 +108,13 @@ class AdaptiveBalance:
         normal: Array,
         tolerance: float,
         small: Small | None = None,
+        share: float = 1.0,
     ) -> Correction:
         """Refine a converged point until its error is small enough, and note the error.
 
         The refined point lies in the plane through it, normal to ``normal``;
-        ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`. What is
-        returned may have failed.
+        ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`, ``share``
+        that of the error that is allowed. What is returned may have failed.
         """
         while True:
             self.settled = self.fourier
@@ -125,7 +126,7 @@ class AdaptiveBalance:
             except SingularError:
                 self.estimate = None
                 return correction
-            finer = self._finer(self.estimate)
+            finer = self._finer(self.estimate, share)
             if finer == self.fourier:
                 return correction
             self.fourier, self._wait = finer, WAIT
@@ -174,11 +175,11 @@ class AdaptiveBalance:
         truncated[self.fourier.coefficients * self._resolution.rank : -1] = 0.0
         return truncated
 
-    def _finer(self, estimate: Estimate) -> FourierBasis:
+    def _finer(self, estimate: Estimate, share: float) -> FourierBasis:
         """Return the resolution that the error asks for."""
-        if self._tolerance is None or estimate.error <= self._tolerance:
+        if self._tolerance is None or estimate.error <= share * self._tolerance:
             return self.fourier
-        enough = self._tolerance / (3.0 if self._smoothest else 2.0)
+        enough = share * self._tolerance / (3.0 if self._smoothest else 2.0)
         finer = self._doubled(estimate.truncation > enough, estimate.sampling > enough)
         if estimate.smoothing > enough:
             finer = replace(finer, threshold=finer.threshold / SHARPER)

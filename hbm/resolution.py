@@ -14,9 +14,6 @@ from hbm.refined import Resolved, refined
 from hbm.residual import Balance
 from microslip_mechanics.arrays import Array, ComplexArray
 
-REFINED = 0.5
-"""what still more samples change, over what twice as many did: their error falls like
-the square of their distance, or faster"""
 SMOOTHER = 1e-3
 """relative change of a threshold velocity that tells what it does"""
 TURNING = 0.25
@@ -104,7 +101,7 @@ class Resolution(ABC):
         return Estimate(
             _largest(last - before) / size,
             truncation / size,
-            REFINED * _largest(resampled - solved) / size,
+            _largest(resampled - solved) / size,
             self._smoothing(correction, fourier, normal) / size,
             made.corrected,
             finer,

@@ -89,13 +89,10 @@ class Curve:
         segment = Segment(self.system, before, after, scale, tolerance, loose)
         tests = self._tests(last, made)
         found = [
-            (segment.place(located.point), name, located)
-            for name, test, ends, precision in tests
-            if (
-                located := segment.locate(test, ends, precision, falling=name == "peak")
-            )
-            is not None
-            and not (ends and self._leaps(test(located), ends))
+            (segment.place(located.point), test.name, located)
+            for test in tests
+            if (located := segment.locate(*test[1:])) is not None
+            and not (test.ends and self._leaps(test.function(located), test.ends))
         ]
         for _, name, located in sorted(_told(found, scale), key=itemgetter(0)):
             normal = located.along / metric(located.point) ** 2
@@ -108,10 +105,7 @@ class Curve:
 
     def _tests(self, last: Made, made: Made) -> list[Test]:
         """Return what is to be located between two responses."""
-        tests: list[Test] = [
-            ("fold", folds, None, PRECISION),
-            ("peak", self._slope, None, PRECISION),
-        ]
+        tests = [Test("fold", folds), Test("peak", self._slope, falling=True)]
         before, after = last.response.multipliers, made.response.multipliers
         finer = max(last.finer, made.finer, key=lambda each: each.harmonics)
         most = replace(LOCATING, threshold=finer.threshold)
@@ -119,7 +113,7 @@ class Curve:
         rough = ROUGHER if self._rises(finer) else ROUGH
         for which, kind in crossings(before, after):
             ends = excess(before, which), excess(after, which)
-            tests.append((kind, partial(self._growth, which, finer), ends, rough))
+            tests.append(Test(kind, partial(self._growth, which, finer), ends, rough))
         return tests
 
     def _leaps(self, left: float, ends: tuple[float, float]) -> bool:
@@ -188,8 +182,18 @@ class Made(NamedTuple):
     finer: FourierBasis
 
 
-Test = tuple[str, Callable[[Correction], float], tuple[float, float] | None, float]
-"""name, function that vanishes, its values at the ends if they are known, precision"""
+class Test(NamedTuple):
+    """What happens where a function vanishes."""
+
+    name: str
+    function: Callable[[Correction], float]
+    ends: tuple[float, float] | None = None
+    """its values at both points, if they are known better"""
+    precision: float = PRECISION
+    falling: bool = False
+    """whether it must change from above zero to below"""
+
+
 Found = tuple[float, str, Correction]
 """place along a segment, name, point"""
 

@@ -50,7 +50,6 @@ class Segment:
         test: Callable[[Correction], float],
         ends: tuple[float, float] | None = None,
         precision: float = PRECISION,
-        *,
         falling: bool = False,
     ) -> Correction | None:
         """Return the point between the two at which ``test`` is zero.

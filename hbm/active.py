@@ -7,10 +7,13 @@ from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
 
 PROBE = FourierBasis(5, 64)
 """orders that show which harmonics a coordinate has"""
+BESIDE = (0.9, 1.0, 1.1)
+"""frequencies over the given one, at each of which the drive must reach a coordinate:
+next to a resonance rounding stands out, but not at all of them"""
 
 
 def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
@@ -24,9 +27,10 @@ def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
     still = np.zeros((PROBE.coefficients, problem.rank))
     still[0] = problem.rest
     at_rest, _ = contact(still, frequency)
-    largest, driven = _stuck(problem, frequency)
+    largest = _stuck(problem, frequency)
+    driven = [_large(_load(problem, share * frequency)) for share in BESIDE]
     active = np.zeros(still.shape, dtype=bool)
-    active[1:3] = driven
+    active[1:3] = np.logical_and.reduce(driven)
     coupling = _coupling(problem, frequency)
     random = np.random.default_rng(0)
     while True:
@@ -78,22 +82,27 @@ def _parities(
     return np.any(active[1::4], axis=0), active[0] | np.any(active[3::4], axis=0)
 
 
-def _stuck(
-    problem: RelativeProblem, frequency: float
-) -> tuple[float, NDArray[np.bool_]]:
-    """Return the amplitude of the linear response about rest, and what it moves."""
+def _load(problem: RelativeProblem, frequency: float) -> ComplexArray:
+    """Return the drive as the coordinates see it [N], shape (rank,)."""
+    variable = np.array([1j * frequency])
+    load, _ = problem.condensed.load(variable, problem.force[1:])
+    seen: ComplexArray = load[0]
+    return seen
+
+
+def _stuck(problem: RelativeProblem, frequency: float) -> float:
+    """Return the amplitude of the linear response about rest [m]."""
     variable = np.array([1j * frequency])
     stiffness, _ = problem.condensed.dynamic_stiffness(variable)
-    load, _ = problem.condensed.load(variable, problem.force[1:])
     contact = problem.contact(PROBE)
     contact(np.vstack([problem.rest, np.zeros((10, problem.rank))]), frequency)
     elastic, viscous = (part[:, :, 0] for part in contact.spectra(0))
     matrix = stiffness[0] + elastic + variable[0] * viscous
-    size = np.abs(np.linalg.lstsq(matrix, load[0], rcond=None)[0]).max(initial=0.0)
-    return max(float(size), 1e-12), _large(load[0])
+    moved = np.linalg.lstsq(matrix, _load(problem, frequency), rcond=None)[0]
+    return max(float(np.abs(moved).max(initial=0.0)), 1e-12)
 
 
-def _large(values: Array) -> NDArray[np.bool_]:
+def _large(values: Array | ComplexArray) -> NDArray[np.bool_]:
     """Return what stands out from rounding."""
     size = np.abs(values)
     large: NDArray[np.bool_] = size > 1e-10 * size.max(initial=0.0)

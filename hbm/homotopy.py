@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -23,28 +23,28 @@ SMOOTH = 1e4
 """times the threshold velocity with which a homotopy begins"""
 
 
-def approached(
+def approaches(
     path: Path,
     parameter: float,
     control: StepControl,
     effort: Effort,
     metric: Metric,
-) -> Array | None:
-    """Return coefficients of the response at a parameter, (2H + 1, rank), if found.
+) -> Iterator[Array]:
+    """Yield coefficients of coarse responses at a parameter, (2H + 1, rank) each.
 
     The drive grows from nothing, or the threshold velocity of friction falls from a
-    large value, or friction grows from nothing, at coarse resolutions in turn.
-    ``effort`` counts what that takes; ``metric`` measures steps of Newton's iteration.
+    large value, or friction grows from nothing, at coarse resolutions in turn. Some of
+    what is found may exist at its resolution alone, or be the same again. ``effort``
+    counts what it takes; ``metric`` measures steps of Newton's iteration.
     """
     for fourier in FOURIERS:
         for easier in HOMOTOPIES:
             try:
-                return _followed(
+                yield _followed(
                     path, parameter, easier, fourier, control, effort, metric
                 )
             except ContinuationError:
                 continue
-    return None
 
 
 def _followed(

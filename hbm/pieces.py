@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
-from hbm.continuation import ContinuationError, trace
+from hbm.continuation import ContinuationError, correct_at, trace
 from hbm.corner import round_corner
 from hbm.effort import Effort
-from hbm.homotopy import approached
+from hbm.homotopy import approaches
 from hbm.newton import Correction
 from hbm.path import Path
 from hbm.step_control import StepControl
@@ -25,8 +25,9 @@ REMEMBERED = 60
 """points behind the last one, by which the way to a corner is known"""
 CORNERS = 30
 """that a piece may turn round before it is given up"""
-LEAPS = (1e-4, 1e-3, 5e-3, 2e-2)
-"""shares of the range by which a restart passes what resists, tried in turn"""
+LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
+"""shares of the range by which a restart passes what resists, tried in turn; from the
+first one again where the piece before has come nearer to the end"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +48,7 @@ class Pieces:
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
         guess, heading = self._still(self.start), self.end
-        both = False
+        both, leaps = False, iter((0.0, *LEAPS))
         for attempt in range(RESTARTS + 1):
             last: Correction | None = None
             try:
@@ -55,11 +56,12 @@ class Pieces:
                     last = correction
                     yield correction
             except ContinuationError:
-                if last is not None and last.along[-1] != 0.0:
-                    onwards = math.copysign(1.0, last.along[-1])
-                    heading = max(self.start, self.end, key=lambda each: onwards * each)
-                reached = float((guess if last is None else last.point)[-1])
-                again = self._again(reached, heading, begun=last is not None)
+                heading = self._onwards(last, heading)
+                begun, reached = guess[-1], (guess if last is None else last.point)[-1]
+                way = math.copysign(self.end - self.start, heading - begun)
+                if (reached - begun) / way > LEAPS[0]:
+                    leaps = iter(LEAPS)
+                again = self._again(float(reached), heading, leaps)
                 if again is None or attempt == RESTARTS:
                     raise
                 guess = again
@@ -67,6 +69,7 @@ class Pieces:
                 if last is None or last.point[-1] == self.end or both:
                     return
                 guess, heading, both = self._still(self.end), self.start, True
+                leaps = iter((0.0, *LEAPS))
 
     def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
         """Yield corrections from a point in a direction, until the range ends.
@@ -134,22 +137,45 @@ class Pieces:
             direction=direction,
         )
 
-    def _again(self, reached: float, heading: float, *, begun: bool) -> Array | None:
-        """Return a point from which the curve can go on, past what resists."""
+    def _onwards(self, last: Correction | None, heading: float) -> float:
+        """Return the end of the range to which the curve was going."""
+        if last is None or last.along[-1] == 0.0:
+            return heading
+        onwards = math.copysign(1.0, last.along[-1])
+        return max(self.start, self.end, key=lambda each: onwards * each)
+
+    def _again(
+        self, reached: float, heading: float, leaps: Iterator[float]
+    ) -> Array | None:
+        """Return a point from which the curve can go on, past what resists.
+
+        ``leaps`` are what is left to try, in shares of the range.
+        """
         way = math.copysign(abs(self.end - self.start), heading - reached)
-        for leap in LEAPS if begun else (0.0, *LEAPS):
+        for leap in leaps:
             parameter = reached + leap * way
             if (heading - parameter) * way <= 0.0:
                 return None
-            coefficients = approached(
+            for coefficients in approaches(
                 self.path, parameter, self.control, self.effort, self.metric
-            )
-            if coefficients is not None:
-                guess = self._still(parameter)
-                guess[: coefficients.size] = coefficients.ravel()
-                self.system.restart(coefficients.shape[0] // 2)
-                return guess
+            ):
+                settled = self._settled(coefficients, parameter)
+                if settled is not None:
+                    return settled
         return None
+
+    def _settled(self, coefficients: Array, parameter: float) -> Array | None:
+        """Return the point near a coarse response; None if it does not converge."""
+        guess = self._still(parameter)
+        guess[: coefficients.size] = coefficients.ravel()
+        self.system.restart(coefficients.shape[0] // 2)
+        try:
+            found = correct_at(
+                self.system, guess, self.control, self.system, self.metric
+            )
+        except ContinuationError:
+            return None
+        return found.point
 
     def _still(self, parameter: float) -> Array:
         """Return the point at rest."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse
 from numpy.typing import ArrayLike
+from scipy.sparse.linalg import LinearOperator
 
 from microslip_mechanics.arrays import Matrix
 from microslip_mechanics.factors import indefinite_factors
@@ -43,20 +44,29 @@ class Damping:
             In one line, with what is wrong and what to give instead.
         """
         self._check_single()
+        found = self._matrix(mass, stiffness, names)
+        if not isinstance(found, LinearOperator):
+            _check_dissipates(found, names)
+        return found
+
+    def _matrix(
+        self, mass: Matrix, stiffness: Matrix, names: tuple[str, ...]
+    ) -> Matrix:
+        """Return C, which may still put energy in."""
         if self.matrix is not None:
             given = square_matrix(self.matrix, "damping")
             check_like(given, mass, "damping")
-            _check_dissipates(given, names)
             return given
-        bare = Structure(mass, 0.0 * mass, stiffness, names)
+        none = 0.0 * mass
+        if (self.ratio, self.rayleigh, self.loss_factor) == (None, None, None):
+            return none
+        bare = Structure(mass, none, stiffness, names)
+        if self.rayleigh is not None:
+            return Rayleigh(*self.rayleigh).matrix(bare)
         if self.loss_factor is not None:
             _check_all(bare, "loss_factor")
             return Hysteretic(self.loss_factor).viscous(bare.dofs).matrix(bare)
-        if self.rayleigh is not None:
-            return Rayleigh(*self.rayleigh).matrix(bare)
-        if self.ratio is not None:
-            return ModalDamping(self._ratios(bare)).matrix(bare)
-        return bare.damping
+        return ModalDamping(self._ratios(bare)).matrix(bare)
 
     def _check_single(self) -> None:
         ways = (self.matrix, self.ratio, self.rayleigh, self.loss_factor)

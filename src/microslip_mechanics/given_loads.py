@@ -11,7 +11,6 @@ from typing import TypeAlias
 import numpy as np
 
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.base_excitation import base_excitation, translation
 from microslip_mechanics.engine_order import engine_order
 from microslip_mechanics.forms import place_of
 from microslip_mechanics.structure import Structure
@@ -59,6 +58,8 @@ class BaseMotion:
 
     def load(self, structure: Structure) -> ComplexArray:
         """Return the load on a structure [N], shape (dofs,)."""
+        from microslip_mechanics.base_excitation import base_excitation, translation
+
         carried = translation(structure.names, self.unit)
         return base_excitation(structure, carried).by_acceleration(self.acceleration)
 

@@ -61,6 +61,17 @@ def test_on_the_rig_axial_motion_is_odd_and_all_other_motion_even() -> None:
     np.testing.assert_array_equal(active[0], ~along)
 
 
+@pytest.mark.parametrize("model", ["A", "B", "full"])
+def test_rounding_next_to_a_resonance_moves_nothing(model: str) -> None:
+    problem = relative(rig_problem(model=model))
+
+    # alone, the blades resonate at 135 Hz
+    found = [moving(problem, 2.0 * np.pi * hertz) for hertz in (125.0, 135.0, 135.05)]
+
+    np.testing.assert_array_equal(found[1], found[0])
+    np.testing.assert_array_equal(found[2], found[0])
+
+
 @pytest.mark.parametrize("law", ["coulomb", "gkf"])
 @pytest.mark.parametrize("model", ["A", "B", "full"])
 def test_what_is_left_out_is_zero_in_the_solution(model: str, law: str) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import scipy.linalg
+import scipy.optimize
 
 from contact_tables import contact_points
 from hbm.fourier import to_complex
@@ -16,6 +17,7 @@ from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from rigs import rig_problem
 from small_problems import NORMAL, cantilever, mass_on_contact, oscillator
 
@@ -237,3 +239,39 @@ def test_the_peak_of_an_oscillator_is_located(harmonics: int | None) -> None:
     peaks = [response.frequency for response in curve if response.event == "peak"]
     exact = np.sqrt(stiffness / mass - damping**2 / (2.0 * mass**2))
     assert peaks == pytest.approx([exact], rel=1e-5)
+
+
+def test_a_dip_between_two_resonances_is_no_peak() -> None:
+    problem = system(
+        mass=[2.0, 1.0],
+        stiffness=[[500.0, -200.0], [-200.0, 200.0]],
+        damping=[[0.5, -0.2], [-0.2, 0.2]],
+        drive={"x1": 1.5},
+        probes=["x1"],
+    )
+    options = CurveOptions(TURN * 0.5, TURN * 4.0, harmonics=2)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    def amplitude(frequency: float) -> float:
+        dynamic = dynamic_stiffness(problem, frequency)
+        return float(np.abs(np.linalg.solve(dynamic, problem.drive)[0]))
+
+    undamped = np.sqrt(
+        scipy.linalg.eigh(
+            problem.structure.stiffness, problem.structure.mass, eigvals_only=True
+        )
+    )
+    exact = [
+        scipy.optimize.minimize_scalar(
+            lambda frequency: -amplitude(frequency),
+            bounds=(0.9 * mode, 1.1 * mode),
+            method="bounded",
+            options={"xatol": 1e-9},
+        ).x
+        for mode in undamped
+    ]
+    dip = min(curve, key=lambda response: amplitude(response.frequency)).frequency
+    assert exact[0] < dip < exact[1]
+    peaks = [response.frequency for response in curve if response.event == "peak"]
+    assert peaks == pytest.approx(exact, rel=1e-5)

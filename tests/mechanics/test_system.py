@@ -16,6 +16,8 @@ from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.system import system
 
 MASS, STIFFNESS = [1.0, 2.0], [[30.0, -10.0], [-10.0, 10.0]]
+BUCKLED = [[30.0, -10.0], [-10.0, 3.0]]
+"""with a motion, mostly of the second mass, that this stiffness drives away"""
 SLIDER = Jenkins(20.0, 1.0)
 
 
@@ -126,6 +128,22 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
             "stiffness": scipy.sparse.csc_array(np.array(STIFFNESS)),
             "damping": scipy.sparse.csc_array(np.array([[0.1, 0.2], [0.2, 0.1]])),
         },
+        ("puts energy into", "negative eigenvalues"),
+    ),
+    "Rayleigh damping of a stiffness that drives": (
+        {"stiffness": BUCKLED, "rayleigh_damping": (0.0, 1e-3)},
+        ("puts energy into a motion mostly of x2", "negative eigenvalues"),
+    ),
+    "sparse Rayleigh damping of a stiffness that drives": (
+        {
+            "mass": scipy.sparse.diags_array(MASS),
+            "stiffness": scipy.sparse.csc_array(np.array(BUCKLED)),
+            "rayleigh_damping": (0.0, 1e-3),
+        },
+        ("puts energy into", "negative eigenvalues"),
+    ),
+    "damping ratio of a stiffness that drives": (
+        {"stiffness": BUCKLED, "damping_ratio": 0.01},
         ("puts energy into", "negative eigenvalues"),
     ),
     "negative ratio": ({"damping_ratio": -0.1}, ("damping_ratio = -0.1", "0 to")),

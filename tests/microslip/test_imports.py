@@ -86,19 +86,59 @@ def test_plot_loads_no_solver(small_curve: ResponseCurve, tmp_path: Path) -> Non
     assert not {"hbm", "timedomain", "pyfftw"} & modules
 
 
-def test_tables_load_no_harmonic_balance(tmp_path: Path) -> None:
-    probe = (
-        "import microslip.studies.tables, json, sys; print(json.dumps([*sys.modules]))"
+SPARED = {
+    "microslip.scenes.turning",
+    "microslip_mechanics.rotating_frame",
+    "microslip_mechanics.base_excitation",
+    "microslip_mechanics.reduced_problem",
+}
+"""needed by scenes that turn, whose ground moves, or that are reduced"""
+TURNED = ("rotation.speed=10", "rotation.axis=[0,0,1]", "rotation.centre=[0,-1,0]")
+CARRIED = ("base.direction=[0,0,1]", "base.acceleration=1")
+
+
+@pytest.mark.parametrize(
+    ("scene", "overrides", "needed"),
+    [
+        ("two-blades", (), ()),
+        ("friction-beam", (), ()),
+        ("two-blades", TURNED, ("scenes.turning", "mechanics.rotating_frame")),
+        ("friction-beam", CARRIED, ("mechanics.base_excitation",)),
+        (
+            "friction-beam",
+            ("structure.reduction.highest=20000",),
+            ("mechanics.reduced_problem",),
+        ),
+    ],
+)
+def test_a_problem_loads_what_its_scene_has(
+    scene: str, overrides: tuple[str, ...], needed: tuple[str, ...], tmp_path: Path
+) -> None:
+    modules = loaded_with(
+        "from microslip.rigs import problem_of; "
+        "from microslip.scene_file import load_scene; "
+        f"problem_of(load_scene({scene!r}, {overrides!r}))",
+        folder=tmp_path,
     )
 
+    found = {name for name in SPARED if name in modules}
+    assert found == {name for name in SPARED if name.endswith(needed)}
+
+
+def test_tables_load_no_harmonic_balance(tmp_path: Path) -> None:
+    modules = loaded_with("import microslip.studies.tables", folder=tmp_path)
+
+    assert "timedomain" in modules
+    assert not {"hbm", "pyfftw"} & modules
+
+
+def loaded_with(code: str, folder: Path) -> set[str]:
+    """Return the modules that some code loads."""
     ended = subprocess.run(
-        [sys.executable, "-c", probe],
-        cwd=tmp_path,
+        [sys.executable, "-c", f"{code}; import sys; print(*sys.modules)"],
+        cwd=folder,
         capture_output=True,
         text=True,
         check=True,
     )
-
-    modules = set(json.loads(ended.stdout))
-    assert "timedomain" in modules
-    assert not {"hbm", "pyfftw"} & modules
+    return set(ended.stdout.split())

@@ -41,7 +41,7 @@ def _free() -> Finding:
     stiff = math.sqrt(1.0 + STOP)
     known = 2.0 * stiff / (1.0 + stiff)
     system, quantity = "bilinear oscillator", "natural frequency [rad/s]"
-    return Finding(system, quantity, FREE, known, mode.frequency, 1e-5)
+    return Finding(system, quantity, FREE, known, mode.frequency, 1e-9)
 
 
 def _driven() -> Iterator[Finding]:
@@ -55,11 +55,11 @@ def _driven() -> Iterator[Finding]:
         name = f"at {response.frequency:.4f} rad/s"
         system = "stop behind a gap"
         quantity = f"amplitude {name} [m]"
-        yield Finding(system, quantity, DRIVEN, pieces.first, first(response), 1e-5)
+        yield Finding(system, quantity, DRIVEN, pieces.first, first(response), 2e-6)
         found = float(np.abs(response.multipliers).max())
         known = pieces.multiplier
         quantity = f"largest multiplier {name}"
-        yield Finding(system, quantity, DRIVEN, known, found, 1e-3)
+        yield Finding(system, quantity, DRIVEN, known, found, 1e-6)
 
 
 @dataclass(frozen=True, slots=True)

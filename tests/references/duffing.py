@@ -38,16 +38,16 @@ def _forced() -> Iterator[Finding]:
     points = curve(problem, 0.5, 2.5, 1, 64)
     peak = next(each for each in points if each.event == "peak")
     highest = _highest()
-    yield Finding(NAME, "largest amplitude [m]", FORCED, highest, first(peak), 1e-8)
+    yield Finding(NAME, "largest amplitude [m]", FORCED, highest, first(peak), 2e-9)
     folds = [each.frequency for each in points if each.event == "fold"]
     names = ("jump down", "jump up")
     for name, known, found in zip(names, _folds(highest), folds, strict=True):
-        yield Finding(NAME, f"{name} [rad/s]", FORCED, known, found, 1e-8)
+        yield Finding(NAME, f"{name} [rad/s]", FORCED, known, found, 2e-9)
     fine = curve(problem, 0.5, 2.5, 15, 512)
     worst = max(fine, key=lambda each: abs(math.log(_product(each)) - _lost(each)))
     known = math.exp(_lost(worst))
     quantity = "product of multipliers, worst point"
-    yield Finding(NAME, quantity, FLOQUET, known, _product(worst), 1e-5)
+    yield Finding(NAME, quantity, FLOQUET, known, _product(worst), 1e-6)
 
 
 def _product(response: PeriodicResponse) -> float:
@@ -121,4 +121,4 @@ def _free(
     modulus = cubic * square / (2.0 * stiffest)
     known = math.pi * math.sqrt(stiffest) / (2.0 * float(scipy.special.ellipk(modulus)))
     quantity = f"frequency at amplitude {math.sqrt(square):.2f} m [rad/s]"
-    yield Finding(name, quantity, source, known, mode.frequency, 1e-8)
+    yield Finding(name, quantity, source, known, mode.frequency, 1e-10)

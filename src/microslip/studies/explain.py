@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,6 +27,9 @@ from microslip_mechanics.contact.law import (
 )
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
+
+if TYPE_CHECKING:
+    from microslip_mechanics.reduced_problem import ReducedProblem
 
 HARMONICS = 63
 """for which unknowns are counted where their number follows from the tolerance"""
@@ -63,15 +67,19 @@ class Pruned:
 
 def pruned(scene: Scene) -> list[Pruned]:
     """Count what a scene's solvers carry, and what they would without pruning."""
-    sector, whole = sector_of(scene), unpruned_of(scene)
-    problem = problem_of(scene) if sector is None else sector.standing()
+    sector, made = sector_of(scene), _reduced(scene)
+    if made is not None:
+        problem = whole = made.problem
+    else:
+        problem = problem_of(scene) if sector is None else sector.standing()
+        whole = unpruned_of(scene)
     why = _load_reason(scene) if isinstance(scene.rig, TwoBlades) else LOADS
     return [
-        *_structure(scene, problem, whole),
+        *_structure(scene, problem, whole, made),
         *_contacts(problem, why),
         # one sector cannot be marched
         _step(problem if sector is None else whole),
-        *_unknowns(path_of(scene), unpruned_path_of(scene), scene),
+        *_unknowns(path_of(scene, problem), unpruned_path_of(scene, whole), scene),
         *_code(),
     ]
 
@@ -88,7 +96,18 @@ def obeyed(scene: Scene) -> list[tuple[str, str, str]]:
     ]
 
 
-def _structure(scene: Scene, problem: Problem, whole: Problem) -> Iterator[Pruned]:
+def _reduced(scene: Scene) -> ReducedProblem | None:
+    """Return the reduced problem of a scene that asks for one."""
+    if isinstance(scene.rig, TwoBlades | BladedDisk):
+        return None
+    from microslip.scenes.systems.build import reduction
+
+    return reduction(scene.rig)
+
+
+def _structure(
+    scene: Scene, problem: Problem, whole: Problem, made: ReducedProblem | None
+) -> Iterator[Pruned]:
     """Count what a kind of scene leaves out of its structure."""
     dofs, most = problem.structure.dofs, whole.structure.dofs
     count, points = problem.interface.count, whole.interface.count
@@ -104,18 +123,15 @@ def _structure(scene: Scene, problem: Problem, whole: Problem) -> Iterator[Prune
         yield Pruned("sectors", 1, sector.sectors, "the others move like it, later")
         yield Pruned("degrees of freedom", dofs, most, "those of one sector")
     else:
-        yield Pruned("degrees of freedom", dofs, *_whole(scene, problem))
+        yield Pruned("degrees of freedom", dofs, *_whole(scene, problem, made))
     why = "rows that the elements' laws become"
     yield Pruned("contact points", count, points, why)
 
 
-def _whole(scene: Scene, problem: Problem) -> tuple[int, str]:
+def _whole(
+    scene: Scene, problem: Problem, made: ReducedProblem | None
+) -> tuple[int, str]:
     """Return a system's number of degrees of freedom, and how it became smaller."""
-    made = None
-    if not isinstance(scene.rig, BladedDisk):
-        from microslip.scenes.systems.build import reduction
-
-        made = reduction(scene.rig)
     if made is None:
         sparse = "sparse" if problem.structure.sparse else "dense"
         return problem.structure.dofs, f"all of the scene's; {sparse}"

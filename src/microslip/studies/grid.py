@@ -7,12 +7,15 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.curve import trace_curve
 from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.response import ResponseCurve
 
 LAWS = ("coulomb", "gkf")
 SIGMAS = (3e-9, 3e-7)
@@ -20,6 +23,8 @@ THRESHOLDS = (1e-2, 1e-4, 1e-6)
 FRICTIONS = (0.0, 0.3, 5.0)
 LOADS = tuple(itertools.product((0.01, 1.0, 100.0), (0.1, 1.0, 100.0)))
 """preload and drive [N]"""
+NARROW = 0.01
+"""share of the range that a whole curve may leave out"""
 QUICK = 10
 """every so-many-th case is enough for a quick look, in which no value is missing"""
 
@@ -63,7 +68,14 @@ class Attempt:
     points: int
     error: float
     """largest estimated error of amplitude"""
+    gap: float
+    """share of the range in which there is no curve"""
     seconds: float
+
+    @property
+    def whole(self) -> bool:
+        """Whether the curve comes to its end, without a gap that matters."""
+        return self.ending == "complete" and self.gap <= NARROW
 
 
 def cases(scene: Scene) -> list[Case]:
@@ -93,12 +105,27 @@ def attempts(
     """Trace the curve of each case; a curve that cannot be traced is a result too."""
     for case in chosen:
         began = time.perf_counter()
-        points, error = 0, 0.0
+        points, error, gap = 0, 0.0, 1.0
         try:
             loaded = load_scene(scene, (*overrides, *case.overrides))
             traced = trace_curve(problem_of(loaded), loaded.curve)
             ending, points = traced.curve.ending, traced.curve.frequency.size
-            error = float(traced.curve.error.max())
+            error, gap = float(traced.curve.error.max()), uncovered(traced.curve)
         except (MicroslipError, ValueError, ArithmeticError, RuntimeWarning) as cause:
             ending = " ".join(str(cause).split())
-        yield Attempt(case, ending, points, error, time.perf_counter() - began)
+        yield Attempt(case, ending, points, error, gap, time.perf_counter() - began)
+
+
+def uncovered(curve: ResponseCurve) -> float:
+    """Return the share of a curve's range that lies between its pieces."""
+    begins = [place for place, name in enumerate(curve.event) if name == "restart"]
+    pieces = sorted(
+        (float(piece.min()), float(piece.max()))
+        for piece in np.split(curve.frequency, begins)
+        if piece.size
+    )
+    reached, missing = pieces[0][1], 0.0
+    for low, high in pieces[1:]:
+        missing += max(low - reached, 0.0)
+        reached = max(reached, high)
+    return missing / (reached - pieces[0][0]) if missing > 0.0 else 0.0

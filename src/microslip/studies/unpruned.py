@@ -36,19 +36,19 @@ class Timed:
     curve: ResponseCurve
 
 
-def path_of(scene: Scene) -> AlongFrequency:
-    """Return the path of a scene's curve, in what moves."""
+def path_of(scene: Scene, problem: Problem | None = None) -> AlongFrequency:
+    """Return the path of a scene's curve, in what moves; of its problem if known."""
     options = curve_options(scene.curve)
     sector = sector_of(scene)
     if sector is not None:
         return along_sector(sector, options.start, options.end)
-    return _path(problem_of(scene), options)
+    return _path(problem or problem_of(scene), options)
 
 
-def unpruned_path_of(scene: Scene) -> AlongFrequency:
-    """Return the path of a scene's curve, from which nothing is left out."""
+def unpruned_path_of(scene: Scene, whole: Problem | None = None) -> AlongFrequency:
+    """Return the path from which nothing is left out; of that problem if known."""
     options = replace(curve_options(scene.curve), pruned=False)
-    return _path(unpruned_of(scene), options)
+    return _path(whole or unpruned_of(scene), options)
 
 
 def _path(problem: Problem, options: CurveOptions) -> AlongFrequency:

@@ -5,23 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from microslip.matrices.read import MatrixFiles, read_structure
 from microslip.matrices.source import MatrixSource
 from microslip.quantity import SceneError
 from microslip.scenes.systems.cantilever import assembled
 from microslip.scenes.systems.tables import Numbers, RayleighRatios, System
-from microslip.scenes.turning import turning
-from microslip_mechanics.base_excitation import frame_base_excitation
 from microslip_mechanics.element import Element
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.given_loads import BaseMotion, EngineOrder
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.rayleigh import Rayleigh
-from microslip_mechanics.reduced_problem import ReducedProblem, reduced_problem
-from microslip_mechanics.rotating_frame import RotatingFrame
 from microslip_mechanics.system import system
+
+if TYPE_CHECKING:
+    from microslip_mechanics.frame import Frame
+    from microslip_mechanics.reduced_problem import ReducedProblem
+    from microslip_mechanics.rotating_frame import RotatingFrame
 
 Made = TypeVar("Made")
 SMALL = 400
@@ -51,6 +52,8 @@ def reduction(rig: System) -> ReducedProblem | None:
     wanted = rig.structure.reduction
     if wanted is None:
         return None
+    from microslip_mechanics.reduced_problem import reduced_problem
+
     return _told(
         rig,
         lambda: reduced_problem(
@@ -73,25 +76,36 @@ def _told(rig: System, make: Callable[[], Made]) -> Made:
 
 def _whole(rig: System) -> Problem:
     """Return the problem with all degrees of freedom."""
-    beam, spin = rig.structure.beam, rig.structure.rotation
+    beam, base = rig.structure.beam, rig.base
+    moved = None if base is None else BaseMotion(base.direction, base.acceleration)
     if beam is None:
-        base = rig.base
-        moved = None if base is None else BaseMotion(base.direction, base.acceleration)
         return _made(rig, _matrices(rig), moved)
     frame = assembled(beam, rig.masses)
-    still = frame.structure()
-    turned = None if spin is None else turning(frame, spin)
-    shown = still if turned is None else turned.structure()
+    turned = _turning(rig, frame)
+    shown = (turned or frame).structure()
     matrices = {"mass": shown.mass, "stiffness": shown.stiffness, "names": shown.names}
     made = _made(rig, matrices, None)
-    if rig.base is not None:
-        motion = BaseMotion(rig.base.direction, rig.base.acceleration)
-        carried = frame_base_excitation(frame, motion.unit)
-        load = carried.by_acceleration(motion.acceleration).real
-        made = replace(made, drive=made.drive + load)
-    if turned is None:
-        return made
-    return _turned(made, turned)
+    if moved is not None:
+        made = _moved(made, frame, moved)
+    return made if turned is None else _turned(made, turned)
+
+
+def _moved(made: Problem, frame: Frame, motion: BaseMotion) -> Problem:
+    """Return a problem whose ground moves."""
+    from microslip_mechanics.base_excitation import frame_base_excitation
+
+    carried = frame_base_excitation(frame, motion.unit)
+    load = carried.by_acceleration(motion.acceleration).real
+    return replace(made, drive=made.drive + load)
+
+
+def _turning(rig: System, frame: Frame) -> RotatingFrame | None:
+    """Return a frame in axes that turn; None if they do not."""
+    if rig.structure.rotation is None:
+        return None
+    from microslip.scenes.turning import turning
+
+    return turning(frame, rig.structure.rotation)
 
 
 def _turned(made: Problem, turned: RotatingFrame) -> Problem:

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from microslip.scenes.turning import turning
 from microslip.scenes.two_blades import layout
 from microslip.scenes.two_blades.faces import interface, unpruned_interface
 from microslip.scenes.two_blades.tables import TwoBlades
@@ -32,6 +31,8 @@ def problem(rig: TwoBlades) -> Problem:
     preload = rig.preload.force * frame.motion(layout.ELEMENT, push)[0]
     structure = frame.structure()
     if rig.rotation is not None:
+        from microslip.scenes.turning import turning
+
         turned = turning(frame, rig.rotation)
         structure, preload = turned.structure(), preload + turned.load()
     return Problem(

@@ -1,0 +1,120 @@
+"""Where a curve begins anew: which response it takes, and how far it leaps."""
+
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hbm.continuation import ContinuationError
+from hbm.effort import Effort
+from hbm.newton import Correction, Outcome
+from hbm.options import CurveOptions
+from hbm.pieces import Pieces
+from hbm.settler import Unsettled
+from hbm.solve import frequency_response
+from hbm.step_control import StepControl
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.static import static_equilibrium
+from rigs import rig_problem
+from systems import Dense
+
+TURN = 2.0 * np.pi
+RESISTS = 0.3
+
+
+class Square(Unsettled):
+    """y² = 1, at any parameter."""
+
+    size = 2
+
+    def __call__(self, point: Array) -> tuple[Array, Dense]:
+        y, _ = point
+        return np.array([y**2 - 1.0]), Dense([[2.0 * y, 0.0]])
+
+    def restart(self, harmonics: int) -> None:
+        """Have nothing to begin anew."""
+
+
+@pytest.fixture
+def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
+    """Return where pieces begin, which end at 0.3 unless they begin behind 0.302."""
+    found: list[tuple[float, float]] = []
+
+    def trace(
+        system: Square, start: Array, end: float, **_: Any
+    ) -> Iterator[Correction]:
+        y, place = map(float, start)
+        found.append((y, place))
+        reached = end if place > RESISTS + 0.002 else RESISTS
+        residual, linearised = system(start)
+        point = np.array([y, reached])
+        along = np.array([0.0, 1.0])
+        yield Correction(point, residual, linearised, Outcome.CONVERGED, (0.0,), along)
+        if reached != end:
+            raise ContinuationError("the curve does not go on")
+
+    monkeypatch.setattr("hbm.pieces.trace", trace)
+    monkeypatch.setattr("hbm.pieces.round_corner", lambda *_: None)
+    monkeypatch.setattr(
+        "hbm.pieces.approaches", lambda *_: (np.array([[y]]) for y in (0.0, 0.9))
+    )
+    return found
+
+
+def pieces(start: float, end: float) -> Pieces:
+    problem = SimpleNamespace(rank=1, rest=np.array([0.9]))
+    path: Any = SimpleNamespace(
+        rank=1, at=lambda parameter: (problem, parameter), unit=lambda _: 0.1
+    )
+    system: Any = Square()
+    return Pieces(path, system, start, end, StepControl(), Effort())
+
+
+def test_restarts_leap_farther_where_a_piece_comes_no_nearer_to_the_end(
+    begun: list[tuple[float, float]],
+) -> None:
+    list(pieces(0.0, 1.0))
+
+    assert [place for _, place in begun] == pytest.approx([0.0, 0.3001, 0.301, 0.305])
+
+
+def test_a_restart_takes_the_first_response_that_exists(
+    begun: list[tuple[float, float]],
+) -> None:
+    list(pieces(0.0, 1.0))
+
+    assert [y for y, _ in begun[1:]] == pytest.approx([1.0] * 3, abs=1e-8)
+
+
+def test_a_curve_that_resists_behind_all_leaps_says_so(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+
+    with pytest.raises(ContinuationError, match="does not go on"):
+        list(pieces(0.0, 1.0))
+
+    assert len(begun) == 1
+
+
+def test_a_rig_whose_coarse_responses_differ_has_a_first_point() -> None:
+    """Model B that slides by 4 mm with friction that falls with speed."""
+    problem = rig_problem(
+        model="B",
+        friction__law="gkf",
+        friction__mu_dynamic=5.0,
+        friction__mu_static=10.0,
+        friction__threshold_velocity=1e-2,
+        contact__sigma=3e-9,
+        preload__force=1.0,
+        excitation__force=100.0,
+    )
+    options = CurveOptions(TURN * 125.0, TURN * 125.1, stability=False, events=False)
+
+    curve = frequency_response(problem, static_equilibrium(problem), options)
+
+    first = next(curve)
+    assert first.frequency == TURN * 125.0
+    assert first.error < options.error

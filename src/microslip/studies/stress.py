@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
@@ -23,6 +25,7 @@ from microslip.studies.stress_finding import (
 )
 from microslip.studies.stress_refusals import refusals
 from microslip.studies.stress_witness import witnessed
+from timedomain.verify import march_periods
 
 TOLERANCE = "curve.tolerance=5e-3"
 """half of what is asked, unless the curve is told otherwise"""
@@ -66,6 +69,10 @@ def _prepare(scene: str, overrides: tuple[str, ...]) -> None:
     for more in ((), ("friction.law=gkf",)):
         for _ in _studied(scene, overrides, math.inf, Case("", "", (*more, *rough))):
             pass
+    loaded = load_scene(scene, (*overrides, *rough))
+    problem = problem_of(loaded)
+    traced = trace_curve(problem, loaded.curve, lambda points: islice(points, 1))
+    deque(march_periods(problem, traced.responses[0], periods=1, steps_per_period=60))
 
 
 def _studied(

@@ -222,10 +222,8 @@ class PeriodMap:
     def _carried(self, period: Period, slides: Slides) -> Sensitivity:
         free, push = self.step(-self.structure.selection.T)
         units = np.append(np.ones(len(free)), self.unit)
-        tangents = self.tangents(period)
-        monodromy, mean = carried(
-            free, push, self.seen, tangents, self.sliders, slides
-        )
+        tangents = self.tangents(*self.points(period.displacement, period.velocity))
+        monodromy, mean = carried(free, push, self.seen, tangents, self.sliders, slides)
         monodromy = monodromy * units / units[:, None]
         return Sensitivity(monodromy, mean * units / self.unit[:, None])
 
@@ -238,7 +236,7 @@ class PeriodMap:
             return self._differences(period)
         free, push = self.step(-self.structure.selection.T)
         seen = self.seen
-        tangents = self.tangents(period)
+        tangents = self.tangents(*self.points(period.displacement, period.velocity))
         answers = np.linalg.solve(
             np.eye(push.shape[1]) - tangents @ (seen @ push), tangents
         )
@@ -278,12 +276,10 @@ class PeriodMap:
         made = np.linalg.solve(implicit, np.hstack([explicit, pushed]))
         return made[:, : 2 * modes], made[:, 2 * modes :]
 
-    def tangents(self, period: Period) -> Array:
-        """Return D at each time by (y, ẏ/ω), shape (steps + 1, rank, 2 rank)."""
+    def tangents(self, displacement: Array, velocity: Array) -> Array:
+        """Return D by (y, ẏ/ω), shape (times, rank, 2 rank), at the points' motion."""
         elastic, viscous = contact_tangents(
-            self.problem.interface.points,
-            self.sliders.basis,
-            *self.points(period.displacement, period.velocity),
+            self.problem.interface.points, self.sliders.basis, displacement, velocity
         )
         return np.concatenate([elastic, self.frequency * viscous], axis=2)
 

@@ -1,8 +1,8 @@
 """Newton's method of a step whose friction is needed to stick, as a projection (§7).
 
-Where the threshold velocity is far below what a step changes, Newton's iteration on the
-law itself jumps from one sliding direction to the other. Here stick or slip follows from
-the friction that is needed (:mod:`timedomain.point_law`); the solution is the same.
+Where the threshold velocity is far below what a step changes, Newton's iteration on
+the law itself jumps from one sliding direction to the other. Here stick or slip follows
+from the friction that is needed (:mod:`timedomain.point_law`); the solution is the same.
 """
 
 from __future__ import annotations

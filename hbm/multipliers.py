@@ -94,7 +94,8 @@ class Multipliers:
         falling = (points.friction == GENERAL_KINETIC) & (
             points.static > points.dynamic
         )
-        return bool((falling & (speeds > points.threshold)).any())
+        peak = np.minimum(points.threshold, points.stribeck)
+        return bool((falling & (speeds > peak)).any())
 
     def finer(self, point: Array, fourier: FourierBasis) -> Array | None:
         """Return the orbit at the same parameter with another resolution, if found."""

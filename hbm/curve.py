@@ -165,12 +165,12 @@ class Curve:
         made = response(self.problem, balance, replace(correction, point=point))
         points = self.problem.interface.points
         presses = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
-        multipliers, finer = self.multipliers.sure(
+        multipliers, finer, confirmed = self.multipliers.sure(
             kept, fourier, made.normal_smallest[presses]
         )
         told = replace(
             made,
-            error=error,
+            error=error if confirmed else np.inf,
             event=event,
             multipliers=multipliers,
             parameter=float(kept[-1]),

@@ -1,4 +1,8 @@
-"""Multipliers of truncated orbits; where contacts rattle, of finer ones (theory §6)."""
+"""Multipliers of truncated orbits; of finer ones where these may mislead (theory §6).
+
+They may where contacts rattle, and where friction falls with the speed: there a few
+harmonics may even balance where no orbit is.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +17,7 @@ from hbm.resolution import PathResolution
 from hbm.stability import SmallMotions
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.law import GENERAL_KINETIC
 
 RATTLING = 0.5
 """share of the contact points that lift off, from which more harmonics are tried"""
@@ -50,8 +55,11 @@ class Multipliers:
 
     def sure(
         self, point: Array, fourier: FourierBasis, normal_smallest: Array
-    ) -> tuple[ComplexArray, FourierBasis]:
+    ) -> tuple[ComplexArray, FourierBasis, bool]:
         """Return the multipliers, of more harmonics if they ask for it, and which.
+
+        With them comes whether the orbit is confirmed: where friction falls it must be
+        found with more harmonics too.
 
         Parameters
         ----------
@@ -61,19 +69,33 @@ class Multipliers:
             Of each contact point that can lift off, during a period [N].
         """
         known = self.at(point, fourier)
-        if self.fixed or known.size == 0 or not _rattles(normal_smallest):
-            return known, fourier
-        orbit, trusted = point, fourier
+        falls = self._falls(point, fourier)
+        asks = falls or _rattles(normal_smallest)
+        if self.fixed or known.size == 0 or not asks:
+            return known, fourier, True
+        orbit, trusted, confirmed = point, fourier, True
         while fourier.harmonics < HARMONICS:
             fourier = _finer(fourier)
             found = self.finer(orbit, fourier)
+            confirmed = found is not None or not falls
             if found is None:
                 continue
             orbit, before = found, known
             known, trusted = self.at(orbit, fourier), fourier
             if _change(before, known) < CHANGE:
                 break
-        return known, trusted
+        return known, trusted, confirmed
+
+    def _falls(self, point: Array, fourier: FourierBasis) -> bool:
+        """Return whether friction falls with the speed on an orbit just looked at."""
+        balance, _ = self.resolution.at(fourier).at_frequency(point)
+        points, (_, velocity) = balance.contact.points, balance.contact.moved
+        speeds = np.hypot(velocity[1::3], velocity[2::3]).max(axis=1, initial=0.0)
+        falling = (points.friction == GENERAL_KINETIC) & (
+            points.static > points.dynamic
+        )
+        peak = np.minimum(points.threshold, points.stribeck)
+        return bool((falling & (speeds > peak)).any())
 
     def finer(self, point: Array, fourier: FourierBasis) -> Array | None:
         """Return the orbit at the same parameter with another resolution, if found."""

@@ -106,7 +106,9 @@ def compared(
         If there is no orbit near it.
     """
     start = on_orbit(problem, response)
-    orbit = periodic_orbit(problem, response.frequency, start=start, options=options)
+    orbit = periodic_orbit(
+        problem, response.frequency, start=start, options=options, near=response
+    )
     predicted = response.seen(problem.probes.rows)
     found = orbit.coefficients @ problem.probes.rows.T
     leading = int(np.abs(orbit.multipliers).argmax())

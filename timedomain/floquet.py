@@ -79,8 +79,11 @@ def extrapolated_multipliers(coarse: Array, fine: Array) -> Multipliers:
     The maps are extrapolated, unless the steps do not resolve the fastest motions,
     whose phases are arbitrary then: that would let them grow. Multipliers that changed
     by more than :data:`RESOLVED` are left as they are, the others extrapolated one by
-    one.
+    one. All are infinite where small motions grow beyond all numbers.
     """
+    if not np.isfinite([coarse, fine]).all():
+        beyond = np.full(len(fine), np.inf)
+        return Multipliers(beyond.astype(complex), beyond)
     before = np.linalg.eigvals(coarse)
     values = np.linalg.eigvals(fine + (fine - coarse) / 3.0).astype(complex)
     distance = np.abs(values[:, None] - before)

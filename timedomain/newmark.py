@@ -7,10 +7,17 @@ from typing import NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ELASTIC, RIGID, ContactPoints, contact_force
+from microslip_mechanics.contact.law import (
+    ELASTIC,
+    FRICTIONLESS,
+    RIGID,
+    ContactPoints,
+    contact_force,
+)
 from microslip_mechanics.contact.memory import add_traction
 from microslip_mechanics.jit import kernel
 from timedomain.dense import solve_in_place
+from timedomain.projection import projected
 from timedomain.record import Meters, accumulate, store
 
 NEWTON_LIMIT, HALVINGS = 50, 12
@@ -123,16 +130,23 @@ def _advance(
         predicted[i] = state.displacement[i] + half * (state.velocity[i] + velocity)
         predicted[dofs + i] = velocity
     free = np.dot(operators.free, predicted) + np.dot(operators.load, factors)
-    reaction, taken = _newton(
-        operators,
-        points,
-        state,
-        np.dot(operators.selection, predicted[:dofs]),
-        np.dot(operators.selection, predicted[dofs:]),
-        np.dot(operators.selection, free),
-        tolerance,
-        tangents,
+    start = np.stack(
+        (
+            np.dot(operators.selection, predicted[:dofs]),
+            np.dot(operators.selection, predicted[dofs:]),
+            np.dot(operators.selection, free),
+        )
     )
+    before = state.forces.copy()
+    reaction, taken = _newton(
+        operators, points, state, start[0], start[1], start[2], tolerance, tangents
+    )
+    if taken < 0 and _rub(points):
+        state.forces[:] = before
+        reaction, taken = projected(
+            operators.compliance, operators.basis, points, half, start, state.forces,
+            state.gaps, state.slips, tolerance,
+        )  # fmt: skip
     if taken < 0:
         return taken
     free -= np.dot(operators.contact, reaction)
@@ -143,6 +157,13 @@ def _advance(
         state.displacement[i] = predicted[i] + half**2 * free[i]
         state.velocity[i] = predicted[dofs + i] + half * free[i]
     return taken
+
+
+@kernel
+def _rub(points: ContactPoints) -> bool:
+    """Return whether points rub, and none remembers or is rigid."""
+    kinds = points.friction
+    return bool((kinds > FRICTIONLESS).any() and not (kinds >= ELASTIC).any())
 
 
 @kernel

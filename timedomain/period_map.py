@@ -98,6 +98,11 @@ class PeriodMap:
         unit: Array = self.frequency**2 / np.sqrt((seen**2).sum(axis=1))
         return unit
 
+    @property
+    def seen(self) -> Array:
+        """W, (y, ẏ/ω) from a state, shape (2 rank, 2 modes)."""
+        return np.kron(np.eye(2), self.structure.selection)
+
     def state(self, start: Start) -> Array:
         """Return a motion as a state."""
         to_modes = self.structure.inverse
@@ -186,7 +191,7 @@ class PeriodMap:
         velocity = np.vstack([start.velocity, history.velocity])
         first = self.sliders.seen(start.traction)
         slides = self.sliders.slides(
-            *self._points(displacement, velocity), first, self.frequency
+            *self.points(displacement, velocity), first, self.frequency
         )
         friction = float(history.of("friction")[-1])
         return Period(displacement, velocity, friction, slides)
@@ -207,7 +212,7 @@ class PeriodMap:
         if self.sliders.count == 0:
             return self._monodromy(period)
         slides = self.sliders.slides(
-            *self._points(period.displacement, period.velocity),
+            *self.points(period.displacement, period.velocity),
             period.slides.traction[0],
             self.frequency,
             continuous=True,
@@ -215,12 +220,10 @@ class PeriodMap:
         return self._carried(period, slides).monodromy
 
     def _carried(self, period: Period, slides: Slides) -> Sensitivity:
-        free, push = self._step()
+        free, push = self.step(-self.structure.selection.T)
         units = np.append(np.ones(len(free)), self.unit)
-        tangents = self._tangents(period)
-        monodromy, mean = carried(
-            free, push, _seen(self.structure), tangents, self.sliders, slides
-        )
+        tangents = self.tangents(*self.points(period.displacement, period.velocity))
+        monodromy, mean = carried(free, push, self.seen, tangents, self.sliders, slides)
         monodromy = monodromy * units / units[:, None]
         return Sensitivity(monodromy, mean * units / self.unit[:, None])
 
@@ -231,9 +234,9 @@ class PeriodMap:
         """
         if (self.problem.interface.points.friction == RIGID).any():
             return self._differences(period)
-        free, push = self._step()
-        seen = _seen(self.structure)
-        tangents = self._tangents(period)
+        free, push = self.step(-self.structure.selection.T)
+        seen = self.seen
+        tangents = self.tangents(*self.points(period.displacement, period.velocity))
         answers = np.linalg.solve(
             np.eye(push.shape[1]) - tangents @ (seen @ push), tangents
         )
@@ -256,31 +259,31 @@ class PeriodMap:
         derivative: Array = (np.array(ends[1:]) - ends[0]).T / nudge
         return derivative
 
-    def _step(self) -> tuple[Array, Array]:
-        """Return A and b of one step, (2 modes, 2 modes) and (2 modes, rank)."""
+    def step(self, forces: Array) -> tuple[Array, Array]:
+        """Return A of one step, and what ``forces`` on modes do at either of its ends.
+
+        They are of shape (2 modes, 2 modes) and (2 modes, forces), of (modes, forces).
+        """
         structure, modes = self.structure, self.structure.stiffness.size
         matrix = np.zeros((2 * modes, 2 * modes))
         matrix[:modes, modes:] = structure.scale * np.eye(modes)
         matrix[modes:, :modes] = -np.diag(structure.stiffness) / structure.scale
         matrix[modes:, modes:] = -structure.damping
         half = np.pi / (self.frequency * self.steps)
-        force = np.zeros((2 * modes, structure.selection.shape[0]))
-        force[modes:] = -half * structure.selection.T / structure.scale
+        pushed = np.vstack([np.zeros_like(forces), half * forces / structure.scale])
         implicit = np.eye(2 * modes) - half * matrix
         explicit = np.eye(2 * modes) + half * matrix
-        made = np.linalg.solve(implicit, np.hstack([explicit, force]))
+        made = np.linalg.solve(implicit, np.hstack([explicit, pushed]))
         return made[:, : 2 * modes], made[:, 2 * modes :]
 
-    def _tangents(self, period: Period) -> Array:
-        """Return D at each time by (y, ẏ/ω), shape (steps + 1, rank, 2 rank)."""
+    def tangents(self, displacement: Array, velocity: Array) -> Array:
+        """Return D by (y, ẏ/ω), shape (times, rank, 2 rank), at the points' motion."""
         elastic, viscous = contact_tangents(
-            self.problem.interface.points,
-            self.sliders.basis,
-            *self._points(period.displacement, period.velocity),
+            self.problem.interface.points, self.sliders.basis, displacement, velocity
         )
         return np.concatenate([elastic, self.frequency * viscous], axis=2)
 
-    def _points(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
+    def points(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
         """Return displacement and velocity of the points, (times, points, 3) each."""
         interface = self.problem.interface
         moved, moving = (
@@ -288,11 +291,6 @@ class PeriodMap:
             for each in (displacement, velocity)
         )
         return moved, moving
-
-
-def _seen(structure: ModalStructure) -> Array:
-    """Return W, (y, ẏ/ω) from a state, shape (2 rank, 2 modes)."""
-    return np.kron(np.eye(2), structure.selection)
 
 
 def _product(free: Array, push: Array, seen: Array, answers: Array) -> Array:

@@ -6,13 +6,16 @@ import math
 import time
 from dataclasses import dataclass
 
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import RIGID
-from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.memory import beyond_motion, remembers
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ClosedMarch, ShootingError, closed
 from timedomain.period_map import BLOCK, PeriodMap
 from timedomain.periodic_orbit import PeriodicOrbit, extrapolated
 from timedomain.start import Start
+from timedomain.whole_orbit import whole_orbit
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +52,7 @@ def periodic_orbit(
     *,
     start: Start,
     options: ShootingOptions | None = None,
+    near: PeriodicResponse | None = None,
 ) -> PeriodicOrbit:
     """Return the periodic motion near a start, stable or not.
 
@@ -65,6 +69,9 @@ def periodic_orbit(
         A motion at phase 0 close to the orbit, such as that of harmonic balance.
     options
         Steps and accuracy; the default ones if left out.
+    near
+        The whole motion to which ``start`` belongs: where a period that is marched from
+        it does not close, all steps are found at once.
 
     Raises
     ------
@@ -83,10 +90,12 @@ def periodic_orbit(
         )
     chosen = options or ShootingOptions()
     until = time.process_time() + chosen.seconds
-    coarse = _first(problem, frequency, start, chosen, until)
+    if beyond_motion(points):
+        near = None
+    coarse = _first(problem, frequency, start, chosen, near, until)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
-        fine = closed(finer, coarse.state, until)
+        fine = _found(finer, coarse.state, near, until)
         orbit = extrapolated(coarse, fine)
         if orbit.error <= chosen.error or 2 * finer.steps > chosen.most:
             return orbit
@@ -98,6 +107,7 @@ def _first(
     frequency: float,
     start: Start,
     chosen: ShootingOptions,
+    near: PeriodicResponse | None,
     until: float,
 ) -> ClosedMarch:
     """Return the orbit of the fewest steps that have one.
@@ -108,8 +118,26 @@ def _first(
     while True:
         carried = PeriodMap.of(problem, frequency, steps)
         try:
-            return closed(carried, carried.state(start), until)
+            return _found(carried, carried.state(start), near, until)
         except ShootingError:
             steps *= 2
             if 2 * steps > chosen.most:
                 raise
+
+
+def _found(
+    carried: PeriodMap, state: Array, near: PeriodicResponse | None, until: float
+) -> ClosedMarch:
+    """Return the orbit of one number of steps, marched or all steps at once.
+
+    Where small motions grow too fast no march from any state closes.
+    """
+    try:
+        return closed(carried, state, until)
+    except ShootingError as error:
+        if near is None:
+            raise
+        try:
+            return whole_orbit(carried, near, until)
+        except ShootingError as other:
+            raise ShootingError(f"{error}; {other}") from other

@@ -21,7 +21,7 @@ from microslip.studies import stress, stress_witness
 from microslip.studies.bounded import Ended, bounded
 from microslip.studies.curve import Traced, trace_curve
 from microslip.studies.stress import tried
-from microslip.studies.stress_bad_values import BAD
+from microslip.studies.stress_bad_values import BAD, bad_values
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_cases import cases
 from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
@@ -301,7 +301,7 @@ CHOSEN = [
 def test_cases_are_solved_compared_and_refused(compiled: None) -> None:  # noqa: ARG001
     found = {
         each.case: each.finding
-        for each in tried("two-blades", ("model=A",), CHOSEN, seconds=60.0, processes=2)
+        for each in tried("two-blades", ("model=A",), CHOSEN, seconds=60.0, processes=1)
     }
 
     own, one, wrong, refused, taken = (found[case] for case in CHOSEN)
@@ -316,6 +316,30 @@ def test_cases_are_solved_compared_and_refused(compiled: None) -> None:  # noqa:
     assert refused.outcome is Outcome.REFUSED
     assert taken.outcome is Outcome.DISAGREES
     assert "preload.force=1: taken as it is" in taken.cause
+
+
+@pytest.mark.slow
+def test_a_quick_look_runs_from_the_command_line(
+    run: Run,
+    tmp_path: Path,
+    compiled: None,  # noqa: ARG001
+) -> None:
+    near = ("model=A", "curve.lowest=134 Hz", "curve.highest=136 Hz")
+    settings = [each for key in near for each in ("--set", key)]
+    chosen = ("--quick", "--seconds", "3", "--processes", "1")
+
+    status, output, _ = run("stress", "two-blades", *settings, *chosen)
+
+    with (tmp_path / "two-blades-stress.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    outcomes = [row["outcome"] for row in rows]
+    good = sum(outcomes.count(each.value) for each in (Outcome.AGREES, Outcome.WITHIN))
+    assert status == 0
+    assert len(rows) == len(cases(load_scene("two-blades"), quick=True))
+    assert outcomes.count(Outcome.REFUSED.value) == len(bad_values())
+    assert good >= 6
+    assert f"{good} of {len(rows) - len(bad_values())} cases" in output
+    assert (tmp_path / "two-blades-stress.png").stat().st_size > 10_000
 
 
 def test_an_interrupted_matrix_keeps_table_and_picture(

@@ -22,7 +22,7 @@ SHARE = 0.95
 """of the cases that must converge in both solvers and agree within 1 %"""
 LONGEST = 60.0
 """seconds for a case"""
-QUICK = 8.0
+QUICK = 5.0
 """the same in a quick look"""
 
 

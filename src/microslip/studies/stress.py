@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
@@ -23,6 +25,9 @@ from microslip.studies.stress_finding import (
 )
 from microslip.studies.stress_refusals import refusals
 from microslip.studies.stress_witness import witnessed
+from timedomain.period_map import BLOCK, PeriodMap
+from timedomain.verify import march_periods
+from timedomain.whole_orbit import whole_orbit
 
 TOLERANCE = "curve.tolerance=5e-3"
 """half of what is asked, unless the curve is told otherwise"""
@@ -61,11 +66,15 @@ def _last(ended: Ended[Case]) -> Finding:
 
 
 def _prepare(scene: str, overrides: tuple[str, ...]) -> None:
-    """Have all machine code made: the scene's own case with both laws, roughly."""
+    """Have all machine code made: points of the scene's curve, roughly, and a march."""
     rough = ("curve.harmonics=3", "curve.samples=64")
-    for more in ((), ("friction.law=gkf",)):
-        for _ in _studied(scene, overrides, math.inf, Case("", "", (*more, *rough))):
-            pass
+    loaded = load_scene(scene, (*overrides, *rough))
+    problem = problem_of(loaded)
+    traced = trace_curve(problem, loaded.curve, lambda points: islice(points, 2))
+    first = traced.responses[0]
+    deque(march_periods(problem, first, periods=1, steps_per_period=60), maxlen=0)
+    whole_orbit(PeriodMap.of(problem, first.frequency, 2 * BLOCK), first)
+    deque(witnessed(problem, traced, math.inf), maxlen=0)
 
 
 def _studied(

@@ -15,7 +15,7 @@ from microslip.studies.stress_case import Case
 from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
 from microslip.studies.stress_finding import EXPECTED, Finding, Outcome, line
 
-SECONDS = 2.0
+SECONDS = 1.0
 """of processor time for the curve of a value that is a number"""
 
 

@@ -69,6 +69,9 @@ def _beside(
 ) -> tuple[Finding, Outcome]:
     """Return what one point adds to a finding."""
     where = f"at {response.frequency / math.tau:.6g} Hz"
+    if math.isinf(response.error):
+        doubt = f"harmonic balance {where}: more harmonics do not confirm the orbit"
+        finding = replace(finding, cause=causes(finding.cause, doubt))
     try:
         with limited(SHOOTING * seconds):
             comparison = compared(problem, response)

@@ -1,0 +1,136 @@
+"""All steps of a period at once: a saddle's closed form, the march's own orbit."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from contact_tables import contact_points
+from convergence import observed_order
+from hbm.solve import periodic_response
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import TWO_SIDED
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+from small_problems import (
+    NORMAL,
+    cubic_oscillator,
+    from_rest,
+    mass_on_contact,
+    sliding_block,
+)
+from timedomain.closed_march import ShootingError, closed
+from timedomain.comparison import compared
+from timedomain.cyclic_system import cyclic_solution
+from timedomain.period_map import PeriodMap
+from timedomain.shooting import ShootingOptions, periodic_orbit
+from timedomain.whole_orbit import whole_orbit
+
+MASS, DAMPING, DRIVE, FREQUENCY = 2.0, 4.0, 1.5, 9.0
+REPELLING = 2e4
+"""stiffness that pushes a mass away [N/m]: it goes by e⁷⁰ in a period"""
+
+
+def test_a_chain_is_solved_however_much_its_links_grow() -> None:
+    numbers = np.random.default_rng(3)
+    maps = 1e6 * numbers.normal(size=(50, 4, 4))
+    maps[:, 2:] *= 1e-12  # some directions grow, others vanish
+    sources = numbers.normal(size=(50, 4))
+
+    found = cyclic_solution(maps, sources)
+
+    after = np.einsum("lij,lj->li", maps, found) + sources
+    size = np.abs(maps).max() * np.abs(found).max()
+    assert np.abs(np.roll(found, -1, axis=0) - after).max() < 1e-12 * size
+
+
+def repelled() -> Problem:
+    points = contact_points(
+        normal=TWO_SIDED, stiffness=-REPELLING, exponent=1.0, damping=0.0, friction=0
+    )
+    return mass_on_contact(
+        points, direction=NORMAL, mass=MASS, damping=DAMPING, drive=DRIVE
+    )
+
+
+def rubbing(**changed: float) -> Problem:
+    values = {"stiffness": 300.0, "damping": 2.0, "drive": 1.5, "load": 1.0}
+    return sliding_block(**{**values, "dynamic": 0.3, "threshold": 0.02, **changed})
+
+
+def at_rest() -> PeriodicResponse:
+    nothing = np.zeros(1)
+    return PeriodicResponse(
+        FREQUENCY, np.zeros((3, 1)), nothing, nothing, 0.0, 0.0, 0.0, "converged", 1
+    )
+
+
+def amplitude(motion: Array) -> float:
+    """Return the first harmonic of a period, its beginning repeated at its end."""
+    return float(2.0 * np.abs(np.fft.rfft(motion[:-1])[1]) / (len(motion) - 1))
+
+
+def test_the_orbit_of_a_saddle_converges_to_its_closed_form() -> None:
+    problem, steps = repelled(), (256, 512, 1024)
+    receptance = 1.0 / (-REPELLING + 1j * FREQUENCY * DAMPING - FREQUENCY**2 * MASS)
+    exact = DRIVE * abs(receptance)
+
+    found = [
+        whole_orbit(PeriodMap.of(problem, FREQUENCY, count), at_rest())
+        for count in steps
+    ]
+
+    errors = [
+        abs(amplitude(each.period.displacement[:, 0]) / exact - 1.0) for each in found
+    ]
+    assert errors[-1] < 1e-6
+    assert observed_order([1.0 / count for count in steps], errors) == pytest.approx(
+        2.0, abs=0.1
+    )
+
+
+def test_the_multiplier_of_a_saddle_is_that_of_its_pole() -> None:
+    problem = repelled()
+    rate = (-DAMPING + np.sqrt(DAMPING**2 + 4.0 * MASS * REPELLING)) / (2.0 * MASS)
+    options = ShootingOptions(steps=1024, error=1e9, most=2048)
+
+    with pytest.raises(ShootingError):
+        periodic_orbit(problem, FREQUENCY, start=from_rest(problem), options=options)
+    orbit = periodic_orbit(
+        problem, FREQUENCY, start=from_rest(problem), options=options, near=at_rest()
+    )
+
+    growth = np.log(np.abs(orbit.multipliers[0]))
+    assert growth == pytest.approx(rate * 2.0 * np.pi / FREQUENCY, rel=2e-3)
+
+
+def test_it_is_the_orbit_that_a_march_closes() -> None:
+    problem = rubbing()
+    carried = PeriodMap.of(problem, FREQUENCY, 256)
+
+    marched = closed(carried, carried.state(from_rest(problem)))
+    whole = whole_orbit(carried, at_rest())
+
+    assert whole.state == pytest.approx(marched.state, rel=1e-7)
+    motions = (each.period.displacement for each in (whole, marched))
+    assert np.ptp(np.subtract(*motions)) < 1e-8 * np.ptp(whole.period.displacement)
+    assert whole.period.friction == pytest.approx(marched.period.friction, rel=1e-7)
+    assert np.abs(whole.monodromy - marched.monodromy).max() < 1e-6
+
+
+def test_harmonic_balance_finds_the_same_orbit_on_a_hill() -> None:
+    # two springs of third degree bend the hill where the mass goes
+    problem = cubic_oscillator(
+        cubic=4e11, damping=DAMPING, stiffness=-REPELLING, drive=DRIVE
+    )
+    first = np.array([[0.0], [0.0], [-DRIVE / REPELLING]])
+    guess = dataclasses.replace(at_rest(), coefficients=first)
+    rest = static_equilibrium(problem)
+    balanced = periodic_response(problem, rest, guess, harmonics=15, samples=256)
+
+    found = compared(problem, balanced)
+
+    assert found.difference < 1e-6
+    assert found.predicted[0] > 1.1 * DRIVE / REPELLING
+    assert found.found_multiplier > 1e20

@@ -7,6 +7,7 @@ without being followed.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -68,7 +69,7 @@ def whole_change(
 
 
 def _pushed(
-    blocks: Array, seen: Array, kick: Array, powers: list[Array], drift: Array
+    blocks: Array, seen: Array, kick: Array, powers: Sequence[Array], drift: Array
 ) -> Pushed:
     """Return the forces in all blocks.
 

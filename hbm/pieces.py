@@ -28,6 +28,8 @@ CORNERS = 30
 LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
 """shares of the range by which a restart passes what resists, tried in turn; from the
 first one again where the piece before has come nearer to the end"""
+FIRST = (0.0, 1e-2)
+"""the same where there is no curve yet"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +50,7 @@ class Pieces:
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
         guess, heading = self._still(self.start), self.end
-        both, leaps = False, iter((0.0, *LEAPS))
+        both, leaps = False, iter(FIRST)
         for attempt in range(RESTARTS + 1):
             last: Correction | None = None
             try:
@@ -69,7 +71,7 @@ class Pieces:
                 if last is None or last.point[-1] == self.end or both:
                     return
                 guess, heading, both = self._still(self.end), self.start, True
-                leaps = iter((0.0, *LEAPS))
+                leaps = iter(FIRST)
 
     def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
         """Yield corrections from a point in a direction, until the range ends.

@@ -7,7 +7,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from hbm.newton import CHORD, Linearised
+from hbm.newton import CHORD, ROUNDING, Linearised
 from microslip_mechanics.arrays import Array
 
 SURE = 0.25
@@ -56,8 +56,8 @@ def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Re
     """Return a point after Newton steps in the plane normal to ``normal``.
 
     ``harmonics`` are those of ``system``, about twice those of the point. There are two
-    steps, and up to :data:`STEPS` until one leaves little. A step has the factors of
-    the one before if that left a tenth.
+    steps, and up to :data:`STEPS` until one leaves little, or one alone that is mere
+    rounding. A step has the factors of the one before if that left a tenth.
 
     Raises
     ------
@@ -67,18 +67,23 @@ def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Re
     residual, slope = system(point)
     known = system.impulses(harmonics // 2, harmonics)
     before, after, now, sizes = point, point, residual, [_size(residual)]
-    while len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS):
-        before = after
-        after = before + slope.solve(normal, np.append(-now, 0.0))
+    moves = True
+    while moves and (
+        len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS)
+    ):
+        step = slope.solve(normal, np.append(-now, 0.0))
+        before, after = after, after + step
         now, other = system(after)
         sizes.append(_size(now))
         slope = slope if sizes[-1] <= CHORD * sizes[-2] else other
+        moves = _size(step) > ROUNDING * _size(point[:-1])
     share = system.impulses(harmonics, 2 * harmonics + 1) / known if known else 0.0
-    return Refined(residual, before, after, _left(sizes), _beyond(share, harmonics))
+    left = _left(sizes) if moves else 1.0
+    return Refined(residual, before, after, left, _beyond(share, harmonics))
 
 
-def _size(residual: Array) -> float:
-    return float(np.linalg.norm(residual))
+def _size(values: Array) -> float:
+    return float(np.linalg.norm(values))
 
 
 def _left(sizes: list[float]) -> float:

@@ -62,6 +62,10 @@ def test_steps_that_lead_away_leave_everything() -> None:
     assert steps(3.0, Root(1.0, 0.1, away=True)).left == math.inf
 
 
+def test_steps_of_rounding_are_not_taken_for_steps_that_lead_away() -> None:
+    assert steps(math.sqrt(2.0), Root(1.0, 0.1)).left == 1.0
+
+
 @pytest.mark.parametrize("share", [0.01, 0.1])
 def test_series_that_fall_faster_leave_less_by_the_square(share: float) -> None:
     assert steps(2.5, Root(2.0, 2.0 * share)).beyond == (SAFE * share) ** 2

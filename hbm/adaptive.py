@@ -114,7 +114,8 @@ class AdaptiveBalance:
 
         The refined point lies in the plane through it, normal to ``normal``;
         ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`, ``share``
-        that of the error that is allowed. What is returned may have failed.
+        that of the error that is allowed. With less than the whole, a point of unknown
+        error stays as it is. What is returned may have failed.
         """
         while True:
             self.settled = self.fourier
@@ -127,7 +128,8 @@ class AdaptiveBalance:
                 self.estimate = None
                 return correction
             finer = self._finer(self.estimate, share)
-            if finer == self.fourier:
+            lost = share < 1.0 and math.isinf(self.estimate.error)
+            if finer == self.fourier or lost:
                 return correction
             self.fourier, self._wait = finer, WAIT
             guess = self.estimate.corrected

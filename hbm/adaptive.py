@@ -99,7 +99,7 @@ class AdaptiveBalance:
             self._wait = WAIT
         self.fourier = self._kept
         if self._tolerance is not None:
-            for _ in range(min(times // PATIENCE, 2)):
+            for _ in range(min(times // PATIENCE, 4)):
                 self.fourier = self._doubled(True, True)
 
     def settle(

@@ -130,18 +130,15 @@ def _advance(
         predicted[i] = state.displacement[i] + half * (state.velocity[i] + velocity)
         predicted[dofs + i] = velocity
     free = np.dot(operators.free, predicted) + np.dot(operators.load, factors)
-    start = np.stack(
-        (
-            np.dot(operators.selection, predicted[:dofs]),
-            np.dot(operators.selection, predicted[dofs:]),
-            np.dot(operators.selection, free),
-        )
-    )
+    displacement = np.dot(operators.selection, predicted[:dofs])
+    velocity = np.dot(operators.selection, predicted[dofs:])
+    relative = np.dot(operators.selection, free)
     before = state.forces.copy()
     reaction, taken = _newton(
-        operators, points, state, start[0], start[1], start[2], tolerance, tangents
+        operators, points, state, displacement, velocity, relative, tolerance, tangents
     )
     if taken < 0 and _rub(points):
+        start = np.stack((displacement, velocity, relative))
         state.forces[:] = before
         reaction, taken = projected(
             operators.compliance, operators.basis, points, half, start, state.forces,

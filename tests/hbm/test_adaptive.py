@@ -121,7 +121,7 @@ def test_points_that_fail_go_back_to_what_worked_and_then_to_more() -> None:
     # Where much was to spare less was tried; it failed, and is not tried for a while.
     assert lower.harmonics < first.harmonics == 31
     assert (second.harmonics, second.samples) == (63, 2048)
-    assert (system.fourier.harmonics, system.fourier.samples) == (127, 4096)
+    assert (system.fourier.harmonics, system.fourier.samples) == (255, 16384)
     system.retreat(1)
     for _ in range(WAIT - 1):
         system.keep()
@@ -185,21 +185,20 @@ def test_the_error_is_not_far_above_the_true_one() -> None:
 @pytest.mark.parametrize("name", VARIANTS)
 def test_in_no_problem_the_error_is_very_far_above_the_true_one(name: str) -> None:
     # Measured 5 to 14, and 44 for the bouncing mass, which hardly ever parts.
-    assert pessimism([name]) <= 100.0
+    assert pessimism([name]) <= (60.0 if name == "bouncing" else 20.0)
 
 
-def test_over_all_problems_the_error_bounds_nine_of_ten_points() -> None:
+def test_over_all_problems_the_error_bounds_49_of_50_points() -> None:
     found = [errors(name) for name in VARIANTS]
 
     estimated, true = (np.concatenate(part) for part in zip(*found, strict=True))
-    # Measured 99 %; the others err up to 1.7 times as much as they say.
-    assert np.mean(true <= estimated + 1e-12) >= 0.9
-    assert np.mean(true <= 3.0 * estimated + 1e-12) >= 0.98
-    assert np.all(true <= 8.0 * estimated + 1e-12)
+    # Measured 99.4 %; the one other point errs 1.14 times as much as it says.
+    assert np.mean(true <= estimated + 1e-12) >= 0.98
+    assert np.all(true <= 1.5 * estimated + 1e-12)
 
 
 @pytest.mark.parametrize("name", VARIANTS)
-def test_no_point_errs_by_far_more_than_the_tolerance(name: str) -> None:
+def test_no_point_errs_by_more_than_the_tolerance(name: str) -> None:
     _, true = errors(name)
 
-    assert np.all(true <= 2e-3)  # measured 8.0e-4, with a tolerance of 1e-3
+    assert np.all(true <= 1e-3)  # measured 5.7e-4

@@ -99,6 +99,11 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
     )
 
 
+def first_harmonic(marched: ClosedMarch) -> Array:
+    """Return a₁ and b₁ of the displacement [m or rad], shape (2, dofs)."""
+    return _coefficients(marched, 1)[1:]
+
+
 def _points(marched: ClosedMarch, stuck: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return which points have sliders that are stuck, shape (points,)."""
     sliders = marched.map.sliders

@@ -6,6 +6,8 @@ import math
 import time
 from dataclasses import dataclass
 
+import numpy as np
+
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import RIGID
 from microslip_mechanics.contact.memory import beyond_motion, remembers
@@ -13,9 +15,12 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ClosedMarch, ShootingError, closed
 from timedomain.period_map import BLOCK, PeriodMap
-from timedomain.periodic_orbit import PeriodicOrbit, extrapolated
+from timedomain.periodic_orbit import PeriodicOrbit, extrapolated, first_harmonic
 from timedomain.start import Start
 from timedomain.whole_orbit import whole_orbit
+
+ASTRAY = 0.1
+"""change of the first harmonic, relative, from which an orbit may be another one"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +76,7 @@ def periodic_orbit(
         Steps and accuracy; the default ones if left out.
     near
         The whole motion to which ``start`` belongs: where a period that is marched from
-        it does not close, all steps are found at once.
+        it does not close, or closes on another motion, all steps are found at once.
 
     Raises
     ------
@@ -110,19 +115,26 @@ def _first(
     near: PeriodicResponse | None,
     until: float,
 ) -> ClosedMarch:
-    """Return the orbit of the fewest steps that have one.
+    """Return the orbit of the fewest steps that have one, and close to ``near``.
 
-    Near a fold or a sharp peak those of too few steps have none at this frequency.
+    Near a fold or a sharp peak those of too few steps have none at this frequency. If
+    none of any steps is close, the first one that there is is returned.
     """
-    steps = chosen.steps
+    steps, astray = chosen.steps, None
     while True:
         carried = PeriodMap.of(problem, frequency, steps)
+        last = 4 * steps > chosen.most
         try:
-            return _found(carried, carried.state(start), near, until)
+            found = _found(carried, carried.state(start), near, until)
+            if near is None or _away(found, near) <= ASTRAY:
+                return found
+            astray = astray or found
         except ShootingError:
-            steps *= 2
-            if 2 * steps > chosen.most:
+            if (last and astray is None) or time.process_time() > until:
                 raise
+        if last and astray is not None:
+            return astray
+        steps *= 2
 
 
 def _found(
@@ -130,10 +142,11 @@ def _found(
 ) -> ClosedMarch:
     """Return the orbit of one number of steps, marched or all steps at once.
 
-    Where small motions grow too fast no march from any state closes.
+    Where small motions grow fast a march closes on another orbit, and where they grow
+    too fast on none.
     """
     try:
-        return closed(carried, state, until)
+        marched = closed(carried, state, until)
     except ShootingError as error:
         if near is None:
             raise
@@ -141,3 +154,18 @@ def _found(
             return whole_orbit(carried, near, until)
         except ShootingError as other:
             raise ShootingError(f"{error}; {other}") from other
+    if near is None or _away(marched, near) <= ASTRAY:
+        return marched
+    try:
+        whole = whole_orbit(carried, near, until)
+    except ShootingError:
+        return marched
+    return min(marched, whole, key=lambda each: _away(each, near))
+
+
+def _away(marched: ClosedMarch, near: PeriodicResponse) -> float:
+    """Return how far the probes' first harmonic is from another motion's, relative."""
+    rows = marched.map.problem.probes.rows
+    wanted = near.coefficients[1:3] @ rows.T
+    away = float(np.linalg.norm(first_harmonic(marched) @ rows.T - wanted))
+    return away / max(float(np.linalg.norm(wanted)), 1e-300)

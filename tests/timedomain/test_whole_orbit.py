@@ -25,6 +25,7 @@ from timedomain.comparison import compared
 from timedomain.cyclic_system import cyclic_solution
 from timedomain.period_map import PeriodMap
 from timedomain.shooting import ShootingOptions, periodic_orbit
+from timedomain.start import on_orbit
 from timedomain.whole_orbit import whole_orbit
 
 MASS, DAMPING, DRIVE, FREQUENCY = 2.0, 4.0, 1.5, 9.0
@@ -117,6 +118,40 @@ def test_it_is_the_orbit_that_a_march_closes() -> None:
     assert np.ptp(np.subtract(*motions)) < 1e-8 * np.ptp(whole.period.displacement)
     assert whole.period.friction == pytest.approx(marched.period.friction, rel=1e-7)
     assert np.abs(whole.monodromy - marched.monodromy).max() < 1e-6
+
+
+def resonant(problem: Problem, frequency: float, *loud: float) -> PeriodicResponse:
+    """Return what harmonic balance finds from a first harmonic."""
+    first = np.array([0.0, *loud])[:, None]
+    guess = dataclasses.replace(at_rest(), coefficients=first, frequency=frequency)
+    rest = static_equilibrium(problem)
+    return periodic_response(problem, rest, guess, harmonics=15, samples=256)
+
+
+def test_of_three_orbits_it_is_the_one_near_by() -> None:
+    problem, frequency = cubic_oscillator(drive=0.3, damping=0.1), 1.5
+    quiet = resonant(problem, frequency, 0.0, -0.2)
+    loud = resonant(problem, frequency, -0.8, 1.0)
+    sizes = [np.hypot(*each.coefficients[1:3, 0]) for each in (quiet, loud)]
+    start = on_orbit(problem, loud)
+
+    marched = periodic_orbit(problem, frequency, start=start)
+    near = periodic_orbit(problem, frequency, start=start, near=quiet)
+
+    assert sizes[1] > 3.0 * sizes[0]
+    assert marched.amplitude[0] == pytest.approx(sizes[1], rel=1e-4)
+    assert near.amplitude[0] == pytest.approx(sizes[0], rel=1e-4)
+
+
+def test_where_no_orbit_is_near_by_it_is_the_one_that_there_is() -> None:
+    problem = rubbing()
+    first = np.array([[0.0], [0.0], [-1.0]])
+    far = dataclasses.replace(at_rest(), coefficients=first)
+
+    orbit = periodic_orbit(problem, FREQUENCY, start=from_rest(problem), near=far)
+
+    alone = periodic_orbit(problem, FREQUENCY, start=from_rest(problem))
+    assert orbit.amplitude == pytest.approx(alone.amplitude, rel=1e-6)
 
 
 def test_harmonic_balance_finds_the_same_orbit_on_a_hill() -> None:

@@ -84,6 +84,11 @@ class AdaptiveBalance:
             self.fourier = FourierBasis(harmonics, samples, self._smoothest)
             self._kept = self.fourier
 
+    @property
+    def finer(self) -> bool:
+        """Whether the resolution is finer than that of the last kept point."""
+        return self.fourier.harmonics > self._kept.harmonics
+
     def keep(self) -> None:
         """Let the next point have the resolution that the last one asks for."""
         self._kept, self._wait = self.settled, self._wait - 1

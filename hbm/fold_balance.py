@@ -116,6 +116,8 @@ class FoldBalance:
             )
             self._size = self.vibration(correction.point)
 
+    finer = False
+
     def retreat(self, times: int) -> None:
         """Do nothing."""
 

@@ -11,6 +11,10 @@ from microslip_mechanics.arrays import Array
 class Settler(Protocol):
     """What makes a converged point good enough to keep."""
 
+    @property
+    def finer(self) -> bool:
+        """Whether the system is finer than at the last point that was kept."""
+
     def settle(
         self,
         correction: Correction,
@@ -32,6 +36,8 @@ class Settler(Protocol):
 
 class Unsettled:
     """Keeps each point as it is."""
+
+    finer = False
 
     def settle(
         self,

@@ -262,6 +262,7 @@ class Picky:
 
     def __init__(self, refused: int = 0) -> None:
         self.refused, self.told = refused, list[str]()
+        self.finer = False
 
     def settle(
         self,
@@ -317,6 +318,26 @@ def test_a_point_that_a_settler_refuses_is_sought_again_with_half_the_step() -> 
     ]
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     assert steps[0] == pytest.approx(CONTROL.initial / 4.0)
+
+
+def test_a_finer_system_may_move_a_point_by_more_than_the_step() -> None:
+    settler = Picky(refused=3)
+
+    def shifted(point: Array) -> tuple[Array, Dense]:
+        settler.finer = "retreat 3" in settler.told
+        residual, linearised = line(point)
+        return residual + 0.05 * settler.finer, linearised
+
+    curve = trace(
+        shifted, np.zeros(2), 1.0, metric=even, control=CONTROL, settler=settler
+    )
+    points = [each.point for each in itertools.islice(curve, 2)]
+
+    # The line is 0.05 / √5 away, along which the step is an eighth of the first.
+    assert settler.told[-2:] == ["settle", "keep"]
+    assert "retreat 4" not in settler.told
+    along = np.array([2.0, 1.0]) / np.sqrt(5.0)
+    assert along @ (points[1] - points[0]) == pytest.approx(CONTROL.initial / 8.0)
 
 
 @pytest.mark.parametrize(

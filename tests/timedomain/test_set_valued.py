@@ -1,5 +1,7 @@
 """The set-valued step: sliding blocks that stop, and stay where they are."""
 
+import cmath
+import math
 from typing import Any
 
 import numpy as np
@@ -9,6 +11,7 @@ from law_examples import SLIDING, driven
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
 from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.given_loads import Drive
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.system import system
@@ -20,18 +23,21 @@ from timedomain.start import Start
 LIMIT = 0.4
 
 
-def block(stiffness: float, **directions: Any) -> Problem:
+def block(stiffness: float, drive: Drive | None = None, **directions: Any) -> Problem:
     return system(
         mass=[2.0, 2.0],
         stiffness=np.diag([stiffness, stiffness]).tolist(),
         names=("x", "y"),
         elements=[Element(RigidCoulomb(mu=0.2, load=LIMIT / 0.2), **directions)],
+        drive=drive,
     )
 
 
-def marched(problem: Problem, start: Start, seconds: float, step: float) -> TimeHistory:
+def marched(
+    problem: Problem, start: Start, seconds: float, step: float, frequency: float = 1.0
+) -> TimeHistory:
     options = MarchOptions(step, store_every=1)
-    blocks = integrate(problem, Dwell(1.0, seconds), options, start=start)
+    blocks = integrate(problem, Dwell(frequency, seconds), options, start=start)
     return joined(list(blocks), "complete")
 
 
@@ -86,6 +92,50 @@ def test_errors_fall_with_the_step() -> None:
     assert errors[0] < 2e-2
     assert errors[1] < 0.1 * errors[0]
     assert errors[2] < 0.1 * errors[1]
+
+
+def stepped(along: complex, across: complex, stiffness: float, steps: int) -> Array:
+    """Return the velocity x + iy of 2 kg on a rough plane over four periods of 1 s.
+
+    Time stepping of first order after Moreau (1988): a free step, then the friction
+    that stops it, or its limit. The force is Re(``along`` e^{iφ}) + i Re(``across``
+    e^{iφ}) with φ = 2πt − π/2.
+    """
+    length, place, velocity, found = 1.0 / steps, 0j, 0j, []
+    for step in range(4 * steps):
+        turn = -1j * cmath.exp(2j * math.pi * length * (step + 0.5))
+        pushed = complex((along * turn).real, (across * turn).real)
+        middle = place + 0.5 * length * velocity
+        free = velocity + length * (pushed - stiffness * middle) / 2.0
+        stopped = length * LIMIT / 2.0
+        after = free * max(0.0, 1.0 - stopped / max(abs(free), 1e-300))
+        place += 0.5 * length * (velocity + after)
+        velocity = after
+        found.append(velocity)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("stiffness", [0.0, 60.0])
+@pytest.mark.parametrize(
+    ("along", "across"), [(0.55, 0.0), (1.0, 0.7j), (0.6, 0.15 + 0.26j)]
+)
+def test_a_driven_block_moves_as_another_time_stepping_has_it(
+    along: complex, across: complex, stiffness: float
+) -> None:
+    drive = {name: cmath.polar(each) for name, each in zip("xy", (along, across))}
+    history = marched(
+        block(stiffness, drive=drive, **SLIDING),
+        Start(np.zeros(2), np.zeros(2)),
+        4.0,
+        1.0 / 400.0,
+        frequency=2.0 * np.pi,
+    )
+
+    other = stepped(along, across, stiffness, 20_000)[49::50]
+
+    velocity = history.velocity @ [1.0, 1j]
+    away = np.abs(velocity[-other.size :] - other).max()
+    assert away < 2e-3 * np.abs(other).max()
 
 
 def test_a_pushed_block_that_sticks_does_not_move_at_all() -> None:

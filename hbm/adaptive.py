@@ -36,6 +36,8 @@ PERSEVERANCE = 60
 """iterations of Newton after the resolution has been raised"""
 PATIENCE = 3
 """failures in a row before the resolution is raised"""
+RAISES = 4
+"""times that it is raised for failures"""
 
 
 class AdaptiveBalance:
@@ -85,9 +87,9 @@ class AdaptiveBalance:
             self._kept = self.fourier
 
     @property
-    def finer(self) -> bool:
-        """Whether the resolution is finer than that of the last kept point."""
-        return self.fourier.harmonics > self._kept.harmonics
+    def changed(self) -> bool:
+        """Whether the resolution is another one than that of the last kept point."""
+        return self.fourier != self._kept
 
     def keep(self) -> None:
         """Let the next point have the resolution that the last one asks for."""
@@ -100,11 +102,11 @@ class AdaptiveBalance:
 
         Coarse samples make the residual less smooth than the contacts are.
         """
-        if self.fourier != self._kept:
+        if self.changed:
             self._wait = WAIT
         self.fourier = self._kept
         if self._tolerance is not None:
-            for _ in range(min(times // PATIENCE, 4)):
+            for _ in range(min(times // PATIENCE, RAISES)):
                 self.fourier = self._doubled(True, True)
 
     def settle(

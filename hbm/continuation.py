@@ -220,7 +220,7 @@ def _next(
             system, predicted, normal, tolerance=control.tolerance, small=small
         )
         moved = float(np.linalg.norm((candidate.point - predicted) / scale))
-        slack = control.shift if settler.finer else control.slack
+        slack = control.shift if settler.changed else control.slack
         close = moved <= max(0.5 * step, slack)
         if candidate.outcome is Outcome.CONVERGED and close:
             candidate = settler.settle(candidate, normal, control.tolerance, small)

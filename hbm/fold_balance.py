@@ -43,6 +43,8 @@ class FoldBalance:
     brings the borders up to date with each point that is kept.
     """
 
+    changed = False
+
     def __init__(
         self,
         at: Callable[[float], Inner],
@@ -115,8 +117,6 @@ class FoldBalance:
                 *(np.pad(each, (0, missing)) for each in linearised.borders)
             )
             self._size = self.vibration(correction.point)
-
-    finer = False
 
     def retreat(self, times: int) -> None:
         """Do nothing."""

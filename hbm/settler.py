@@ -12,8 +12,8 @@ class Settler(Protocol):
     """What makes a converged point good enough to keep."""
 
     @property
-    def finer(self) -> bool:
-        """Whether the system is finer than at the last point that was kept."""
+    def changed(self) -> bool:
+        """Whether the system is finer or coarser than at the last point kept."""
 
     def settle(
         self,
@@ -37,7 +37,7 @@ class Settler(Protocol):
 class Unsettled:
     """Keeps each point as it is."""
 
-    finer = False
+    changed = False
 
     def settle(
         self,

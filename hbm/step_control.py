@@ -18,8 +18,8 @@ class StepControl:
     many_iterations: int = 12
     slack: float = 0.01
     """distance by which a correction may leave the prediction in any case"""
-    shift: float = 0.1
-    """the same where the system is finer than at the last point"""
+    shift: float = 0.03
+    """the same where the system is finer or coarser than at the last point"""
     tolerance: float = 1e-9
     """of the largest residual"""
     negligible: float = 0.0

@@ -5,6 +5,8 @@ stepped sine, and ends when the amplitude is within the curve's tolerance of whe
 settles, as far as the change from period to period tells. Steps per period are as many
 as leave an error of that tolerance at the largest amplitude. Eight stable points of the
 curve are marched; their mean stands for all. Times are of one thread's processor, warm.
+The curve is timed with its multipliers and without them; marches have none, so that the
+ratio is to the latter.
 """
 
 from __future__ import annotations
@@ -14,17 +16,21 @@ import os
 import sys
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 
+from hbm.solve import frequency_response
+from microslip.experiments import Curve
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.studies.curve import trace_curve
+from microslip.studies.curve import curve_options
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
 
@@ -42,7 +48,8 @@ MOST_PERIODS = 4000
 def main() -> int:
     """Print a row for each model and law; return the exit status."""
     print(
-        "model  law      points  curve [s]  steps/period  periods  not settled"
+        "model  law      points  curve [s]  with multipliers  steps/period  periods"
+        "  not settled"
         "  march [s/point]  marched curve [s]  ratio"
     )
     met = True
@@ -60,11 +67,9 @@ def compared(model: str, law: str) -> float:
     """Print one row; return how many times longer marching takes."""
     scene = load_scene("two-blades", [f"model={model}", f"friction.law={law}"])
     problem, tolerance = problem_of(scene), scene.curve.tolerance
-    trace_curve(problem, scene.curve)  # compiles
-    start = time.process_time()
-    traced = trace_curve(problem, scene.curve)
-    curve = time.process_time() - start
-    points = [each for each in traced.responses if not each.event]
+    responses, whole = timed(problem, scene.curve, stability=True)
+    _, curve = timed(problem, scene.curve, stability=False)
+    points = [each for each in responses if not each.event]
     pairs = spread(points)
     largest = int(np.argmax([amplitude(problem, each) for _, each in pairs]))
     steps = enough_steps(problem, *pairs[largest], tolerance)
@@ -75,12 +80,26 @@ def compared(model: str, law: str) -> float:
     late = sum(count >= MOST_PERIODS for count, _ in settled)
     ratio = march * len(points) / curve
     print(
-        f"{model:5s}  {law:7s} {len(points):7d} {curve:10.3f} {steps:13d}"
+        f"{model:5s}  {law:7s} {len(points):7d} {curve:10.3f} {whole:17.3f} {steps:13d}"
         f" {periods:8.0f} {late:12d} {march:16.3f} {march * len(points):18.1f}"
         f" {ratio:6.0f}",
         flush=True,
     )
     return ratio
+
+
+def timed(
+    problem: Problem, curve: Curve, *, stability: bool
+) -> tuple[list[PeriodicResponse], float]:
+    """Return a curve and the processor time that it takes warm [s]."""
+    options = replace(curve_options(curve), stability=stability)
+
+    def traced() -> list[PeriodicResponse]:
+        return list(frequency_response(problem, static_equilibrium(problem), options))
+
+    traced()  # compiles
+    start = time.process_time()
+    return traced(), time.process_time() - start
 
 
 Pair = tuple[PeriodicResponse, PeriodicResponse]

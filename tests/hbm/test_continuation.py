@@ -262,7 +262,7 @@ class Picky:
 
     def __init__(self, refused: int = 0) -> None:
         self.refused, self.told = refused, list[str]()
-        self.finer = False
+        self.changed = False
 
     def settle(
         self,
@@ -320,13 +320,13 @@ def test_a_point_that_a_settler_refuses_is_sought_again_with_half_the_step() -> 
     assert steps[0] == pytest.approx(CONTROL.initial / 4.0)
 
 
-def test_a_finer_system_may_move_a_point_by_more_than_the_step() -> None:
+def test_a_system_that_changes_may_move_a_point_by_more_than_the_step() -> None:
     settler = Picky(refused=3)
 
     def shifted(point: Array) -> tuple[Array, Dense]:
-        settler.finer = "retreat 3" in settler.told
+        settler.changed = "retreat 3" in settler.told
         residual, linearised = line(point)
-        return residual + 0.05 * settler.finer, linearised
+        return residual + 0.05 * settler.changed, linearised
 
     curve = trace(
         shifted, np.zeros(2), 1.0, metric=even, control=CONTROL, settler=settler

@@ -80,7 +80,7 @@ def precision_figure(
             fontsize="x-small",
             title="slope",
             title_fontsize="x-small",
-            loc="lower left",
+            loc="best",
         )
     panels[0].set_ylabel("relative error")
     panels[0].set_ylim(bottom=max(LOWEST, 0.3 * _least(lines)))

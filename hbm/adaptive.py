@@ -32,7 +32,7 @@ SHARPER = 4.0
 
 WAIT = 10
 """points before less is tried again, where more was needed"""
-PERSEVERANCE = 60
+PERSEVERANCE = 30
 """iterations of Newton after the resolution has been raised"""
 PATIENCE = 3
 """failures in a row before the resolution is raised"""

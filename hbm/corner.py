@@ -60,10 +60,10 @@ def round_corner(
             onwards = -tangent(linearised, along, scale)
         except SingularError:
             continue
-        if float((onwards / scale) @ back) > STRAIGHT:
+        if _along(onwards, back, scale):
             continue
         found = _stepped(system, last.point, onwards, scale, tolerance)
-        if found is not None:
+        if found is not None and not _along(found - last.point, back, scale):
             return found, onwards
     return None
 
@@ -77,6 +77,12 @@ def _back(way: Sequence[Correction], scale: Array) -> Array | None:
             direction: Array = chord / length
             return direction
     return None
+
+
+def _along(step: Array, back: Array, scale: Array) -> bool:
+    """Return whether a step takes the way back."""
+    taken = step / scale
+    return float(taken @ back) > STRAIGHT * float(np.linalg.norm(taken))
 
 
 def _stepped(

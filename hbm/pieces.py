@@ -36,7 +36,8 @@ FIRST = (0.0, 1e-2)
 class Pieces:
     """The corrections along a curve from ``start`` to ``end``, in order.
 
-    A curve that folds back and returns to ``start`` is followed from ``end`` as well.
+    A curve that folds back and returns to ``start``, or that stops, is followed from
+    ``end`` as well.
     """
 
     path: Path
@@ -51,27 +52,31 @@ class Pieces:
         """Yield corrections; the first of a new piece has no tangent before it."""
         guess, heading = self._still(self.start), self.end
         both, leaps = False, iter(FIRST)
+        stopped: ContinuationError | None = None
         for attempt in range(RESTARTS + 1):
             last: Correction | None = None
             try:
                 for correction in self._cornered(guess, heading):
                     last = correction
                     yield correction
-            except ContinuationError:
+            except ContinuationError as error:
                 heading = self._onwards(last, heading)
                 begun, reached = guess[-1], (guess if last is None else last.point)[-1]
                 way = math.copysign(self.end - self.start, heading - begun)
                 if (reached - begun) / way > LEAPS[0]:
                     leaps = iter(LEAPS)
                 again = self._again(float(reached), heading, leaps)
-                if again is None or attempt == RESTARTS:
-                    raise
-                guess = again
+                if again is not None and attempt < RESTARTS:
+                    guess = again
+                    continue
+                if both or last is None or attempt == RESTARTS:
+                    raise stopped or error from None
+                stopped = error
             else:
                 if last is None or last.point[-1] == self.end or both:
                     return
-                guess, heading, both = self._still(self.end), self.start, True
-                leaps = iter(FIRST)
+            guess, heading, both = self._still(self.end), self.start, True
+            leaps = iter(FIRST)
 
     def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
         """Yield corrections from a point in a direction, until the range ends.

@@ -83,6 +83,28 @@ def test_there_is_no_corner_where_the_curve_ends() -> None:
     assert round_corner(ending, way, unit, 1e-12) is None
 
 
+def test_the_way_back_is_no_corner_even_if_the_last_tangent_is_off() -> None:
+    def straight(point: Array) -> tuple[Array, Dense]:
+        x, parameter = point
+        tilted = 1.2 if x > -1e-5 else 1.0
+        return np.array([parameter - x]), Dense([[-1.0, tilted]])
+
+    along = np.array([1.2, 1.0]) / np.hypot(1.2, 1.0)
+    way = [
+        Correction(
+            np.array([place, place]),
+            np.zeros(1),
+            Dense([[-1.0, 1.0]]),
+            Outcome.CONVERGED,
+            (0.0,),
+            along,
+        )
+        for place in (-0.1, -1e-6)
+    ]
+
+    assert round_corner(straight, way, unit, 1e-12) is None
+
+
 @pytest.mark.slow
 def test_chain_of_sliders_and_a_stop_is_traced_from_end_to_end() -> None:
     """NLvib's example 07: three masses, two sliders, two cubic springs, a stop."""

@@ -53,7 +53,7 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
         along = np.array([0.0, 1.0])
         yield Correction(point, residual, linearised, Outcome.CONVERGED, (0.0,), along)
         if reached != end:
-            raise ContinuationError("the curve does not go on")
+            raise ContinuationError(f"the curve does not go on at {place:g}")
 
     monkeypatch.setattr("hbm.pieces.trace", trace)
     monkeypatch.setattr("hbm.pieces.round_corner", lambda *_: None)
@@ -88,15 +88,29 @@ def test_a_restart_takes_the_first_response_that_exists(
     assert [y for y, _ in begun[1:]] == pytest.approx([1.0] * 3, abs=1e-8)
 
 
-def test_a_curve_that_resists_behind_all_leaps_says_so(
+def test_a_curve_that_stops_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
 
-    with pytest.raises(ContinuationError, match="does not go on"):
-        list(pieces(0.0, 1.0))
+    points = [each.point for each in pieces(0.0, 1.0)]
 
-    assert len(begun) == 1
+    assert [place for _, place in begun] == [0.0, 1.0]
+    assert [place for _, place in points] == [RESISTS, 0.0]
+
+
+def test_a_curve_that_stops_from_both_ends_says_where_it_did_first(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+    kept = []
+
+    with pytest.raises(ContinuationError, match="does not go on at 0"):
+        for each in pieces(0.0, RESISTS - 0.1):
+            kept.append(each)  # noqa: PERF402  (what is there must be kept)
+
+    assert [place for _, place in begun] == pytest.approx([0.0, RESISTS - 0.1])
+    assert len(kept) == 2
 
 
 def test_a_rig_whose_coarse_responses_differ_has_a_first_point() -> None:

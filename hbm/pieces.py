@@ -61,11 +61,9 @@ class Pieces:
                     yield correction
             except ContinuationError as error:
                 heading = self._onwards(last, heading)
-                begun, reached = guess[-1], (guess if last is None else last.point)[-1]
-                way = math.copysign(self.end - self.start, heading - begun)
-                if (reached - begun) / way > LEAPS[0]:
-                    leaps = iter(LEAPS)
-                again = self._again(float(reached), heading, leaps)
+                reached = float((guess if last is None else last.point)[-1])
+                leaps = self._leaps(float(guess[-1]), reached, heading, leaps)
+                again = self._again(reached, heading, leaps)
                 if again is not None and attempt < RESTARTS:
                     guess = again
                     continue
@@ -150,6 +148,13 @@ class Pieces:
             return heading
         onwards = math.copysign(1.0, last.along[-1])
         return max(self.start, self.end, key=lambda each: onwards * each)
+
+    def _leaps(
+        self, begun: float, reached: float, heading: float, left: Iterator[float]
+    ) -> Iterator[float]:
+        """Return the leaps to try: all of them if the last piece came nearer."""
+        way = math.copysign(self.end - self.start, heading - begun)
+        return iter(LEAPS) if (reached - begun) / way > LEAPS[0] else left
 
     def _again(
         self, reached: float, heading: float, leaps: Iterator[float]

@@ -103,11 +103,10 @@ def test_a_curve_that_stops_from_both_ends_says_where_it_did_first(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
-    kept = []
+    kept: list[Correction] = []
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
-        for each in pieces(0.0, RESISTS - 0.1):
-            kept.append(each)  # noqa: PERF402  (what is there must be kept)
+        kept.extend(pieces(0.0, RESISTS - 0.1))
 
     assert [place for _, place in begun] == pytest.approx([0.0, RESISTS - 0.1])
     assert len(kept) == 2

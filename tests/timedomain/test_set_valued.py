@@ -56,7 +56,7 @@ def test_a_sliding_block_stops_where_its_energy_is_spent(step: float) -> None:
 
 def decay(step: float) -> TimeHistory:
     """Return a free vibration of 2 kg on 8 N/m that begins 0.97 m away."""
-    along = {"tangents": [("x", "ground")]}
+    along: dict[str, Any] = {"tangents": [("x", "ground")]}
     start = Start(np.array([0.97, 0.0]), np.zeros(2))
     return marched(block(8.0, **along), start, 5.5 * np.pi, step)
 
@@ -122,7 +122,7 @@ def stepped(along: complex, across: complex, stiffness: float, steps: int) -> Ar
 def test_a_driven_block_moves_as_another_time_stepping_has_it(
     along: complex, across: complex, stiffness: float
 ) -> None:
-    drive = {name: cmath.polar(each) for name, each in zip("xy", (along, across))}
+    drive = {"x": cmath.polar(along), "y": cmath.polar(across)}
     history = marched(
         block(stiffness, drive=drive, **SLIDING),
         Start(np.zeros(2), np.zeros(2)),

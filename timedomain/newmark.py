@@ -126,9 +126,9 @@ def _advance(
     half = 0.5 * operators.step
     dofs = state.displacement.size
     for i in range(dofs):
-        velocity = state.velocity[i] + half * state.acceleration[i]
-        predicted[i] = state.displacement[i] + half * (state.velocity[i] + velocity)
-        predicted[dofs + i] = velocity
+        speed = state.velocity[i] + half * state.acceleration[i]
+        predicted[i] = state.displacement[i] + half * (state.velocity[i] + speed)
+        predicted[dofs + i] = speed
     free = np.dot(operators.free, predicted) + np.dot(operators.load, factors)
     displacement = np.dot(operators.selection, predicted[:dofs])
     velocity = np.dot(operators.selection, predicted[dofs:])

@@ -20,7 +20,9 @@ from timedomain.start import Start
 from timedomain.whole_orbit import whole_orbit
 
 ASTRAY = 0.1
-"""change of the first harmonic, relative, from which an orbit may be another one"""
+"""change of the first harmonic, relative, from which an orbit may be another one, …"""
+DOUBT = 3.0
+"""… unless it is below so many times the error, if known, of the response beside it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +128,7 @@ def _first(
         last = 4 * steps > chosen.most
         try:
             found = _found(carried, carried.state(start), near, until)
-            if near is None or _away(found, near) <= ASTRAY:
+            if near is None or not _astray(found, near):
                 return found
             astray = astray or found
         except ShootingError:
@@ -154,13 +156,19 @@ def _found(
             return whole_orbit(carried, near, until)
         except ShootingError as other:
             raise ShootingError(f"{error}; {other}") from other
-    if near is None or _away(marched, near) <= ASTRAY:
+    if near is None or not _astray(marched, near):
         return marched
     try:
         whole = whole_orbit(carried, near, until)
     except ShootingError:
         return marched
     return min(marched, whole, key=lambda each: _away(each, near))
+
+
+def _astray(marched: ClosedMarch, near: PeriodicResponse) -> bool:
+    """Return whether an orbit seems to be another one than the response beside it."""
+    doubt = DOUBT * near.error if math.isfinite(near.error) else 0.0
+    return _away(marched, near) > max(ASTRAY, doubt)
 
 
 def _away(marched: ClosedMarch, near: PeriodicResponse) -> float:

@@ -123,12 +123,14 @@ class Search:
         tracer = Tracer(self.problem, path, options)
         passed: list[PeriodicResponse] = []
         before: PeriodicResponse | None = None
-        share, cause = 0.0, ""
+        share, cause, stopped = 0.0, "", False
         try:
             for each in tracer.responses():
+                stopped |= each.event in MARKS and each.parameter == MOST
                 if before is not None and _between(before, each):
                     passed += self._wanted(before, each)
-                before, share = each, max(share, each.parameter)
+                # a curve that stops is followed from the other end too
+                before, share = each, share if stopped else max(share, each.parameter)
         except ContinuationError as error:
             cause = str(error)
         return passed, Sought(frequency, share, cause, "")

@@ -50,31 +50,44 @@ class Pieces:
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
-        guess, heading = self._still(self.start), self.end
-        both, leaps = False, iter(FIRST)
+        last: Correction | None = None
         stopped: ContinuationError | None = None
+        try:
+            for last in self._from(self.start, self.end):
+                yield last
+        except ContinuationError as error:
+            if last is None:
+                raise
+            stopped = error
+        if stopped is None and (last is None or last.point[-1] == self.end):
+            return
+        try:
+            for last in self._from(self.end, self.start):
+                yield last
+        except ContinuationError as error:
+            raise stopped or error from None
+        if stopped is not None and last is not None and last.point[-1] != self.start:
+            raise stopped
+
+    def _from(self, begin: float, end: float) -> Iterator[Correction]:
+        """Yield corrections from one end of the range, past what resists."""
+        guess, heading, leaps = self._still(begin), end, iter(FIRST)
         for attempt in range(RESTARTS + 1):
             last: Correction | None = None
             try:
                 for correction in self._cornered(guess, heading):
                     last = correction
                     yield correction
-            except ContinuationError as error:
+            except ContinuationError:
                 heading = self._onwards(last, heading)
                 reached = float((guess if last is None else last.point)[-1])
                 leaps = self._leaps(float(guess[-1]), reached, heading, leaps)
                 again = self._again(reached, heading, leaps)
-                if again is not None and attempt < RESTARTS:
-                    guess = again
-                    continue
-                if both or last is None or attempt == RESTARTS:
-                    raise stopped or error from None
-                stopped = error
+                if again is None or attempt == RESTARTS:
+                    raise
+                guess = again
             else:
-                if last is None or last.point[-1] == self.end or both:
-                    return
-            guess, heading, both = self._still(self.end), self.start, True
-            leaps = iter(FIRST)
+                return
 
     def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
         """Yield corrections from a point in a direction, until the range ends.

@@ -59,16 +59,9 @@ def test_a_sharp_corner_is_turned_onto_its_second_half(slope: float) -> None:
     np.testing.assert_allclose(direction, expected, rtol=1e-9)
 
 
-def test_there_is_no_corner_where_the_curve_ends() -> None:
-    """A curve that stops has a tangent of one side only."""
-
-    def ending(point: Array) -> tuple[Array, Dense]:
-        x, parameter = point
-        jump = 0.0 if x < 0.0 else 1.0
-        return np.array([parameter - x + jump]), Dense([[-1.0, 1.0]])
-
-    along = np.array([1.0, 1.0]) / np.sqrt(2.0)
-    way = [
+def diagonal(along: Array) -> list[Correction]:
+    """Return two points of x = p, up to the origin, with a tangent."""
+    return [
         Correction(
             np.array([place, place]),
             np.zeros(1),
@@ -80,6 +73,16 @@ def test_there_is_no_corner_where_the_curve_ends() -> None:
         for place in (-0.1, -1e-6)
     ]
 
+
+def test_there_is_no_corner_where_the_curve_ends() -> None:
+    """A curve that stops has a tangent of one side only."""
+
+    def ending(point: Array) -> tuple[Array, Dense]:
+        x, parameter = point
+        jump = 0.0 if x < 0.0 else 1.0
+        return np.array([parameter - x + jump]), Dense([[-1.0, 1.0]])
+
+    way = diagonal(np.array([1.0, 1.0]) / np.sqrt(2.0))
     assert round_corner(ending, way, unit, 1e-12) is None
 
 
@@ -89,19 +92,7 @@ def test_the_way_back_is_no_corner_even_if_the_last_tangent_is_off() -> None:
         tilted = 1.2 if x > -1e-5 else 1.0
         return np.array([parameter - x]), Dense([[-1.0, tilted]])
 
-    along = np.array([1.2, 1.0]) / np.hypot(1.2, 1.0)
-    way = [
-        Correction(
-            np.array([place, place]),
-            np.zeros(1),
-            Dense([[-1.0, 1.0]]),
-            Outcome.CONVERGED,
-            (0.0,),
-            along,
-        )
-        for place in (-0.1, -1e-6)
-    ]
-
+    way = diagonal(np.array([1.2, 1.0]) / np.hypot(1.2, 1.0))
     assert round_corner(straight, way, unit, 1e-12) is None
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import hbm.pieces
 from hbm.continuation import ContinuationError
 from hbm.effort import Effort
 from hbm.newton import Correction, Outcome
@@ -97,6 +98,26 @@ def test_a_curve_that_stops_is_followed_from_the_other_end(
 
     assert [place for _, place in begun] == [0.0, 1.0]
     assert [place for _, place in points] == [RESISTS, 0.0]
+
+
+def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    traced = vars(hbm.pieces)["trace"]
+
+    def trace(
+        system: Any, start: Array, end: float, **options: Any
+    ) -> Iterator[Correction]:
+        back = 1.0 if start[-1] == 1.0 else end
+        return traced(system, start, back, **options)
+
+    monkeypatch.setattr("hbm.pieces.trace", trace)
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+
+    with pytest.raises(ContinuationError, match="does not go on at 0"):
+        list(pieces(0.0, 1.0))
+
+    assert [place for _, place in begun] == [0.0, 1.0]
 
 
 def test_a_curve_that_stops_from_both_ends_says_where_it_did_first(

@@ -135,7 +135,7 @@ def test_a_driven_block_moves_as_another_time_stepping_has_it(
 
     velocity = history.velocity @ [1.0, 1j]
     away = np.abs(velocity[-other.size :] - other).max()
-    assert away < 2e-3 * np.abs(other).max()
+    assert away < 5e-4 * np.abs(other).max()  # measured 3.7e-4
 
 
 def test_a_pushed_block_that_sticks_does_not_move_at_all() -> None:

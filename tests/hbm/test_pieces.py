@@ -1,6 +1,6 @@
 """Where a curve begins anew: which response it takes, and how far it leaps."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
@@ -103,7 +103,7 @@ def test_a_curve_that_stops_is_followed_from_the_other_end(
 def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced = vars(hbm.pieces)["trace"]
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.pieces)["trace"]
 
     def trace(
         system: Any, start: Array, end: float, **options: Any

@@ -9,11 +9,8 @@ from pathlib import Path
 import pytest
 
 import microslip_mechanics
-import timedomain
 
 PACKAGE = Path(microslip_mechanics.__file__).parent
-TIMEDOMAIN = Path(timedomain.__file__).parent
-TESTS = Path(__file__).parents[1]
 POWER = """
 from microslip_mechanics.contact.hunt_crossley import power
 print(power(2.0, 3.0), sum(power.stats.cache_hits.values()))
@@ -47,13 +44,6 @@ def borrowed(number: float) -> float:
 BORROWED = """
 from lending.borrower import borrowed
 print(borrowed(3.0), sum(borrowed.stats.cache_hits.values()))
-"""
-MARCH = """
-from microslip_mechanics.excitation import Dwell
-from small_problems import marched, oscillator
-from timedomain.integrate import MarchOptions
-options = MarchOptions(0.1, method="reference")
-print(marched(oscillator(), Dwell(1.0, 1.0), options).of("kinetic")[-1])
 """
 PLAIN = """
 import inspect
@@ -133,27 +123,6 @@ def test_edit_of_a_neighbour_in_another_package_reaches_its_caller(
     assert before == ["6.0", "0"]
     assert again == ["6.0", "1"]
     assert after == ["15.0", "0"]
-
-
-@pytest.mark.slow
-def test_edit_of_the_record_reaches_the_march(tmp_path: Path) -> None:
-    copies = tmp_path / "copy"
-    for package in (PACKAGE, TIMEDOMAIN):
-        shutil.copytree(package, copies / package.name)
-    places: dict[str, Path | str] = {
-        "PYTHONPATH": f"{copies}{os.pathsep}{TESTS}",
-        "XDG_CACHE_HOME": tmp_path / "cache",
-    }
-    record, formula = copies / "timedomain" / "record.py", "= 0.5 * np.dot(velocity"
-    text = record.read_text(encoding="utf-8")
-
-    (before,) = run(MARCH, **places)
-    edited = text.replace(formula, formula.replace("0.5", "5.0"))
-    record.write_text(edited, encoding="utf-8")
-    (after,) = run(MARCH, **places)
-
-    assert text.count(formula) == 1
-    assert float(after) == pytest.approx(10.0 * float(before), rel=1e-12)
 
 
 def test_unchanged_copy_of_the_package_shares_the_name_of_the_cache_folder(

@@ -7,11 +7,16 @@ a₀, a₁, b₁, a₂, b₂, … along the first axis (theory, eq. 12).
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 import pyfftw
 
 from microslip_mechanics.arrays import Array, ComplexArray
+
+PRODUCT = 2**14
+"""entries of a matrix up to which a product by it is faster than a fast transform, by
+``tests/benchmarks/growth.py``"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,33 +50,31 @@ class FourierBasis:
 
 
 class Transform:
-    """Planned transforms of a fixed number of signals (FFTW through pyfftw)."""
+    """Transforms of a fixed number of signals: products by a matrix, or FFTW's.
+
+    Products are faster up to :data:`PRODUCT` entries of the matrix.
+    """
 
     def __init__(self, signals: int, samples: int) -> None:
-        """Plan transforms of arrays of shape ``(signals, samples)``."""
+        """Make room for arrays of shape ``(signals, samples)``."""
         self._time: Array = pyfftw.zeros_aligned((signals, samples), dtype="float64")
-        bins = samples // 2 + 1
-        self._spectrum: ComplexArray = pyfftw.zeros_aligned(
-            (signals, bins), dtype="complex128"
-        )
-        self._samples = samples
-        estimate = ("FFTW_ESTIMATE",)
-        self._forward = pyfftw.FFTW(self._time, self._spectrum, flags=estimate)
-        self._backward = pyfftw.FFTW(
-            self._spectrum, self._time, direction="FFTW_BACKWARD", flags=estimate
-        )
 
     def synthesis(self, coefficients: Array) -> Array:
         """Return samples, shape ``(signals, samples)``, valid until the next call.
 
         ``coefficients`` has shape ``(2 harmonics + 1, signals)``.
         """
-        harmonics = coefficients.shape[0] // 2
-        self._spectrum[:] = 0.0
-        self._spectrum[:, 0] = coefficients[0]
+        harmonics, samples = len(coefficients) // 2, self._time.shape[1]
+        if len(coefficients) * samples <= PRODUCT:
+            there, _ = _small_waves(harmonics, samples)
+            np.dot(coefficients.T, there, out=self._time)
+            return self._time
+        spectrum, _, backward = self._planned
+        spectrum[:] = 0.0
+        spectrum[:, 0] = coefficients[0]
         half = to_complex(coefficients)[1:] / 2.0
-        self._spectrum[:, 1 : harmonics + 1] = half.T
-        self._backward.execute()
+        spectrum[:, 1 : harmonics + 1] = half.T
+        backward.execute()
         return self._time
 
     @property
@@ -81,10 +84,46 @@ class Transform:
 
     def analysis(self, harmonics: int) -> Array:
         """Return coefficients of :attr:`samples`, ``(2 harmonics + 1, signals)``."""
-        self._forward.execute()
-        spectrum = self._spectrum[:, : harmonics + 1].T / self._samples
-        spectrum[1:] *= 2.0
-        return to_real(spectrum)
+        samples = self._time.shape[1]
+        if (2 * harmonics + 1) * samples <= PRODUCT:
+            _, back = _small_waves(harmonics, samples)
+            coefficients: Array = np.dot(back, self._time.T)
+            return coefficients
+        spectrum, forward, _ = self._planned
+        forward.execute()
+        kept = spectrum[:, : harmonics + 1].T / samples
+        kept[1:] *= 2.0
+        return to_real(kept)
+
+    @cached_property
+    def _planned(self) -> tuple[ComplexArray, pyfftw.FFTW, pyfftw.FFTW]:
+        """Half the spectrum, and FFTW's plans there and back."""
+        signals, samples = self._time.shape
+        spectrum: ComplexArray = pyfftw.zeros_aligned(
+            (signals, samples // 2 + 1), dtype="complex128"
+        )
+        estimate = ("FFTW_ESTIMATE",)
+        return (
+            spectrum,
+            pyfftw.FFTW(self._time, spectrum, flags=estimate),
+            pyfftw.FFTW(
+                spectrum, self._time, direction="FFTW_BACKWARD", flags=estimate
+            ),
+        )
+
+
+def waves(harmonics: int, samples: int) -> tuple[Array, Array]:
+    """Return the matrices of synthesis and of analysis, (2 harmonics + 1, samples)."""
+    phase = 2.0 * np.pi * np.arange(samples) / samples
+    angles = np.outer(np.arange(1, harmonics + 1), phase)
+    there = np.ones((2 * harmonics + 1, samples))
+    there[1::2], there[2::2] = np.cos(angles), np.sin(angles)
+    back = there * (2.0 / samples)
+    back[0] *= 0.5
+    return there, back
+
+
+_small_waves = lru_cache(maxsize=64)(waves)
 
 
 def to_complex(coefficients: Array) -> ComplexArray:

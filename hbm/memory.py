@@ -14,7 +14,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.fourier import FourierBasis
+from hbm.fourier import FourierBasis, waves
 from hbm.sliding_loop import sliding_loop
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import PUSHED, ContactPoints
@@ -35,19 +35,15 @@ class FrictionMemory:
     def __init__(self, basis: Array, fourier: FourierBasis) -> None:
         """Plan for ``basis``, the map from y to the points, ``(3 points, rank)``."""
         self._basis = basis
-        phase = 2.0 * np.pi * np.arange(fourier.samples) / fourier.samples
+        there, self._analysis = waves(fourier.harmonics, fourier.samples)
+        value = np.ascontiguousarray(there.T)
         orders = np.arange(1, fourier.harmonics + 1)
-        angles = np.multiply.outer(phase, orders)
-        value = np.ones((fourier.samples, fourier.coefficients))
-        value[:, 1::2], value[:, 2::2] = np.cos(angles), np.sin(angles)
         slope = np.zeros_like(value)
         slope[:, 1::2], slope[:, 2::2] = (
             -orders * value[:, 2::2],
             orders * value[:, 1::2],
         )
         self._waves = Waves(value, slope)
-        self._analysis = value.T * (2.0 / fourier.samples)
-        self._analysis[0] /= 2.0
 
     def add(
         self,

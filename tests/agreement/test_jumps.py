@@ -114,7 +114,7 @@ def test_too_few_rates_are_refused() -> None:
         list(jumps(problem, folds, [1e-4, 1e-4, 1e-4, 5e-5]))
 
 
-@pytest.mark.slow
+@pytest.mark.slow(seconds=30)
 def test_the_rig_with_falling_friction_jumps_on_its_upper_fold() -> None:
     # Under 1.9 N the excited blade leaves 1 mm for 0.26 mm at 137.17 Hz.
     problem = rig_problem(model="A", friction__law="gkf", excitation__force="1.9 N")

@@ -150,7 +150,7 @@ def test_time_step_that_fills_the_memory_ends_with_one_line(
     assert len(error.splitlines()) == 1
 
 
-@pytest.mark.slow
+@pytest.mark.slow(seconds=30)
 @pytest.mark.usefixtures("no_picture")
 def test_curve_of_as_many_harmonics_as_a_scene_may_have_ends(
     run: Run, quick_scene: Path

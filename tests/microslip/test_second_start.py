@@ -24,7 +24,7 @@ def started(command: str, scene: Path, cache: Path) -> dict[str, tuple[int, int]
     }
 
 
-@pytest.mark.slow
+@pytest.mark.slow(seconds=90)
 def test_second_start_compiles_nothing_whatever_the_model_and_law(
     quick_scene: Path, tmp_path: Path
 ) -> None:

@@ -318,7 +318,7 @@ def test_cases_are_solved_compared_and_refused(compiled: None) -> None:  # noqa:
     assert "preload.force=1: taken as it is" in taken.cause
 
 
-@pytest.mark.slow
+@pytest.mark.slow(seconds=30)
 def test_a_quick_look_runs_from_the_command_line(
     run: Run,
     tmp_path: Path,

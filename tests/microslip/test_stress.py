@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import pytest
 
+from hbm.continuation import ContinuationError
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
@@ -89,6 +90,27 @@ def test_bad_values_are_given_to_each_number() -> None:
 def test_a_system_is_not_put_under_stress() -> None:
     with pytest.raises(SceneError, match="two blades"):
         cases(load_scene("duffing"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("override", "told"),
+    [("model=B", "steady there"), ("excitation.force=100", "not steady there")],
+)
+def test_where_no_curve_begins_a_march_from_rest_says_whether_it_settles(
+    override: str, told: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unbegun(*_: object) -> None:
+        raise ContinuationError("the curve does not go on")
+
+    monkeypatch.setattr(stress, "trace_curve", unbegun)
+    case = Case("parameter", "value", (override,))
+
+    *_, found = stress._studied("two-blades", (), 10.0, case)
+
+    assert found.outcome is Outcome.HONEST
+    assert "harmonic balance: the curve does not go on; a march" in found.cause
+    assert f" is {told} " in found.cause
 
 
 def comparison(difference: float, estimated: float, multiplier: float) -> Comparison:

@@ -9,6 +9,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import islice
 
+from hbm.continuation import ContinuationError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.bounded import Ended, bounded
@@ -24,7 +25,7 @@ from microslip.studies.stress_finding import (
     line,
 )
 from microslip.studies.stress_refusals import refusals
-from microslip.studies.stress_witness import witnessed
+from microslip.studies.stress_witness import from_rest, witnessed
 from timedomain.period_map import BLOCK, PeriodMap
 from timedomain.verify import march_periods
 from timedomain.whole_orbit import whole_orbit
@@ -93,6 +94,10 @@ def _studied(
         with limited(TRACING * seconds):
             traced = trace_curve(problem, loaded.curve, heeded)
     except (*EXPECTED, OutOfTimeError) as error:
-        yield Finding(cause=f"harmonic balance: {line(error)}")
+        told = f"harmonic balance: {line(error)}"
+        yield Finding(cause=told)
+        if isinstance(error, ContinuationError):
+            also = from_rest(problem, loaded, seconds)
+            yield Finding(cause=causes(told, also))
         return
     yield from witnessed(problem, traced, seconds)

@@ -8,7 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from microslip.scene_file import Scene
 from microslip.studies.curve import Traced
+from microslip.studies.dwell import dwelling
 from microslip.studies.stress_clock import OutOfTimeError, limited
 from microslip.studies.stress_condition import condition
 from microslip.studies.stress_finding import (
@@ -29,6 +31,8 @@ from timedomain.verify import agreement, march_periods
 
 SHOOTING, MARCHING = 0.13, 0.07
 """shares of a case's time after which each orbit, and each march, is left"""
+RESTING, LONGEST = 0.3, 5000
+"""share of a case's time, and periods, after which a march from rest is left"""
 LEFT = 0.1
 """relative change of the amplitude in a march that leaves an orbit; what is stable
 stays, but for the march's own error, which a sharp resonance multiplies"""
@@ -54,6 +58,21 @@ def witnessed(problem: Problem, traced: Traced, seconds: float) -> Iterator[Find
         finding, worse = _beside(problem, traced.responses[place], finding, seconds)
         outcome = max(outcome, worse, key=list(Outcome).index)
     yield replace(finding, outcome=outcome)
+
+
+def from_rest(problem: Problem, scene: Scene, seconds: float) -> str:
+    """Return whether a march from rest becomes steady where a curve does not begin."""
+    frequency, distances = math.tau * scene.curve.lowest, [math.inf]
+    marched = dwelling(problem, frequency, scene.march, tolerance=AGREED, most=LONGEST)
+    try:
+        with limited(RESTING * seconds):
+            distances.extend(period.distance for period in marched)
+    except OutOfTimeError:
+        pass
+    except EXPECTED as error:
+        return f"marching from rest: {line(error)}"
+    steady = "steady" if distances[-1] <= AGREED else "not steady"
+    return f"a march from rest is {steady} there after {len(distances) - 1} periods"
 
 
 def _places(amplitude: Array, event: Sequence[str]) -> list[int]:

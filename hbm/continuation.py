@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.errors import PLACE, ContinuationError
 from hbm.newton import (
     Correction,
     Linearised,
@@ -21,12 +22,6 @@ from hbm.predictor import Predictor
 from hbm.settler import UNSETTLED, Settler
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.errors import MicroslipError
-
-
-class ContinuationError(MicroslipError):
-    """The curve cannot go on; the text says where, why and what to try."""
-
 
 FEWEST = 4
 """steps of a closed curve"""
@@ -108,8 +103,8 @@ def trace(
         yield accepted
     raise ContinuationError(
         f"the curve has not come to an end after {control.most_points} points, at "
-        f"parameter {float(accepted.point[-1]):.9g}: a shorter range or a larger step "
-        "helps"
+        f"{PLACE}: a shorter range or a larger step helps",
+        float(accepted.point[-1]),
     )
 
 
@@ -144,7 +139,7 @@ def correct_at(
         found = settler.settle(found, normal, control.tolerance, small)
         settler.keep()
     if found.outcome is not Outcome.CONVERGED:
-        raise ContinuationError(_text(float(guess[-1]), found, control))
+        raise _lost("no response is found", float(guess[-1]), found, control)
     return found
 
 
@@ -167,8 +162,9 @@ def _begun(first: Correction, direction: Array, scale: Array) -> Array:
         return tangent(first.linearised, direction, scale)
     except SingularError:
         raise ContinuationError(
-            f"the curve cannot begin at parameter {float(first.point[-1]):.9g}: it "
-            "folds or branches there; begin a little beside it"
+            f"the curve cannot begin at {PLACE}: it folds or branches there; begin a "
+            "little beside it",
+            float(first.point[-1]),
         ) from None
 
 
@@ -232,7 +228,7 @@ def _next(
                 return candidate, step
         elif step <= control.smallest:
             where = float(past.predict(0.0)[-1])
-            raise ContinuationError(_text(where, candidate, control))
+            raise _lost("the curve does not go on", where, candidate, control)
         else:
             failures += 1
         settler.retreat(failures)
@@ -271,10 +267,13 @@ def _border(
     return replace(found, tangent=candidate.tangent)
 
 
-def _text(where: float, failed: Correction, control: StepControl) -> str:
-    return (
-        f"the curve does not go on at parameter {where:.9g}: {failed.outcome.value} "
+def _lost(
+    what: str, where: float, failed: Correction, control: StepControl
+) -> ContinuationError:
+    return ContinuationError(
+        f"{what} at {PLACE}: {failed.outcome.value} "
         f"(residual {failed.residuals[-1]:.1e} after {failed.iterations} iterations, "
         f"tolerance {control.tolerance:.1e}); more harmonics, more samples or a larger "
-        "threshold velocity make it smoother"
+        "threshold velocity make it smoother",
+        where,
     )

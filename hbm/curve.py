@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
-from hbm.continuation import ContinuationError, Metric
+from hbm.continuation import Metric
+from hbm.errors import ContinuationError
 from hbm.events import (
     PRECISION,
     ROUGH,
@@ -34,6 +35,7 @@ from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
+TURN = 2.0 * np.pi
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
 LOCATING = FourierBasis(31, 512)
@@ -227,7 +229,7 @@ def response(
     drift, frequency = balance.drift_force(point), float(point[-1])
     if drift > DRIFT * problem.force_scale:
         raise ContinuationError(
-            f"a body drifts at {frequency:.6g} rad/s: friction has a mean of "
+            f"a body drifts at {frequency / TURN:.6g} Hz: friction has a mean of "
             f"{drift:.2g} N and nothing holds the body; give it a rope"
         )
     cycle = balance.cycle(point)

@@ -15,6 +15,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from hbm.errors import hertz, placed
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency, among
 from hbm.relative import RelativeProblem, held_mean_positions
@@ -46,7 +47,7 @@ def cyclic_response(
     standing = problem.standing()
     path = along_sector(problem, options.start, options.end, pruned=options.pruned)
     tracer = Tracer(standing, path, replace(options, stability=False))
-    with threadpool_limits(1, "blas"):
+    with threadpool_limits(1, "blas"), placed(hertz):
         yield from tracer.responses()
 
 

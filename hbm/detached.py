@@ -15,8 +15,9 @@ from itertools import pairwise
 import numpy as np
 
 from hbm.along_parameter import AlongParameter
-from hbm.continuation import ContinuationError, correct_at
+from hbm.continuation import correct_at
 from hbm.curve import response
+from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency

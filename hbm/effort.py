@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from hbm.newton import Linearised, System
 from microslip_mechanics.arrays import Array
 

@@ -9,7 +9,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis, to_complex
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response, periodic_response

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.continuation import ContinuationError, Metric, correct_at
+from hbm.continuation import Metric, correct_at
 from hbm.effort import Effort
+from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
 from hbm.path import Path
 from hbm.relative import RelativeProblem

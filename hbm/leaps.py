@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.continuation import ContinuationError, Metric, trace
+from hbm.continuation import Metric, trace
+from hbm.errors import PLACE, ContinuationError
 from hbm.newton import Correction, Outcome, System, correct
 from hbm.settler import Settler
 from hbm.step_control import StepControl
@@ -61,8 +62,9 @@ class Leaping:
                     raise
             guess, direction = self._leapt(kept)
         raise ContinuationError(
-            f"the curve has {MOST} gaps up to parameter {float(guess[-1]):.9g}: more "
-            "harmonics or a larger threshold velocity make it smoother"
+            f"the curve has {MOST} gaps up to {PLACE}: more harmonics or a larger "
+            "threshold velocity make it smoother",
+            float(guess[-1]),
         )
 
     def _traced(self, guess: Array, direction: Array | None) -> Iterator[Correction]:
@@ -105,7 +107,7 @@ class Leaping:
             if found.outcome is Outcome.CONVERGED and moved <= leap:
                 return found.point, along
         raise ContinuationError(
-            f"the curve does not go on at parameter {float(last.point[-1]):.9g}, not "
-            "even past it; more harmonics or a larger threshold velocity make it "
-            "smoother"
+            f"the curve does not go on at {PLACE}, not even past it; more harmonics or "
+            "a larger threshold velocity make it smoother",
+            float(last.point[-1]),
         )

@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 from hbm.active import moving, symmetric
 from hbm.adaptive import AdaptiveBalance
 from hbm.condensation import condense
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError, placed
 from hbm.fourier import FourierBasis, derivative
 from hbm.free_motion import free_motion
 from hbm.leaps import Leaping
@@ -149,7 +149,7 @@ def nonlinear_mode(
         tolerance=None if options.harmonics else options.error,
         most=MOST,
     )
-    with threadpool_limits(1, "blas"):
+    with threadpool_limits(1, "blas"), placed(_metres):
         for correction in Leaping(
             system,
             resolution.start(math.log(options.smallest), system.size),
@@ -168,6 +168,11 @@ def nonlinear_mode(
             f"the mode turns back to {options.smallest:g} m before it reaches "
             f"{options.largest:g} m: more harmonics help, or a smaller range"
         )
+
+
+def _metres(parameter: float) -> str:
+    """Return the name of a place along the logarithm of the amplitude."""
+    return f"{math.exp(parameter):.9g} m"
 
 
 def _resolution(

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
-from hbm.continuation import ContinuationError, correct_at, trace
+from hbm.continuation import correct_at, trace
 from hbm.corner import round_corner
 from hbm.effort import Effort
+from hbm.errors import ContinuationError
 from hbm.homotopy import approaches
 from hbm.newton import Correction
 from hbm.path import Path

@@ -13,6 +13,7 @@ from hbm.branches import Branching
 from hbm.continuation import correct_at
 from hbm.curve import response
 from hbm.detached import Search, Sought
+from hbm.errors import hertz, placed
 from hbm.fold_curve import FoldCurve, FoldPoint
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
@@ -55,7 +56,7 @@ def frequency_response(
         small, still, options.start, options.end, pruned=options.pruned
     )
     tracer = Tracer(small, path, options)
-    with threadpool_limits(1, "blas"):
+    with threadpool_limits(1, "blas"), placed(hertz):
         for made in tracer.responses():
             yield replace(made, shapes=shapes)
 
@@ -84,7 +85,7 @@ def branches(
     """
     small, still, shapes = _small(problem, rest, options.highest or _most(options))
     path = along_frequency(small, still, options.start, options.end, symmetry=False)
-    with threadpool_limits(1, "blas"):
+    with threadpool_limits(1, "blas"), placed(hertz):
         for made in Branching(small, path, options).curves(known):
             yield replace(made, shapes=shapes)
 
@@ -126,7 +127,7 @@ def detached(
     path = along_frequency(small, still, options.start, options.end)
     shares = (np.arange(frequencies) + 0.5) / frequencies
     places = options.start + shares * (options.end - options.start)
-    with threadpool_limits(1, "blas"):
+    with threadpool_limits(1, "blas"), placed(hertz):
         search = Search(small, path, options, effort)
         for made in search.curves(known, places.tolist()):
             if isinstance(made, Sought):
@@ -216,7 +217,7 @@ def periodic_response(
     balance = path.balance(FourierBasis(harmonics, samples))
     rows = path.problem.map_from(problem.interface.displacement)
     start = balance.point(guess.seen(rows), guess.frequency)
-    with threadpool_limits(1, "blas"):
+    with threadpool_limits(1, "blas"), placed(hertz):
         correction = correct_at(balance, start, control)
     return replace(response(small, balance, correction), shapes=shapes)
 
@@ -248,7 +249,7 @@ def settled_response(
     first = guess.seen(rows)[:3].ravel()
     start = np.zeros(tracer.system.size)
     start[: first.size], start[-1] = first, frequency
-    with threadpool_limits(1, "blas"):
+    with threadpool_limits(1, "blas"), placed(hertz):
         found = correct_at(tracer.system, start, tracer.control, tracer.system)
         made = next(tracer.curve.followed([found], tracer.pieces.metric))
     return replace(made, shapes=shapes)

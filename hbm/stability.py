@@ -8,6 +8,7 @@ relative motion and modes of the structure with stuck contacts (Craig and Bampto
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -52,7 +53,7 @@ class Structure(NamedTuple):
     """of the modes' frequencies [rad²/s²], shape (modes,)"""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SmallMotions:
     """The structure for small motions: y first, then modal coordinates."""
 
@@ -132,25 +133,35 @@ class SmallMotions:
         coupling = self.mass[rank:, :rank]
         outer = np.where((coupling**2 * inner).sum(axis=1) < 0.0, -1.0, 1.0)
         both = np.append(inner, outer)
+        mixed = self._coupling[np.outer(both, both) < 0.0]
+        return both if mixed.max(initial=0.0) <= 1e-8 else None
+
+    @cached_property
+    def _coupling(self) -> Array:
+        """How strongly coordinates are coupled, over their own inertia and the like."""
+        found = np.zeros(self.mass.shape)
         for matrix in (self.mass, self.damping, self.stiffness):
             size = np.sqrt(np.abs(np.outer(matrix.diagonal(), matrix.diagonal())))
-            odd = np.abs(matrix) * (np.outer(both, both) < 0.0)
-            if np.any(odd > 1e-8 * size + 1e-300):
-                return None
-        return both
+            size = np.maximum(size, 1e-200)
+            found = np.maximum(found, np.abs(matrix) / size)
+        return found
 
     def _families(self, elastic: Array, viscous: Array) -> list[NDArray[np.int64]]:
         """Return the coordinates that are coupled with each other."""
         rank = self.basis.shape[1]
-        coupled = np.zeros(self.mass.shape, dtype=bool)
-        for matrix in (self.mass, self.damping, self.stiffness):
-            size = np.sqrt(np.abs(np.outer(matrix.diagonal(), matrix.diagonal())))
-            coupled |= np.abs(matrix) > 1e-9 * size + 1e-300
+        coupled = self._coupling > 1e-9
         for tangents in (elastic, viscous):
             size = np.abs(tangents).max(axis=0, initial=0.0)
             coupled[:rank, :rank] |= size > 1e-10 * size.max(initial=0.0)
-        _, family = connected_components(coupled)
-        return [np.flatnonzero(family == each) for each in np.unique(family)]
+        return _components(coupled.tobytes(), len(coupled))
+
+
+@lru_cache(maxsize=64)
+def _components(links: bytes, count: int) -> list[NDArray[np.int64]]:
+    """Return the places that hang together, ``links`` being a matrix of booleans."""
+    linked = np.frombuffer(links, dtype=bool).reshape(count, count)
+    _, family = connected_components(linked)
+    return [np.flatnonzero(family == each) for each in np.unique(family)]
 
 
 def small_motions(problem: Problem) -> SmallMotions:

@@ -32,7 +32,7 @@ import numpy as np
 
 from benchmarks.pyharm_cases import Case, Evaluation, blisk, chain, contacts, duffing
 from benchmarks.pyharm_side import median
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.relative import relative_problem

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from hbm.continuation import ContinuationError, trace
+from hbm.continuation import trace
 from hbm.corner import round_corner
+from hbm.errors import ContinuationError
 from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hbm.continuation import ContinuationError
 from hbm.effort import UNIT, Effort
+from hbm.errors import ContinuationError
 from hbm.linearisation import Linearisation
 from hbm.newton import Linearised
 from hbm.options import CurveOptions

@@ -8,7 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from hbm.continuation import ContinuationError, trace
+from hbm.continuation import trace
+from hbm.errors import ContinuationError
 from hbm.events import Segment, folds
 from hbm.fold_balance import FoldBalance
 from hbm.fold_curve import FoldPoint, meeting

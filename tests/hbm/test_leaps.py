@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from hbm.continuation import ContinuationError, trace
+from hbm.continuation import trace
+from hbm.errors import ContinuationError
 from hbm.leaps import Leaping
 from hbm.newton import System
 from hbm.settler import UNSETTLED

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import hbm.pieces
-from hbm.continuation import ContinuationError
 from hbm.effort import Effort
+from hbm.errors import ContinuationError
 from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.pieces import Pieces

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contact_tables import contact_points
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis, to_complex
 from hbm.options import CurveOptions
 from hbm.relative import relative_problem

@@ -15,7 +15,7 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from hbm.solve import frequency_response
 from microslip.result_file import load
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hbm.continuation import ContinuationError
 from hbm.cyclic import cyclic_response
+from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import branches, frequency_response
 from microslip.experiments import Curve

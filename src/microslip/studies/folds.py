@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from hbm.fold_curve import FoldPoint
 from hbm.options import CurveOptions
 from hbm.solve import fold_curve

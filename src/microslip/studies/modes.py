@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from hbm.linear_modes import LinearMode
 from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
 from microslip.progress import Watch

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.continuation import ContinuationError
 from hbm.equivalent import (
     amplitudes,
     equivalent_contact,
@@ -17,6 +16,7 @@ from hbm.equivalent import (
     one_harmonic_response,
     stuck_structure,
 )
+from hbm.errors import ContinuationError
 from hbm.poles import NONE, followed, poles
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of

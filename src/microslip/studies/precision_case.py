@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.quantity import SceneError

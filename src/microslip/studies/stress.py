@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import islice
 
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.bounded import Ended, bounded

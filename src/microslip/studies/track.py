@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hbm.continuation import ContinuationError
+from hbm.errors import ContinuationError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.curve import trace_curve

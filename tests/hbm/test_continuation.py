@@ -187,7 +187,7 @@ def test_a_curve_without_a_first_point_says_why() -> None:
         return np.array([x**2 + 1.0]), Dense([[2.0 * x, 0.0 * parameter]])
 
     text = (
-        r"^the curve does not go on at parameter 3: "
+        r"^no response is found at parameter 3: "
         r"no step along Newton's direction lowers the residual "
         r"\(residual 1\.0e\+00 after 0 iterations, tolerance 1\.0e-10\); "
         r"more harmonics, more samples or a larger threshold velocity "

@@ -23,8 +23,10 @@ FAR = 1e-3
 """arc length of the way to the corner, by which its direction is known"""
 STEPS = (1e-3, 1e-4, 1e-2, 1e-5)
 """arc lengths along the other side, tried in turn"""
+ITERATIONS = 8
+"""of Newton's for such a step, which is nearly straight"""
 STRAIGHT = 0.9999
-"""cosine of the angle to the way back, from which on it is the way back"""
+"""cosine of the angle between two ways, from which on they are one"""
 Metric: TypeAlias = Callable[[Array], Array]
 
 
@@ -54,14 +56,16 @@ def round_corner(
     if back is None or not last.along.any():
         return None
     along = last.along / float(np.linalg.norm(last.along / scale))
+    tried: list[Array] = []
     for beyond in BEYOND:
         try:
             _, linearised = system(last.point + beyond * along)
             onwards = -tangent(linearised, along, scale)
         except SingularError:
             continue
-        if _along(onwards, back, scale):
+        if any(_along(onwards, each, scale) for each in (back, *tried)):
             continue
+        tried.append(onwards / scale)
         found = _stepped(system, last.point, onwards, scale, tolerance)
         if found is not None and not _along(found - last.point, back, scale):
             return found, onwards
@@ -79,10 +83,10 @@ def _back(way: Sequence[Correction], scale: Array) -> Array | None:
     return None
 
 
-def _along(step: Array, back: Array, scale: Array) -> bool:
-    """Return whether a step takes the way back."""
+def _along(step: Array, way: Array, scale: Array) -> bool:
+    """Return whether a step takes a way, a unit vector in the metric."""
     taken = step / scale
-    return float(taken @ back) > STRAIGHT * float(np.linalg.norm(taken))
+    return float(taken @ way) > STRAIGHT * float(np.linalg.norm(taken))
 
 
 def _stepped(
@@ -93,7 +97,9 @@ def _stepped(
     normal /= np.abs(normal).max()
     for step in STEPS:
         predicted = start + step * direction
-        found = correct(system, predicted, normal, tolerance=tolerance)
+        found = correct(
+            system, predicted, normal, tolerance=tolerance, max_iterations=ITERATIONS
+        )
         moved = float(np.linalg.norm((found.point - predicted) / scale))
         if found.outcome is Outcome.CONVERGED and moved <= 0.2 * step:
             return found.point

@@ -38,8 +38,10 @@ def approaches(
     what is found may exist at its resolution alone, or be the same again. ``effort``
     counts what it takes; ``metric`` measures steps of Newton's iteration.
     """
+    problem, _ = path.at(parameter)
+    rubs = bool(problem.points.dynamic.any() or problem.points.static.any())
     for fourier in FOURIERS:
-        for easier in HOMOTOPIES:
+        for easier in HOMOTOPIES if rubs else (_drive,):
             try:
                 yield _followed(
                     path, parameter, easier, fourier, control, effort, metric

@@ -22,13 +22,13 @@ sys.path.append(str(Path(__file__).parents[1]))
 
 import numpy as np
 
+import hbm.fourier
 from hbm.active import extended, moving, symmetric
 from hbm.fourier import FourierBasis, Transform
 from hbm.options import CurveOptions
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import HarmonicBalance
 from hbm.solve import frequency_response
-from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import ContactPoints
 from microslip_mechanics.problem import Problem
@@ -253,39 +253,36 @@ EXTENSIVE = ("stiffness", "damping", "load", "viscous")
 
 
 def transforms() -> None:
-    """Compare FFTW with products by a matrix, there and back."""
+    """Compare FFTW with products by a matrix, there and back, and what is chosen."""
     print("\ntransforms of 6 signals, there and back [µs]; samples 16 (H + 1), and 8")
-    print("   harmonics     samples        FFTW      matrix  matrix/FFTW")
+    print("   harmonics     samples        FFTW      matrix  matrix/FFTW  chosen")
+    chosen = hbm.fourier.PRODUCT
     for harmonics in (1, 3, 7, 15, 31, 63):
         for share in (8, 16):
             samples = share * (harmonics + 1)
-            fast, plain = transformed(6, harmonics, samples)
+            fast = transformed(6, harmonics, samples, 0)
+            plain = transformed(6, harmonics, samples, sys.maxsize)
+            small = (2 * harmonics + 1) * samples <= chosen
             print(
                 f"{harmonics:12d}{samples:12d}{1e6 * fast:12.1f}{1e6 * plain:12.1f}"
-                f"{plain / fast:13.2f}"
+                f"{plain / fast:13.2f}  {'matrix' if small else 'FFTW'}"
             )
+    hbm.fourier.PRODUCT = chosen
 
 
-def transformed(signals: int, harmonics: int, samples: int) -> tuple[float, float]:
-    """Return the seconds of FFTW and of two products, after comparing their results."""
-    angle = HERTZ * np.arange(samples) / samples
-    there: Array = np.ones((samples, 2 * harmonics + 1))
-    for order in range(1, harmonics + 1):
-        there[:, 2 * order - 1] = np.cos(order * angle)
-        there[:, 2 * order] = np.sin(order * angle)
-    back = 2.0 / samples * there.T.copy()
-    back[0] /= 2.0
+def transformed(signals: int, harmonics: int, samples: int, product: int) -> float:
+    """Return the seconds there and back with a limit on the size of matrices."""
+    hbm.fourier.PRODUCT = product
     coefficients = np.random.default_rng(0).normal(size=(2 * harmonics + 1, signals))
     transform = Transform(signals, samples)
-    time_major = there @ coefficients
-    np.testing.assert_allclose(transform.synthesis(coefficients), time_major.T)
-    np.testing.assert_allclose(back @ time_major, coefficients)
+    transform.synthesis(coefficients)
+    np.testing.assert_allclose(transform.analysis(harmonics), coefficients)
 
-    def by_fftw() -> None:
+    def there_and_back() -> None:
         transform.synthesis(coefficients)
         transform.analysis(harmonics)
 
-    return seconds(by_fftw, 50), seconds(lambda: back @ (there @ coefficients), 50)
+    return seconds(there_and_back, 50)
 
 
 def seconds(run: Callable[[], object], least: int = 7) -> float:

@@ -11,6 +11,12 @@ ROUNDING = 1e-14
 """of sums over some ten coefficients of order one; measured 1e-15"""
 
 
+@pytest.fixture(autouse=True, params=[0, 2**14], ids=["FFTW", "matrix"])
+def limit(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have transforms of all sizes here made in one way, and in the other."""
+    monkeypatch.setattr("hbm.fourier.PRODUCT", request.param)
+
+
 def random_coefficients() -> Array:
     shape = (2 * HARMONICS + 1, SIGNALS)
     return np.random.default_rng(7).standard_normal(shape)

@@ -100,7 +100,7 @@ def _step(
     length, error = control.longest / 2.0**level, np.inf
     if taken > 0 and (control.tolerance > 0.0 or not stiff):
         error = step_error(control, modes, table, motion, trial, level, safe)
-    if error > 1.0:
+    if not error <= 1.0:  # nor where it is not a number
         return _reject(control, motion, level, error <= SHARE and not stiff)
     accept(modes, contacts, table, motion, trial, level, length)
     counts[TICK] += TICKS >> level

@@ -30,6 +30,8 @@ SPARE = 6.0
 SHARPER = 4.0
 """times that a threshold velocity falls where friction is to be resolved better"""
 
+MARKED = 63
+"""harmonics from which an event is no more accurate than any other point"""
 WAIT = 10
 """points before less is tried again, where more was needed"""
 PERSEVERANCE = 30
@@ -186,6 +188,8 @@ class AdaptiveBalance:
 
     def _finer(self, estimate: Estimate, share: float) -> FourierBasis:
         """Return the resolution that the error asks for."""
+        if self.fourier.harmonics >= MARKED:
+            share = 1.0
         if self._tolerance is None or estimate.error <= share * self._tolerance:
             return self.fourier
         enough = share * self._tolerance / (3.0 if self._smoothest else 2.0)

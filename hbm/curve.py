@@ -40,8 +40,8 @@ DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
 LOCATING = FourierBasis(31, 512)
 """most that is taken between two points to locate a change of stability"""
-STRICT = 0.1
-"""share of the error of a point that an event may have: it is to mark a frequency"""
+STRICT, SHARP = 0.1, ("fold", "peak")
+"""share of the error of a point that these events may have: they mark a frequency"""
 LEAP = 0.1
 """of the change of a multiplier between two points: what is left of its excess where it
 is located, from which on it leaps"""
@@ -102,7 +102,8 @@ class Curve:
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
             small = segment.small(PRECISION * SURE)
-            settled = self.system.settle(located, normal, tolerance, small, STRICT)
+            share = STRICT if name in SHARP else 1.0
+            settled = self.system.settle(located, normal, tolerance, small, share)
             moved = float(np.linalg.norm((settled.point - located.point) / scale))
             if settled.outcome is Outcome.CONVERGED and moved < segment.length:
                 yield self._made(settled, name).response

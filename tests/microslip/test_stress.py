@@ -152,6 +152,16 @@ def test_a_comparison_is_judged(
     assert bool(cause) is (outcome is not Outcome.AGREES)
 
 
+def test_a_witness_that_errs_by_more_than_one_per_cent_does_not_decide() -> None:
+    sure = comparison(0.05, 1e-3, 0.9)
+
+    found, cause = judged(replace(sure, found_error=0.02))
+
+    assert judged(sure)[0] is Outcome.DISAGREES
+    assert found is Outcome.HONEST
+    assert cause.endswith("shooting is no better than 2.0e-02")
+
+
 @pytest.mark.parametrize(
     ("apart", "multiplier", "outcome"),
     [

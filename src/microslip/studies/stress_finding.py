@@ -75,6 +75,9 @@ def judged(comparison: Comparison) -> tuple[Outcome, str]:
     if comparison.difference > AGREED:
         if comparison.agrees:
             return Outcome.HONEST, f"{apart}, as the estimates admit"
+        if comparison.found_error > AGREED:
+            doubt = f"shooting is no better than {comparison.found_error:.1e}"
+            return Outcome.HONEST, f"{apart}; {doubt}"
         return Outcome.DISAGREES, f"{apart}; {comparison.admitted:.1e} is estimated"
     if not comparison.agrees:
         return Outcome.WITHIN, f"{apart}; {comparison.admitted:.1e} is estimated"

@@ -32,7 +32,7 @@ from timedomain.whole_orbit import whole_orbit
 
 TOLERANCE = "curve.tolerance=5e-3"
 """half of what is asked, unless the curve is told otherwise"""
-TRACING = 0.55
+TRACING = 0.6
 """share of a case's time after which its curve is left"""
 
 

@@ -38,7 +38,7 @@ from microslip_mechanics.response import PeriodicResponse
 TURN = 2.0 * np.pi
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
-LOCATING = FourierBasis(31, 512)
+LOCATING = FourierBasis(31, 256)
 """most that is taken between two points to locate a change of stability"""
 STRICT, SHARP = 0.1, ("fold", "peak")
 """share of the error of a point that these events may have: they mark a frequency"""
@@ -113,10 +113,8 @@ class Curve:
         """Return what is to be located between two responses."""
         tests = [Test("fold", folds), Test("peak", self._slope, falling=True)]
         before, after = last.response.multipliers, made.response.multipliers
-        finer = max(last.finer, made.finer, key=lambda each: each.harmonics)
-        most = replace(LOCATING, threshold=finer.threshold)
-        finer = min(finer, most, key=lambda each: each.harmonics)
-        rough = ROUGHER if self._rises(finer) else ROUGH
+        finer = self._asked(last, made)
+        rough = ROUGH if finer is None else ROUGHER
         for which, kind in crossings(before, after):
             ends = excess(before, which), excess(after, which)
             tests.append(Test(kind, partial(self._growth, which, finer), ends, rough))
@@ -131,9 +129,13 @@ class Curve:
         recalls = bool(remembers(self.problem.interface.points).any())
         return recalls and abs(left) > LEAP * abs(ends[1] - ends[0])
 
-    def _rises(self, finer: FourierBasis) -> bool:
-        """Return whether multipliers ask for more harmonics than a point has."""
-        return finer.harmonics > 2 * self.system.fourier.harmonics + 1
+    def _asked(self, last: Made, made: Made) -> FourierBasis | None:
+        """Return the resolution that multipliers between two points ask for, if any."""
+        finer = max(last.finer, made.finer, key=lambda each: each.harmonics)
+        if finer.harmonics <= 2 * self.system.fourier.harmonics + 1:
+            return None
+        most = replace(LOCATING, threshold=finer.threshold)
+        return min(finer, most, key=lambda each: each.harmonics)
 
     def _slope(self, correction: Correction) -> float:
         """Return the change of the largest amplitude along the curve."""
@@ -150,13 +152,15 @@ class Curve:
         place = int(sizes[0].argmax())
         return float(sizes[1][place] - sizes[0][place]) / small
 
-    def _growth(self, which: int, finer: FourierBasis, correction: Correction) -> float:
+    def _growth(
+        self, which: int, finer: FourierBasis | None, correction: Correction
+    ) -> float:
         """Return by how much a multiplier exceeds one, by its place in their order.
 
         What has asked for ``finer`` orbits at an end does so between the ends.
         """
         point, fourier = correction.point, self.system.fourier
-        if self._rises(finer):
+        if finer is not None:
             found = self.multipliers.finer(point, finer)
             point, fourier = (point, fourier) if found is None else (found, finer)
         return excess(self.multipliers.at(point, fourier), which)

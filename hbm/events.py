@@ -21,7 +21,8 @@ from microslip_mechanics.response import MARGIN
 
 PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
 """of a located place, over the length of the step in which it is; the second where a
-test function is less accurate than that, the third where it is costly too"""
+test function is less accurate than that, the third where it is costly too, and leaps:
+bisection takes fewer of its values then"""
 NEAREST = 3
 """points through which a guess between them is interpolated"""
 SURE = 0.1
@@ -78,7 +79,9 @@ class Segment:
         near = precision * length
         solved: dict[float, Correction] = {}
         try:
-            root = scipy.optimize.brentq(value, 0.0, length, xtol=near, rtol=1e-12)
+            rough = precision >= ROUGHER
+            seek = scipy.optimize.bisect if rough else scipy.optimize.brentq
+            root = seek(value, 0.0, length, xtol=near, rtol=1e-12)
             return solved.get(root) or self._at(self._guess(root, solved), near)
         except (_LostError, SingularError):
             return None

@@ -31,7 +31,10 @@ QUICK = {
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with what takes longest, so that no worker is left alone with it."""
+    """Begin with what takes longest, so that no worker is left alone with it.
+
+    The first two need different machine code, each making what the other uses later.
+    """
     items.sort(key=_seconds, reverse=True)
 
 

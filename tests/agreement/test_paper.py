@@ -15,7 +15,8 @@ from rigs import rig_problem
 from small_problems import marched
 from timedomain.integrate import MarchOptions
 
-pytestmark = pytest.mark.slow
+# with the first curve's machine code being made, this makes that of the marches
+pytestmark = pytest.mark.slow(seconds=60)
 
 SWEEP = SweptSine(1.0, 2.0, 8.0, 10.0, 125.0, 145.0)
 RIGS: dict[str, dict[str, object]] = {

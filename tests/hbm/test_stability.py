@@ -95,6 +95,19 @@ def test_rattling_contacts_get_the_multipliers_of_more_harmonics() -> None:
     assert abs(point.multipliers[0]) == pytest.approx(abs(other.values[0]), abs=0.05)
 
 
+def test_stability_of_rattling_contacts_changes_where_a_multiplier_crosses() -> None:
+    points = curve(rig_problem(model="full"), 125.0, 145.0)
+
+    changes = [each for each in points if each.event == "Neimark-Sacker"]
+
+    assert changes
+    for each in changes:
+        away = np.abs(np.abs(each.multipliers) - 1.0)
+        # besides the one of the element on its rope, which hardly decays; a hundredth
+        # of a step is what they are located to, and they change by up to 0.6 in a step
+        assert away[away > 1e-4].min() < 6e-3
+
+
 @pytest.mark.parametrize("model", ["A", "full"])
 def test_half_a_period_and_its_mirror_image_are_a_period(model: str) -> None:
     problem = rig_problem(model=model, friction__law="gkf")

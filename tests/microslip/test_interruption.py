@@ -9,6 +9,7 @@ import subprocess
 import sys
 import termios
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import TypeAlias
 
@@ -204,11 +205,16 @@ def test_interrupt_from_the_keyboard_keeps_what_was_computed(
         cwd=tmp_path,
         stdout=subprocess.PIPE,
         stderr=terminal,
+        # what runs in the background of a shell has been told to ignore it
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
     ) as process:
         os.close(terminal)
         wait_for_progress(screen)
         process.send_signal(signal.SIGINT)
-        output, _ = process.communicate(timeout=60)
+        try:
+            output, _ = process.communicate(timeout=60)
+        finally:
+            process.kill()
     os.close(screen)
 
     assert process.returncode == 130

@@ -30,7 +30,7 @@ SPARE = 6.0
 SHARPER = 4.0
 """times that a threshold velocity falls where friction is to be resolved better"""
 
-MARKED = 63
+MARKED = 127
 """harmonics from which an event is no more accurate than any other point"""
 WAIT = 10
 """points before less is tried again, where more was needed"""

@@ -123,8 +123,9 @@ class AdaptiveBalance:
 
         The refined point lies in the plane through it, normal to ``normal``;
         ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`, ``share``
-        that of the error that is allowed. With less than the whole, a point of unknown
-        error stays as it is. What is returned may have failed.
+        that of the error that is allowed with fewer than :data:`MARKED` harmonics. With
+        less than the whole, a point of unknown error stays as it is. What is returned
+        may have failed.
         """
         while True:
             self.settled = self.fourier

@@ -183,5 +183,5 @@ def test_a_fold_runs_around_the_birth_of_a_closed_curve() -> None:
     assert found[1] == "isola"
     np.testing.assert_allclose(found[0].point, 0.0, atol=1e-5)
     # to the tolerance of the residual: y² + ω² − λ, and 2 y times the vibration |y|
-    np.testing.assert_allclose(points[-1].point, [0.0, -1.0, 1.0], atol=1e-5)
+    assert abs(points[-1].point[0]) < 1e-5
     np.testing.assert_allclose(points[-1].point[1:], [-1.0, 1.0], atol=1e-9)

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases: what the matrix covers, how each is judged and ends."""
+"""Stiff and extreme cases: what the matrix covers, and how each ends."""
 
 import csv
 import math
@@ -6,30 +6,25 @@ import os
 import signal
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
-import numpy as np
 import pytest
 
 from hbm.errors import ContinuationError
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.studies import stress, stress_witness
+from microslip.studies import stress
 from microslip.studies.bounded import Ended, bounded
-from microslip.studies.curve import Traced, trace_curve
+from microslip.studies.curve import trace_curve
 from microslip.studies.stress import tried
 from microslip.studies.stress_bad_values import BAD, bad_values
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_cases import cases
 from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
-from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
+from microslip.studies.stress_finding import Finding, Outcome, Tried
 from microslip_mechanics.response import PeriodicResponse
-from timedomain.closed_march import ShootingError
-from timedomain.comparison import Comparison
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 ENDS = {
@@ -111,114 +106,6 @@ def test_where_no_curve_begins_a_march_from_rest_says_whether_it_settles(
     assert found.outcome is Outcome.HONEST
     assert "harmonic balance: the curve does not go on; a march" in found.cause
     assert f" is {told} " in found.cause
-
-
-def comparison(difference: float, estimated: float, multiplier: float) -> Comparison:
-    """Return one with amplitudes that differ, as harmonic balance estimates or not."""
-    nothing = np.zeros(0)
-    response = PeriodicResponse(
-        1.0, np.zeros((3, 1)), nothing, nothing, 0.0, 0.0, 0.0, "converged", 1
-    )
-    return Comparison(
-        response,
-        np.array([1.0 - difference]),
-        np.array([1.0]),
-        estimated / 3.0,
-        0.0,
-        np.zeros(2),
-        0.9,
-        multiplier,
-        0.0,
-        1024,
-    )
-
-
-@pytest.mark.parametrize(
-    ("difference", "estimated", "multiplier", "outcome"),
-    [
-        (1e-4, 1e-3, 0.9, Outcome.AGREES),
-        (5e-3, 1e-3, 0.9, Outcome.WITHIN),
-        (1e-4, 1e-3, 1.5, Outcome.WITHIN),
-        (0.05, 0.1, 0.9, Outcome.HONEST),
-        (0.05, 1e-3, 0.9, Outcome.DISAGREES),
-    ],
-)
-def test_a_comparison_is_judged(
-    difference: float, estimated: float, multiplier: float, outcome: Outcome
-) -> None:
-    found, cause = judged(comparison(difference, estimated, multiplier))
-
-    assert found is outcome
-    assert bool(cause) is (outcome is not Outcome.AGREES)
-
-
-def test_a_witness_that_errs_by_more_than_one_per_cent_does_not_decide() -> None:
-    sure = comparison(0.05, 1e-3, 0.9)
-
-    found, cause = judged(replace(sure, found_error=0.02))
-
-    assert judged(sure)[0] is Outcome.DISAGREES
-    assert found is Outcome.HONEST
-    assert cause.endswith("shooting is no better than 2.0e-02")
-
-
-@pytest.mark.parametrize(
-    ("apart", "multiplier", "outcome"),
-    [
-        (0.005, 0.9, Outcome.WITHIN),
-        (0.05, 0.9, Outcome.HONEST),
-        (0.5, 0.9, Outcome.DISAGREES),
-        (0.5, 1.5, Outcome.HONEST),
-    ],
-)
-def test_a_march_judges_where_shooting_finds_nothing(
-    apart: float, multiplier: float, outcome: Outcome, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def nothing(*_: object) -> Comparison:
-        raise ShootingError("no orbit")
-
-    def left(*_: object) -> SimpleNamespace:
-        marched = np.array([1.0 + apart])
-        return SimpleNamespace(
-            predicted=np.ones(1), marched=marched, last_distance=apart
-        )
-
-    for name, stand_in in (
-        ("compared", nothing),
-        ("march_periods", lambda *_, **__: []),
-        ("agreement", left),
-        ("condition", lambda *_: 1.0),
-    ):
-        monkeypatch.setattr(stress_witness, name, stand_in)
-    made = comparison(0.0, 1e-3, 0.9).response
-    response = replace(made, error=1e-3, multipliers=np.array([multiplier + 0.0j]))
-    curve: Any = SimpleNamespace(
-        amplitude=np.ones((1, 1)),
-        event=[""],
-        ending="complete",
-        frequency=np.ones(1),
-        harmonics=np.ones(1),
-        iterations=np.ones(1),
-    )
-    nobody: Any = None
-    traced = Traced(curve, (response,), nobody)
-
-    *_, found = stress_witness.witnessed(nobody, traced, 60.0)
-
-    assert found.outcome is outcome
-    assert "no orbit by shooting" in found.cause
-
-
-def test_the_rate_leaves_out_what_is_refused() -> None:
-    solved, refused = Case("mu", "1", ()), Case("nan", "rope", (), refusals=(("a",),))
-    found = [
-        Tried(solved, Finding(Outcome.AGREES), 1.0),
-        Tried(solved, Finding(Outcome.WITHIN), 1.0),
-        Tried(solved, Finding(Outcome.HONEST), 1.0),
-        Tried(refused, Finding(Outcome.REFUSED), 1.0),
-    ]
-
-    assert rate(found) == (2, 3)
 
 
 def ready() -> None:

@@ -9,7 +9,7 @@ from enum import Enum
 
 from microslip.studies.stress_case import Case
 from microslip_mechanics.errors import MicroslipError
-from timedomain.comparison import Comparison
+from timedomain.comparison import COVERAGE, Comparison
 
 AGREED = 0.01
 """relative difference of amplitudes up to which the solvers agree"""
@@ -75,7 +75,8 @@ def judged(comparison: Comparison) -> tuple[Outcome, str]:
     if comparison.difference > AGREED:
         if comparison.agrees:
             return Outcome.HONEST, f"{apart}, as the estimates admit"
-        if comparison.found_error > AGREED:
+        both = comparison.admitted + (COVERAGE - 1.0) * comparison.found_error
+        if comparison.found_error > AGREED and comparison.difference <= both:
             doubt = f"shooting is no better than {comparison.found_error:.1e}"
             return Outcome.HONEST, f"{apart}; {doubt}"
         return Outcome.DISAGREES, f"{apart}; {comparison.admitted:.1e} is estimated"

@@ -1,0 +1,130 @@
+"""How both solvers' answers to a case under stress are judged."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from microslip.studies import stress_witness
+from microslip.studies.curve import Traced
+from microslip.studies.stress_case import Case
+from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
+from microslip_mechanics.response import PeriodicResponse
+from timedomain.closed_march import ShootingError
+from timedomain.comparison import Comparison
+
+
+def comparison(difference: float, estimated: float, multiplier: float) -> Comparison:
+    """Return one with amplitudes that differ, as harmonic balance estimates or not."""
+    nothing = np.zeros(0)
+    response = PeriodicResponse(
+        1.0, np.zeros((3, 1)), nothing, nothing, 0.0, 0.0, 0.0, "converged", 1
+    )
+    return Comparison(
+        response,
+        np.array([1.0 - difference]),
+        np.array([1.0]),
+        estimated / 3.0,
+        0.0,
+        np.zeros(2),
+        0.9,
+        multiplier,
+        0.0,
+        1024,
+    )
+
+
+@pytest.mark.parametrize(
+    ("difference", "estimated", "multiplier", "outcome"),
+    [
+        (1e-4, 1e-3, 0.9, Outcome.AGREES),
+        (5e-3, 1e-3, 0.9, Outcome.WITHIN),
+        (1e-4, 1e-3, 1.5, Outcome.WITHIN),
+        (0.05, 0.1, 0.9, Outcome.HONEST),
+        (0.05, 1e-3, 0.9, Outcome.DISAGREES),
+    ],
+)
+def test_a_comparison_is_judged(
+    difference: float, estimated: float, multiplier: float, outcome: Outcome
+) -> None:
+    found, cause = judged(comparison(difference, estimated, multiplier))
+
+    assert found is outcome
+    assert bool(cause) is (outcome is not Outcome.AGREES)
+
+
+@pytest.mark.parametrize(
+    ("difference", "outcome"), [(0.05, Outcome.HONEST), (0.2, Outcome.DISAGREES)]
+)
+def test_a_witness_that_errs_by_more_than_one_per_cent_does_not_decide_little(
+    difference: float, outcome: Outcome
+) -> None:
+    sure = comparison(difference, 1e-3, 0.9)
+
+    found, cause = judged(replace(sure, found_error=0.02))
+
+    assert judged(sure)[0] is Outcome.DISAGREES
+    assert found is outcome
+    doubt = "shooting is no better than 2.0e-02"
+    assert cause.endswith(doubt) is (outcome is Outcome.HONEST)
+
+
+@pytest.mark.parametrize(
+    ("apart", "multiplier", "outcome"),
+    [
+        (0.005, 0.9, Outcome.WITHIN),
+        (0.05, 0.9, Outcome.HONEST),
+        (0.5, 0.9, Outcome.DISAGREES),
+        (0.5, 1.5, Outcome.HONEST),
+    ],
+)
+def test_a_march_judges_where_shooting_finds_nothing(
+    apart: float, multiplier: float, outcome: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def nothing(*_: object) -> Comparison:
+        raise ShootingError("no orbit")
+
+    def left(*_: object) -> SimpleNamespace:
+        marched = np.array([1.0 + apart])
+        return SimpleNamespace(
+            predicted=np.ones(1), marched=marched, last_distance=apart
+        )
+
+    for name, stand_in in (
+        ("compared", nothing),
+        ("march_periods", lambda *_, **__: []),
+        ("agreement", left),
+        ("condition", lambda *_: 1.0),
+    ):
+        monkeypatch.setattr(stress_witness, name, stand_in)
+    made = comparison(0.0, 1e-3, 0.9).response
+    response = replace(made, error=1e-3, multipliers=np.array([multiplier + 0.0j]))
+    curve: Any = SimpleNamespace(
+        amplitude=np.ones((1, 1)),
+        event=[""],
+        ending="complete",
+        frequency=np.ones(1),
+        harmonics=np.ones(1),
+        iterations=np.ones(1),
+    )
+    nobody: Any = None
+    traced = Traced(curve, (response,), nobody)
+
+    *_, found = stress_witness.witnessed(nobody, traced, 60.0)
+
+    assert found.outcome is outcome
+    assert "no orbit by shooting" in found.cause
+
+
+def test_the_rate_leaves_out_what_is_refused() -> None:
+    solved, refused = Case("mu", "1", ()), Case("nan", "rope", (), refusals=(("a",),))
+    found = [
+        Tried(solved, Finding(Outcome.AGREES), 1.0),
+        Tried(solved, Finding(Outcome.WITHIN), 1.0),
+        Tried(solved, Finding(Outcome.HONEST), 1.0),
+        Tried(refused, Finding(Outcome.REFUSED), 1.0),
+    ]
+
+    assert rate(found) == (2, 3)

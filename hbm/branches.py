@@ -7,6 +7,7 @@ point a little along it is corrected in the plane across it, and followed from t
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -29,6 +30,8 @@ FEWEST, FINEST = 15, 63
 """harmonics with which a branch is sought"""
 CLOSE = 2e-3
 """relative difference of frequencies at which a branch ends on a branch point"""
+TIP = 4
+"""responses about the end of a branch: before it, its fold and its peak, after it"""
 NOWHERE = (np.inf, -np.inf)
 """an interval of frequencies in which there is nothing"""
 
@@ -81,21 +84,29 @@ class Branching:
         if begun is None:
             return NOWHERE
         back: list[float] = []
-        least = 0.5 * float(np.linalg.norm((begun - point)[away != 0.0]))
+        aside = (begun - point)[away != 0.0]
+        least = 0.5 * float(np.linalg.norm(aside))
 
         def parted() -> Iterator[Correction]:
+            before = aside
             for each in tracer.pieces.from_point(begun, away):
-                if np.linalg.norm((each.point - point)[away != 0.0]) <= least:
-                    back.append(float(each.point[-1]))
+                after = (each.point - point)[away != 0.0]
+                back[:] = [float(each.point[-1])]
+                if np.linalg.norm(after) <= least:
                     return
                 yield each
+                if before @ after < 0.0:  # it has passed the symmetric curve
+                    return
+                before = after
+            back.clear()
 
-        last = replace(response, event="branch")
-        yield last
-        for last in tracer.curve.followed(parted(), tracer.pieces.metric):
-            yield last
-        both = sorted((last.frequency, *back))
-        return (both[0], both[1]) if back else NOWHERE
+        last = deque([replace(response, event="branch")], maxlen=TIP)
+        yield last[0]
+        for each in tracer.curve.followed(parted(), tracer.pieces.metric):
+            last.append(each)
+            yield each
+        ends = [*back, *(each.frequency for each in last)]
+        return (min(ends), max(ends)) if back else NOWHERE
 
     def _direction(self, point: Array, fourier: FourierBasis) -> Array:
         """Return the unit direction that the Jacobian maps nearest to zero.

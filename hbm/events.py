@@ -1,170 +1,227 @@
-"""Points of a curve where something happens: peaks, folds, changes of stability.
+"""What happens between two points of a curve: peaks, folds, changes of stability.
 
-Between two accepted points the curve is parametrised by the distance along the tangent
-at the first; a sign change of a test function is refined by Brent's method, each of its
-evaluations being a corrected point (theory §6).
+Each is located on the curve, and settled as accurately as its points (theory §6).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
-import scipy.optimize
-from scipy.interpolate import BarycentricInterpolator
 
-from hbm.continuation import tangent
-from hbm.newton import Correction, Outcome, SingularError, Small, System, correct
+from hbm.adaptive import AdaptiveBalance
+from hbm.continuation import Metric
+from hbm.fourier import FourierBasis
+from hbm.multipliers import Multipliers
+from hbm.newton import Correction, Outcome
+from hbm.resolution import PathResolution
+from hbm.segment import PRECISION, ROUGH, ROUGHER, SURE, Segment, folds
+from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.response import MARGIN
 
-PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
-"""of a located place, over the length of the step in which it is; the second where a
-test function is less accurate than that, the third where it is costly too, and leaps:
-bisection takes fewer of its values then"""
-NEAREST = 3
-"""points through which a guess between them is interpolated"""
-SURE = 0.1
-"""of that: step of Newton's iteration that is the last one"""
+LOCATING = FourierBasis(31, 256)
+"""most that is taken, if the curve has no more, to locate a change of stability"""
+STRICT, SHARP = 0.1, ("fold", "peak")
+"""share of the error of a point that these events may have: they mark a frequency"""
+LEAP = 0.1
+"""of the change of a multiplier between two points: what is left of its excess where it
+is located, from which on it leaps"""
+UPRIGHT = 5e-3
+"""part of the parameter in a unit tangent below which a multiplier +1 is that of a fold
+beside the segment"""
+REAL = 1e-6
+"""imaginary part of a multiplier, over its modulus, below which it is real"""
+TORUS = "Neimark-Sacker"
+
+
+class Settled(NamedTuple):
+    """A settled point of a curve, with what its multipliers say and ask for."""
+
+    correction: Correction
+    multipliers: ComplexArray
+    finer: FourierBasis
+    """the resolution that they ask for"""
+
+
+class Found(NamedTuple):
+    """Where something happens between two points."""
+
+    place: float
+    """along the segment"""
+    name: str
+    point: Correction
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
-    """Two neighbouring points of a curve."""
+class Events:
+    """Finds them along a path."""
 
-    system: System
-    before: Correction
-    after: Correction
-    scale: Array
-    """metric at the first, shape (n + 1,)"""
-    tolerance: float
-    """of the residual"""
-    loose: float = 0.0
-    """residual with which a point may do whose next step is too small to matter; no
-    point may if it is zero"""
+    system: AdaptiveBalance
+    resolution: PathResolution
+    control: StepControl
+    multipliers: Multipliers
+    recalls: bool
+    """whether a contact has a memory"""
 
-    @property
-    def length(self) -> float:
-        """Distance of the points along the tangent at the first."""
-        return self.place(self.after.point)
+    def between(
+        self, before: Settled, after: Settled, metric: Metric
+    ) -> Iterator[tuple[Correction, str]]:
+        """Yield the events between two neighbouring points, in their order."""
+        fourier = self.system.fourier
+        self.system.fourier = self.system.settled
+        scale, tolerance = metric(before.correction.point), self.control.tolerance
+        loose = self.control.loose if self.control.negligible else 0.0
+        ends = before.correction, after.correction
+        segment = Segment(self.system, *ends, scale, tolerance, loose)
+        found = [*self._turns(segment), *self._changes(segment, before, after)]
+        for _, name, located in _told(found, scale):
+            normal = located.along / metric(located.point) ** 2
+            normal /= np.abs(normal).max()
+            small = segment.small(PRECISION * SURE)
+            share = STRICT if name in SHARP else 1.0
+            settled = self.system.settle(located, normal, tolerance, small, share)
+            moved = float(np.linalg.norm((settled.point - located.point) / scale))
+            if settled.outcome is Outcome.CONVERGED and moved < segment.length:
+                yield settled, name
+        self.system.fourier = fourier
 
-    def locate(
-        self,
-        test: Callable[[Correction], float],
-        ends: tuple[float, float] | None = None,
-        precision: float = PRECISION,
-        falling: bool = False,
-    ) -> Correction | None:
-        """Return the point between the two at which ``test`` is zero.
+    def _turns(self, segment: Segment) -> Iterator[Found]:
+        """Yield where the curve folds and where its amplitude is largest."""
+        fold, peak = segment.locate(folds), segment.locate(self._slope, falling=True)
+        for name, located in (("fold", fold), ("peak", peak)):
+            if located is not None:
+                yield Found(segment.place(located.point), name, located)
 
-        ``ends`` are its values at the two, if they are known better; ``precision`` is
-        over the length of the step; ``falling`` asks for a change from above zero to
-        below. None if it has no change of sign, or if a point between does not
-        converge.
+    def _changes(
+        self, segment: Segment, before: Settled, after: Settled
+    ) -> Iterator[Found]:
+        """Yield where multipliers cross the unit circle, and what that means."""
+        paired = False
+        for which in crossings(before.multipliers, after.multipliers):
+            if paired:  # a conjugate crosses where the one before it does
+                paired = False
+                continue
+            located, multiplier = self._crossing(segment, which, before, after)
+            kind = crossed(multiplier)
+            paired = kind == TORUS
+            if located is not None:
+                yield Found(segment.place(located.point), kind, located)
+
+    def _crossing(
+        self, segment: Segment, which: int, before: Settled, after: Settled
+    ) -> tuple[Correction | None, complex]:
+        """Return where a multiplier crosses the unit circle, if it does, and its value.
+
+        The value is the one next to it that is still outside. A multiplier that leaps
+        over the circle does not cross it: a slider begins to slip there, or sticks for
+        good, and nothing branches.
         """
-        first, last = ends or (test(self.before), test(self.after))
-        length = self.length
-        if not first * last < 0.0 or length <= 0.0 or (falling and first < 0.0):
-            return None
+        finer, precision = self._asked(before, after)
+        ends = before.multipliers[which], after.multipliers[which]
+        outside = max(ends, key=abs)
 
-        def value(place: float) -> float:
-            if place <= 0.0:
-                return first
-            if place >= length:
-                return last
-            solved[place] = self._at(self._guess(place, solved), near)
-            return test(solved[place])
+        def growth(correction: Correction) -> float:
+            nonlocal outside
+            multiplier = self._finest(correction, finer)[which]
+            if excess(multiplier) > 0.0:
+                outside = multiplier
+            return excess(multiplier)
 
-        near = precision * length
-        solved: dict[float, Correction] = {}
-        try:
-            rough = precision >= ROUGHER
-            seek = scipy.optimize.bisect if rough else scipy.optimize.brentq
-            root = seek(value, 0.0, length, xtol=near, rtol=1e-12)
-            return solved.get(root) or self._at(self._guess(root, solved), near)
-        except (_LostError, SingularError):
-            return None
+        first, last = map(excess, ends)
+        located = segment.locate(growth, (first, last), precision)
+        if self.recalls and located is not None:
+            leaps = abs(growth(located)) > LEAP * abs(last - first)
+            located = None if leaps else located
+        return located, outside
 
-    def small(self, share: float) -> Small | None:
-        """Return what Newton's iteration may neglect, by a share of the scale."""
-        if self.loose == 0.0:
-            return None
-        return Small(lambda _: share * self.scale, self.loose)
+    def _asked(
+        self, before: Settled, after: Settled
+    ) -> tuple[FourierBasis | None, float]:
+        """Return the resolution of multipliers between two points, and a precision.
 
-    def place(self, point: Array) -> float:
-        """Return the distance from the first point along its tangent."""
-        along = self.before.along / self.scale
-        return float(along @ ((point - self.before.point) / self.scale))
-
-    def _guess(self, place: float, solved: dict[float, Correction]) -> Array:
-        """Return about where the curve is at a distance, from the points nearest to it.
-
-        As long as there are few, from both ends and the tangent at the first.
+        It is that of the orbits that are reported, or what their multipliers ask for;
+        none if it is that of the curve.
         """
-        length = self.length
-        ends = {0.0: self.before, length: self.after}
-        points = {at: known.point for at, known in (ends | solved).items()}
-        near = sorted(points, key=lambda at: abs(at - place))[:NEAREST]
-        if len(near) == NEAREST:
-            return BarycentricInterpolator(near, [points[at] for at in near])(place)
-        start, direction = self.before.point, self.before.along
-        bend = self.after.point - start - length * direction
-        guess: Array = start + place * direction + (place / length) ** 2 * bend
-        return guess
+        own = self.system.fourier
+        by_harmonics = attrgetter("harmonics")
+        finer = max(before.finer, after.finer, key=by_harmonics)
+        leaps = finer.harmonics > 2 * own.harmonics + 1
+        most = replace(LOCATING, threshold=finer.threshold)
+        finer = min(finer, max(own, most, key=by_harmonics), key=by_harmonics)
+        used = finer if finer.harmonics > own.harmonics else None
+        return used, ROUGHER if leaps else ROUGH
 
-    def _at(self, guess: Array, near: float) -> Correction:
-        """Return the point of the curve across a guess, with its tangent.
+    def _slope(self, correction: Correction) -> float:
+        """Return the change of the largest amplitude along the curve."""
+        point, along = correction.point, correction.along
+        # Without contact the frequency is all that changes.
+        moved = slice(None, -1) if along[:-1].any() else slice(-1, None)
+        # At rest any change does: to both sides the amplitude is the same.
+        size = float(np.linalg.norm(point[moved])) or 1.0
+        small = 1e-6 * size / float(np.linalg.norm(along[moved]))
+        sizes = [
+            self.resolution.amplitudes(point + sign * small * along)
+            for sign in (-1.0, 1.0)
+        ]
+        place = int(sizes[0].argmax())
+        return float(sizes[1][place] - sizes[0][place]) / small
 
-        It is known better than to ``near``.
-        """
-        direction = self.before.along
-        normal = direction / self.scale**2
-        found = correct(
-            self.system,
-            guess,
-            normal / np.abs(normal).max(),
-            tolerance=self.tolerance,
-            small=self.small(SURE * near),
-        )
-        if found.outcome is not Outcome.CONVERGED:
-            raise _LostError
-        return replace(found, tangent=tangent(found.linearised, direction, self.scale))
-
-
-class _LostError(ArithmeticError):
-    """A point between two others does not converge."""
-
-
-def folds(correction: Correction) -> float:
-    """Return what is zero at a fold: the parameter's part of the tangent."""
-    return float(correction.along[-1])
+    def _finest(
+        self, correction: Correction, finer: FourierBasis | None
+    ) -> ComplexArray:
+        """Return the multipliers at a point, of the orbit with a finer resolution."""
+        point, fourier = correction.point, self.system.fourier
+        if finer is not None:
+            found = self.multipliers.finer(point, finer)
+            point, fourier = (point, fourier) if found is None else (found, finer)
+        return self.multipliers.at(point, fourier)
 
 
-def excess(multipliers: ComplexArray, which: int) -> float:
-    """Return by how much a multiplier, known by its place, exceeds one."""
-    return float(np.abs(multipliers[which]) - 1.0 - MARGIN)
+def _told(found: Sequence[Found], scale: Array) -> list[Found]:
+    """Return the events in their order, without the branch points that are folds.
 
-
-def crossings(before: ComplexArray, after: ComplexArray) -> list[tuple[int, str]]:
-    """Return which Floquet multipliers cross the unit circle, and what that means.
-
-    A multiplier is known by its place in the order of moduli, the largest first, of a
-    complex pair the first. At +1, where the curve does not fold, another branch begins;
-    at −1 a period doubles; elsewhere a torus begins.
+    At a fold, where the curve turns, a multiplier is +1 as well.
     """
-    few, many = sorted((_outside(before), _outside(after)))
-    values = before if _outside(before) == many else after
-    found = []
-    for which in range(few, many):
-        value = values[which]
-        if abs(value.imag) > 1e-6 * abs(value):
-            if which == few or abs(values[which - 1] - value.conjugate()) > 1e-9:
-                found.append((which, "Neimark-Sacker"))
-        else:
-            kind = "branch point" if value.real > 0.0 else "period doubling"
-            found.append((which, kind))
-    return found
+    turns = [each.place for each in found if each.name == "fold"]
+    told = sorted(found, key=lambda each: each.place)
+    for turn in turns:
+        branching = [each for each in told if each.name == "branch point"]
+        if branching:
+            nearest = min(branching, key=lambda each: abs(each.place - turn))
+            told = [each for each in told if each is not nearest]
+    return [
+        each
+        for each in told
+        if each.name != "branch point" or abs(folds(each.point) / scale[-1]) > UPRIGHT
+    ]
+
+
+def excess(multiplier: complex) -> float:
+    """Return by how much the modulus of a multiplier exceeds one."""
+    return float(abs(multiplier) - 1.0 - MARGIN)
+
+
+def crossings(before: ComplexArray, after: ComplexArray) -> range:
+    """Return which Floquet multipliers cross the unit circle between two points.
+
+    A multiplier is known by its place in the order of moduli, the largest first.
+    """
+    return range(*sorted((_outside(before), _outside(after))))
+
+
+def crossed(multiplier: complex) -> str:
+    """Return what happens where a multiplier is on the unit circle.
+
+    At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
+    elsewhere, together with its conjugate, a torus begins.
+    """
+    if abs(multiplier.imag) > REAL * abs(multiplier):
+        return TORUS
+    return "branch point" if multiplier.real > 0.0 else "period doubling"
 
 
 def _outside(multipliers: ComplexArray) -> int:

@@ -11,12 +11,12 @@ import numpy as np
 from hbm.along_parameter import AlongParameter
 from hbm.continuation import trace
 from hbm.curve import response
-from hbm.events import Segment, folds
 from hbm.fold_balance import FoldBalance
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, SingularError
 from hbm.options import CurveOptions
 from hbm.residual import Balance, HarmonicBalance
+from hbm.segment import Segment, folds
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import MARGIN, PeriodicResponse

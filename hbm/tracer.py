@@ -10,6 +10,7 @@ import numpy as np
 from hbm.adaptive import AdaptiveBalance
 from hbm.curve import Curve
 from hbm.effort import Effort
+from hbm.events import Events
 from hbm.multipliers import Multipliers
 from hbm.options import CurveOptions
 from hbm.path import Path
@@ -18,6 +19,7 @@ from hbm.resolution import PathResolution
 from hbm.smoothness import smoothest
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import RIGID
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
@@ -44,13 +46,14 @@ class Tracer:
         multipliers = Multipliers(
             resolution, motions, self.control, options.harmonics is not None
         )
+        recalls = bool(remembers(problem.interface.points).any())
+        events = Events(self.system, resolution, self.control, multipliers, recalls)
         self.curve = Curve(
             problem,
             self.system,
             resolution,
-            self.control,
             multipliers,
-            options.events,
+            events if options.events else None,
         )
         self.pieces = Pieces(
             path,

@@ -71,6 +71,23 @@ def test_the_branch_joins_both_branch_points() -> None:
     assert highest == pytest.approx(places[1], rel=1e-3)
 
 
+def test_branch_points_are_located_on_the_orbits_that_are_reported() -> None:
+    # The curve itself may have half their harmonics.
+    problem = cubic_oscillator(damping=DAMPING, drive=DRIVE)
+    rest, loose = static_equilibrium(problem), CurveOptions(0.7, 1.6, error=3e-3)
+    exact = [each for each in curves()[0] if each.event == "branch point"][::-1]
+
+    curve = list(frequency_response(problem, rest, loose))
+    rough = [each for each in curve if each.event == "branch point"]
+    begun = [each.event for each in branches(problem, rest, loose, curve)]
+
+    assert len(rough) == len(exact)
+    for one, other in zip(rough, exact, strict=True):
+        assert one.frequency == pytest.approx(other.frequency, rel=3e-4)
+        assert np.abs(one.multipliers - 1.0).min() < 2e-3
+    assert begun.count("branch") == 1  # it ends where the other one would begin
+
+
 def test_orbits_on_the_branch_are_lopsided_and_kept_by_a_march() -> None:
     _, branch = curves()
     lopsided = [each for each in branch if abs(each.coefficients[0, 0]) > 0.05]

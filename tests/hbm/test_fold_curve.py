@@ -10,11 +10,11 @@ import pytest
 
 from hbm.continuation import trace
 from hbm.errors import ContinuationError
-from hbm.events import Segment, folds
 from hbm.fold_balance import FoldBalance
 from hbm.fold_curve import FoldPoint, meeting
 from hbm.linearisation import Linearisation
 from hbm.options import CurveOptions
+from hbm.segment import Segment, folds
 from hbm.solve import fold_curve, frequency_response
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array

@@ -1,5 +1,7 @@
 """Floquet multipliers by harmonic balance, beside closed forms and the time domain."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -98,14 +100,18 @@ def test_rattling_contacts_get_the_multipliers_of_more_harmonics() -> None:
 def test_stability_of_rattling_contacts_changes_where_a_multiplier_crosses() -> None:
     points = curve(rig_problem(model="full"), 125.0, 145.0)
 
-    changes = [each for each in points if each.event == "Neimark-Sacker"]
+    kinds = "Neimark-Sacker", "branch point"
+    changes = [each for each in points if each.event in kinds]
+    beside = [each for each in points if not each.event or each.event == "peak"]
 
-    assert changes
+    # as many as the points say
+    turns = sum(one.unstable != two.unstable for one, two in pairwise(beside))
+    assert len(changes) == turns > 0
     for each in changes:
         away = np.abs(np.abs(each.multipliers) - 1.0)
         # besides the one of the element on its rope, which hardly decays; a hundredth
-        # of a step is what they are located to, and they change by up to 0.6 in a step
-        assert away[away > 1e-4].min() < 6e-3
+        # of a step is what they are located to, and they change by up to 0.7 in a step
+        assert away[away > 1e-4].min() < 1e-2
 
 
 @pytest.mark.parametrize("model", ["A", "full"])

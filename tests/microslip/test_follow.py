@@ -95,6 +95,28 @@ def test_frc_says_that_nothing_is_detached(
     assert "only up to" not in output
 
 
+@pytest.mark.parametrize("barren", [False, True])
+def test_a_branch_point_without_a_branch_is_named(
+    barren: bool,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    if barren:
+        monkeypatch.setattr("microslip.studies.curve.branches", lambda *_: iter(()))
+    loud = ("drive.x=26.8 N", "structure.damping_ratio=0.1", "curve.highest=8 Hz")
+    words = [word for each in loud for word in ("--set", each)]
+
+    curve = str(tmp_path / "curve")
+    assert main(["frc", "duffing", *words, "--branches", "-o", curve]) == 0
+
+    lines = capsys.readouterr().out.splitlines()
+    places = [line.split()[-4] for line in lines if line.startswith("branch point")]
+    missing = [line.split()[-2] for line in lines if line.startswith("no branch is")]
+    assert len(places) == 2
+    assert missing == (places if barren else [])
+
+
 @pytest.mark.parametrize("frequencies", [0, 3])
 def test_an_interrupted_search_says_how_far_it_was(
     frequencies: int,

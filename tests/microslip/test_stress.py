@@ -22,7 +22,7 @@ from microslip.studies.stress import tried
 from microslip.studies.stress_bad_values import BAD, bad_values
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_cases import cases
-from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
+from microslip.studies.stress_clock import Clock, OutOfTimeError, heeded, limited
 from microslip.studies.stress_finding import Finding, Outcome, Tried
 from microslip_mechanics.response import PeriodicResponse
 
@@ -150,6 +150,20 @@ def test_what_uses_its_processor_time_is_interrupted_and_nothing_after_it() -> N
 
     assert 0.1 < time.process_time() - began < 1.0
     assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
+
+
+def test_what_a_part_leaves_of_its_time_is_for_those_after_it() -> None:
+    clock, parts = Clock(1.0), []
+
+    for share in (0.2, 0.5, 0.5):
+        began = time.process_time()
+        if share > 0.2:  # the first part ends by itself
+            with pytest.raises(OutOfTimeError), clock.until(share):
+                use_processor(until=began + 5.0)
+        parts.append(time.process_time() - began)
+
+    assert 0.3 < parts[1] < 0.6
+    assert parts[2] < 0.1
 
 
 def kernel_call(until: float) -> Iterator[None]:

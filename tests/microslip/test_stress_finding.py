@@ -10,6 +10,7 @@ import pytest
 from microslip.studies import stress_witness
 from microslip.studies.curve import Traced
 from microslip.studies.stress_case import Case
+from microslip.studies.stress_clock import Clock
 from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
@@ -112,7 +113,7 @@ def test_a_march_judges_where_shooting_finds_nothing(
     nobody: Any = None
     traced = Traced(curve, (response,), nobody)
 
-    *_, found = stress_witness.witnessed(nobody, traced, 60.0)
+    *_, found = stress_witness.witnessed(nobody, traced, Clock(60.0))
 
     assert found.outcome is outcome
     assert "no orbit by shooting" in found.cause

@@ -84,6 +84,8 @@ def _run(options: argparse.Namespace) -> int:
         print(_rest(traced.curve.contacts, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
+    for hertz in _barren(traced.curve) if options.branches else ():
+        print(f"no branch is found at the branch point at {hertz:.6f} Hz")
     print(_resolution(traced.curve))
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
@@ -126,6 +128,18 @@ def _events(curve: ResponseCurve) -> str:
     else:
         lines.append("stability is not known: no Floquet multipliers are computed")
     return "\n".join(lines)
+
+
+def _barren(curve: ResponseCurve) -> list[float]:
+    """Return the branch points at which no branch begins or ends [Hz]."""
+    marks = list(curve.event)
+    first = marks.index("branch") if "branch" in marks else len(marks)
+    reached = set(curve.frequency[first:])
+    return [
+        float(frequency) / math.tau
+        for frequency, mark in zip(curve.frequency[:first], marks, strict=False)
+        if mark == "branch point" and frequency not in reached
+    ]
 
 
 def _resolution(curve: ResponseCurve) -> str:

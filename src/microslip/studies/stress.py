@@ -15,7 +15,7 @@ from microslip.scene_file import load_scene
 from microslip.studies.bounded import Ended, bounded
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_case import Case
-from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
+from microslip.studies.stress_clock import Clock, OutOfTimeError, heeded
 from microslip.studies.stress_finding import (
     EXPECTED,
     Finding,
@@ -75,7 +75,7 @@ def _prepare(scene: str, overrides: tuple[str, ...]) -> None:
     first = traced.responses[0]
     deque(march_periods(problem, first, periods=1, steps_per_period=60), maxlen=0)
     whole_orbit(PeriodMap.of(problem, first.frequency, 2 * BLOCK), first)
-    deque(witnessed(problem, traced, math.inf), maxlen=0)
+    deque(witnessed(problem, traced, Clock(math.inf)), maxlen=0)
 
 
 def _studied(
@@ -85,13 +85,14 @@ def _studied(
     if case.refusals:
         yield from refusals(scene, overrides, case)
         return
+    clock = Clock(seconds)
     own = scene, (TOLERANCE, *overrides, *case.overrides)
     if case.scene is not None:
         own = case.scene, (TOLERANCE, *case.overrides)
     try:
         loaded = load_scene(*own)
         problem = problem_of(loaded)
-        with limited(TRACING * seconds):
+        with clock.until(TRACING):
             traced = trace_curve(problem, loaded.curve, heeded)
     except (*EXPECTED, OutOfTimeError) as error:
         told = f"harmonic balance: {line(error)}"
@@ -100,4 +101,4 @@ def _studied(
             also = from_rest(problem, loaded, seconds)
             yield Finding(cause=causes(told, also))
         return
-    yield from witnessed(problem, traced, seconds)
+    yield from witnessed(problem, traced, clock)

@@ -5,14 +5,40 @@ from __future__ import annotations
 import contextlib
 import math
 import signal
+import time
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 Item = TypeVar("Item")
+LEAST = 1e-3
+"""seconds for a part whose time is over before it begins"""
 
 
 class OutOfTimeError(KeyboardInterrupt):
     """An interruption, which no solver takes for a failure of its own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Clock:
+    """The processor time of a case; what a part of it leaves is for those after it."""
+
+    seconds: float
+    """for all of it"""
+    began: float = field(default_factory=time.process_time)
+
+    @contextlib.contextmanager
+    def until(self, share: float) -> Iterator[None]:
+        """Interrupt what is going on when a share of the time is over.
+
+        Raises
+        ------
+        OutOfTimeError
+            Then, as :func:`limited` does.
+        """
+        left = self.began + share * self.seconds - time.process_time()
+        with limited(max(left, LEAST)):
+            yield
 
 
 @contextlib.contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from microslip.scene_file import Scene
 from microslip.studies.curve import Traced
 from microslip.studies.dwell import dwelling
-from microslip.studies.stress_clock import OutOfTimeError, limited
+from microslip.studies.stress_clock import Clock, OutOfTimeError, limited
 from microslip.studies.stress_condition import condition
 from microslip.studies.stress_finding import (
     AGREED,
@@ -29,18 +30,19 @@ from timedomain.closed_march import ShootingError
 from timedomain.comparison import COVERAGE, compared
 from timedomain.verify import agreement, march_periods
 
-SHOOTING, MARCHING = 0.13, 0.07
-"""shares of a case's time after which each orbit, and each march, is left"""
+ENDS = ((0.73, 0.8), (0.93, 1.0))
+"""shares of a case's time at which shooting, and a march, of each point are left"""
 RESTING, LONGEST = 0.3, 5000
 """share of a case's time, and periods, after which a march from rest is left"""
 LEFT = 0.1
 """relative change of the amplitude in a march that leaves an orbit; what is stable
 stays, but for the march's own error, which a sharp resonance multiplies"""
+Limit = AbstractContextManager[None]
 PERIODS, STEPS = 30, 600
 """of the march that decides where shooting finds no orbit, and in a period of it"""
 
 
-def witnessed(problem: Problem, traced: Traced, seconds: float) -> Iterator[Finding]:
+def witnessed(problem: Problem, traced: Traced, clock: Clock) -> Iterator[Finding]:
     """Yield what the other solver makes of points of a curve."""
     curve = traced.curve
     places = _places(curve.amplitude.max(axis=1), curve.event)
@@ -54,9 +56,10 @@ def witnessed(problem: Problem, traced: Traced, seconds: float) -> Iterator[Find
     )
     outcome = Outcome.AGREES if whole else Outcome.HONEST
     # of a curve that is not whole the largest orbit says enough
-    for place in places if whole else places[:1]:
+    for place, ends in zip(places if whole else places[:1], ENDS, strict=False):
         yield finding
-        finding, worse = _beside(problem, traced.responses[place], finding, seconds)
+        limits = tuple(clock.until(share) for share in ends)
+        finding, worse = _beside(problem, traced.responses[place], finding, *limits)
         outcome = max(outcome, worse, key=list(Outcome).index)
     yield replace(finding, outcome=outcome)
 
@@ -85,7 +88,11 @@ def _places(amplitude: Array, event: Sequence[str]) -> list[int]:
 
 
 def _beside(
-    problem: Problem, response: PeriodicResponse, finding: Finding, seconds: float
+    problem: Problem,
+    response: PeriodicResponse,
+    finding: Finding,
+    shooting: Limit,
+    marching: Limit,
 ) -> tuple[Finding, Outcome]:
     """Return what one point adds to a finding."""
     where = f"at {response.frequency / math.tau:.6g} Hz"
@@ -93,11 +100,11 @@ def _beside(
         doubt = f"harmonic balance {where}: more harmonics do not confirm the orbit"
         finding = replace(finding, cause=causes(finding.cause, doubt))
     try:
-        with limited(SHOOTING * seconds):
+        with shooting:
             comparison = compared(problem, response)
     except (ShootingError, OutOfTimeError) as error:
         told = f"{where}: {line(error)}"
-        return _marched(problem, response, finding, told, seconds)
+        return _marched(problem, response, finding, told, marching)
     except EXPECTED as error:
         cause = causes(finding.cause, f"shooting {where}: {line(error)}")
         return replace(finding, cause=cause), Outcome.HONEST
@@ -117,7 +124,7 @@ def _marched(
     response: PeriodicResponse,
     finding: Finding,
     said: str,
-    seconds: float,
+    limit: Limit,
 ) -> tuple[Finding, Outcome]:
     """Return whether the motion stays on an orbit that shooting has not found."""
     said = f"no orbit by shooting {said}"
@@ -125,7 +132,7 @@ def _marched(
         return replace(finding, cause=causes(finding.cause, said)), Outcome.HONEST
     marching = march_periods(problem, response, periods=PERIODS, steps_per_period=STEPS)
     try:
-        with limited(MARCHING * seconds):
+        with limit:
             found = agreement(problem, response, list(marching))
     except (*EXPECTED, OutOfTimeError) as error:
         cause = causes(finding.cause, f"{said}; marching: {line(error)}")

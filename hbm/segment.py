@@ -1,0 +1,140 @@
+"""The part of a curve between two of its points, and the place of a zero on it.
+
+It is parametrised by the distance along the tangent at the first point; a sign change
+of a test function is refined by Brent's method, each of its evaluations being a
+corrected point (theory §6).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.optimize
+from scipy.interpolate import BarycentricInterpolator
+
+from hbm.continuation import tangent
+from hbm.newton import Correction, Outcome, SingularError, Small, System, correct
+from microslip_mechanics.arrays import Array
+
+PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
+"""of a located place, over the length of the step in which it is; the second where a
+test function is less accurate than that, the third where it is costly too, and leaps:
+bisection takes fewer of its values then"""
+NEAREST = 3
+"""points through which a guess between them is interpolated"""
+SURE = 0.1
+"""of that: step of Newton's iteration that is the last one"""
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """Two neighbouring points of a curve."""
+
+    system: System
+    before: Correction
+    after: Correction
+    scale: Array
+    """metric at the first, shape (n + 1,)"""
+    tolerance: float
+    """of the residual"""
+    loose: float = 0.0
+    """residual with which a point may do whose next step is too small to matter; no
+    point may if it is zero"""
+
+    @property
+    def length(self) -> float:
+        """Distance of the points along the tangent at the first."""
+        return self.place(self.after.point)
+
+    def locate(
+        self,
+        test: Callable[[Correction], float],
+        ends: tuple[float, float] | None = None,
+        precision: float = PRECISION,
+        falling: bool = False,
+    ) -> Correction | None:
+        """Return the point between the two at which ``test`` is zero.
+
+        ``ends`` are its values at the two, if they are known better; ``precision`` is
+        over the length of the step; ``falling`` asks for a change from above zero to
+        below. None if it has no change of sign, or if a point between does not
+        converge.
+        """
+        first, last = ends or (test(self.before), test(self.after))
+        length = self.length
+        if not first * last < 0.0 or length <= 0.0 or (falling and first < 0.0):
+            return None
+
+        def value(place: float) -> float:
+            if place <= 0.0:
+                return first
+            if place >= length:
+                return last
+            solved[place] = self._at(self._guess(place, solved), near)
+            return test(solved[place])
+
+        near = precision * length
+        solved: dict[float, Correction] = {}
+        try:
+            rough = precision >= ROUGHER
+            seek = scipy.optimize.bisect if rough else scipy.optimize.brentq
+            root = seek(value, 0.0, length, xtol=near, rtol=1e-12)
+            return solved.get(root) or self._at(self._guess(root, solved), near)
+        except (_LostError, SingularError):
+            return None
+
+    def small(self, share: float) -> Small | None:
+        """Return what Newton's iteration may neglect, by a share of the scale."""
+        if self.loose == 0.0:
+            return None
+        return Small(lambda _: share * self.scale, self.loose)
+
+    def place(self, point: Array) -> float:
+        """Return the distance from the first point along its tangent."""
+        along = self.before.along / self.scale
+        return float(along @ ((point - self.before.point) / self.scale))
+
+    def _guess(self, place: float, solved: dict[float, Correction]) -> Array:
+        """Return about where the curve is at a distance, from the points nearest to it.
+
+        As long as there are few, from both ends and the tangent at the first.
+        """
+        length = self.length
+        ends = {0.0: self.before, length: self.after}
+        points = {at: known.point for at, known in (ends | solved).items()}
+        near = sorted(points, key=lambda at: abs(at - place))[:NEAREST]
+        if len(near) == NEAREST:
+            return BarycentricInterpolator(near, [points[at] for at in near])(place)
+        start, direction = self.before.point, self.before.along
+        bend = self.after.point - start - length * direction
+        guess: Array = start + place * direction + (place / length) ** 2 * bend
+        return guess
+
+    def _at(self, guess: Array, near: float) -> Correction:
+        """Return the point of the curve across a guess, with its tangent.
+
+        It is known better than to ``near``.
+        """
+        direction = self.before.along
+        normal = direction / self.scale**2
+        found = correct(
+            self.system,
+            guess,
+            normal / np.abs(normal).max(),
+            tolerance=self.tolerance,
+            small=self.small(SURE * near),
+        )
+        if found.outcome is not Outcome.CONVERGED:
+            raise _LostError
+        return replace(found, tangent=tangent(found.linearised, direction, self.scale))
+
+
+class _LostError(ArithmeticError):
+    """A point between two others does not converge."""
+
+
+def folds(correction: Correction) -> float:
+    """Return what is zero at a fold: the parameter's part of the tangent."""
+    return float(correction.along[-1])

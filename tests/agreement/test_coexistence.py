@@ -20,7 +20,7 @@ from small_problems import dwelled, from_rest, last_harmonic
 from timedomain.start import Start
 
 FREQUENCY = 2.0 * np.pi * 136.8
-LOUD, PERIODS, STEPS = 3.0, 1300, 600
+LOUD, PERIODS, STEPS = 3.0, 1300, 400
 
 
 @functools.cache

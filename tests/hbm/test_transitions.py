@@ -120,9 +120,9 @@ def steps_of(
 ) -> Array:
     """Return how the amplitudes change while the motion's phase passes a sample.
 
-    Relative to the force, over 2000 steps, seen from the motion: (steps,).
+    Relative to the force, over 400 steps, seen from the motion: (steps,).
     """
-    phases = np.linspace(0.0, TURN / samples, 2001)
+    phases = np.linspace(0.0, TURN / samples, 401)
     seen = np.array(
         [
             turned(

@@ -91,14 +91,14 @@ class Branching:
             before = aside
             for each in tracer.pieces.from_point(begun, away):
                 after = (each.point - point)[away != 0.0]
-                back[:] = [float(each.point[-1])]
-                if np.linalg.norm(after) <= least:
-                    return
-                yield each
-                if before @ after < 0.0:  # it has passed the symmetric curve
+                near, passed = np.linalg.norm(after) <= least, before @ after < 0.0
+                if near or passed:  # the symmetric curve
+                    back.append(float(each.point[-1]))
+                if not near:
+                    yield each
+                if back:
                     return
                 before = after
-            back.clear()
 
         last = deque([replace(response, event="branch")], maxlen=TIP)
         yield last[0]

@@ -29,7 +29,6 @@ SPARE = 6.0
 """times that the error may be below its tolerance before less is taken"""
 SHARPER = 4.0
 """times that a threshold velocity falls where friction is to be resolved better"""
-
 MARKED = 127
 """harmonics from which an event is no more accurate than any other point"""
 WAIT = 10
@@ -69,7 +68,7 @@ class AdaptiveBalance:
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
         self.fourier = self.settled = self._kept = start
         self._wait, self._effort = 0, effort or Effort()
-        self._smoothest = start.threshold
+        self._smoothest, self._sharpest = start.threshold, 0.0
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold or none is asked for"""
@@ -86,7 +85,7 @@ class AdaptiveBalance:
         if self._tolerance is not None:
             samples = max(128, 8 * (harmonics + 1))
             self.fourier = FourierBasis(harmonics, samples, self._smoothest)
-            self._kept = self.fourier
+            self._kept, self._sharpest = self.fourier, 0.0
 
     @property
     def changed(self) -> bool:
@@ -124,7 +123,8 @@ class AdaptiveBalance:
         The refined point lies in the plane through it, normal to ``normal``;
         ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`, ``share``
         that of the error that is allowed with fewer than :data:`MARKED` harmonics. With
-        less than the whole, a point of unknown error stays as it is. What is returned
+        less than the whole, a point of unknown error stays as it is; so does one that
+        has the most harmonics and whose friction cannot be sharper. What is returned
         may have failed.
         """
         while True:
@@ -151,10 +151,14 @@ class AdaptiveBalance:
                 small=small,
                 max_iterations=PERSEVERANCE,
             )
+            converged = again.outcome is Outcome.CONVERGED
+            if not converged and self.settled.harmonics >= self._most:
+                self.fourier, self._sharpest = self.settled, self.settled.threshold
+                return correction
             correction = replace(
                 again, residuals=correction.residuals[:-1] + again.residuals
             )
-            if correction.outcome is not Outcome.CONVERGED:
+            if not converged:
                 return correction
 
     def _estimated(self, correction: Correction, normal: Array) -> Estimate:
@@ -195,7 +199,7 @@ class AdaptiveBalance:
             return self.fourier
         enough = share * self._tolerance / (3.0 if self._smoothest else 2.0)
         finer = self._doubled(estimate.truncation > enough, estimate.sampling > enough)
-        if estimate.smoothing > enough:
+        if estimate.smoothing > enough and finer.threshold > self._sharpest:
             finer = replace(finer, threshold=finer.threshold / SHARPER)
         return finer
 

@@ -1,17 +1,19 @@
 """Friction smoother than it is: when that is taken, and what it costs."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from hbm.adaptive import SHARPER, AdaptiveBalance
 from hbm.continuation import correct_at
+from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome
+from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
-from hbm.resolution import PathResolution
+from hbm.resolution import Estimate, PathResolution, Resolution
 from hbm.smoothness import FALL, smoothest
 from hbm.solve import frequency_response
 from hbm.step_control import StepControl
@@ -20,6 +22,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_problems import sliding_block
+from systems import Dense
 
 TURN = 2.0 * np.pi
 STIFFNESS, LIMIT, DRIVE = 300.0, 0.3, 1.5
@@ -143,6 +146,64 @@ def test_what_is_too_smooth_is_sharpened_and_eased_again() -> None:
     system.restart(7)
 
     assert system.fourier.threshold == SMOOTHEST
+
+
+class Blunt(Resolution):
+    """Solvable with friction no sharper than a threshold velocity; all that errs."""
+
+    rank = 1
+
+    def __init__(self, sharpest: float) -> None:
+        self.sharpest = sharpest
+        self.tried: list[float] = []
+        """threshold velocities that were"""
+
+    def at(self, fourier: FourierBasis) -> Any:
+        self.tried.append(fourier.threshold)
+        solvable = fourier.threshold >= self.sharpest
+
+        def system(point: Array) -> tuple[Array, Dense]:
+            rows = np.eye(point.size - 1, point.size)
+            return point[:-1] if solvable else np.ones(point.size - 1), Dense(rows)
+
+        return system
+
+    def amplitudes(self, point: Array) -> Array:
+        return point[:1]
+
+    def estimate(
+        self, correction: Correction, fourier: FourierBasis, _: Array
+    ) -> Estimate:
+        smoothing = 0.1 * fourier.threshold
+        return Estimate(0.0, 0.0, 0.0, smoothing, correction.point, fourier)
+
+
+def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:
+    made = Blunt(sharpest=0.05)
+    system = AdaptiveBalance(made, FourierBasis(3, 128, 1.0), tolerance=1e-3, most=3)
+
+    found = correct_at(system, guess(system.size), CONTROL, system)
+
+    assert found.outcome is Outcome.CONVERGED
+    assert system.estimate is not None
+    assert system.estimate.error == pytest.approx(0.1 * SHARPER**-2)
+    assert system.fourier.threshold == SHARPER**-2
+    assert made.tried[-1] == SHARPER**-3
+
+    system.keep()
+    made.tried.clear()
+    again = correct_at(system, found.point, CONTROL, system)
+
+    assert again.outcome is Outcome.CONVERGED
+    assert set(made.tried) <= {SHARPER**-2}  # it is not tried at every point
+
+
+def test_friction_that_could_be_sharper_with_more_harmonics_is_not_left() -> None:
+    made = Blunt(sharpest=0.05)
+    system = AdaptiveBalance(made, FourierBasis(3, 128, 1.0), tolerance=1e-3, most=7)
+
+    with pytest.raises(ContinuationError):
+        correct_at(system, guess(system.size), CONTROL, system)
 
 
 @pytest.mark.parametrize("threshold", [0.1, 0.02, 0.004])

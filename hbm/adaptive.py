@@ -96,7 +96,7 @@ class AdaptiveBalance:
         """Let the next point have the resolution that the last one asks for."""
         self._kept, self._wait = self.settled, self._wait - 1
         if self.estimate is not None and self._wait <= 0:
-            self.fourier = self._coarser(self.estimate)
+            self.fourier, self._sharpest = self._coarser(self.estimate), 0.0
 
     def retreat(self, times: int) -> None:
         """Go back to the resolution of the last kept point, then to finer ones.
@@ -152,9 +152,10 @@ class AdaptiveBalance:
                 max_iterations=PERSEVERANCE,
             )
             converged = again.outcome is Outcome.CONVERGED
-            if not converged and self.settled.harmonics >= self._most:
+            sharper = finer.threshold < self.settled.threshold
+            if not converged and sharper and self._exhausted:
                 self.fourier, self._sharpest = self.settled, self.settled.threshold
-                return correction
+                continue
             correction = replace(
                 again, residuals=correction.residuals[:-1] + again.residuals
             )
@@ -185,6 +186,11 @@ class AdaptiveBalance:
             return point, self.settled, self.estimate.before
         return self.estimate.corrected, self.estimate.fourier, self.estimate.error
 
+    @property
+    def _exhausted(self) -> bool:
+        """Whether the last settled point has the most harmonics."""
+        return self.settled.harmonics >= self._most
+
     def _truncated(self, point: Array) -> Array:
         """Return a point without what a finer one before has left in higher orders."""
         truncated = point.copy()
@@ -199,7 +205,8 @@ class AdaptiveBalance:
             return self.fourier
         enough = share * self._tolerance / (3.0 if self._smoothest else 2.0)
         finer = self._doubled(estimate.truncation > enough, estimate.sampling > enough)
-        if estimate.smoothing > enough and finer.threshold > self._sharpest:
+        sharpest = self._sharpest if self._exhausted else 0.0
+        if estimate.smoothing > enough and finer.threshold > sharpest:
             finer = replace(finer, threshold=finer.threshold / SHARPER)
         return finer
 

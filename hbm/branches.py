@@ -7,11 +7,11 @@ point a little along it is corrected in the plane across it, and followed from t
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Outcome, correct
@@ -30,8 +30,6 @@ FEWEST, FINEST = 15, 63
 """harmonics with which a branch is sought"""
 CLOSE = 2e-3
 """relative difference of frequencies at which a branch ends on a branch point"""
-TIP = 4
-"""responses about the end of a branch: before it, its fold and its peak, after it"""
 NOWHERE = (np.inf, -np.inf)
 """an interval of frequencies in which there is nothing"""
 
@@ -62,12 +60,16 @@ class Branching:
             If a branch cannot be followed.
         """
         places = [each for each in known if _branches(each)]
-        while places:
-            low, high = yield from self._from(places.pop(0))
-            for place in tuple(places):
-                if (1.0 - CLOSE) * low <= place.frequency <= (1.0 + CLOSE) * high:
-                    places.remove(place)
-                    yield replace(place, event="")
+        reached: set[int] = set()
+        for number, place in enumerate(places):
+            if number in reached:
+                continue
+            low, high = yield from self._from(place)
+            for other, end in enumerate(places):
+                near = (1.0 - CLOSE) * low <= end.frequency <= (1.0 + CLOSE) * high
+                if near and other != number and other not in reached:
+                    reached.add(other)
+                    yield replace(end, event="")
 
     def _from(
         self, response: PeriodicResponse
@@ -84,29 +86,17 @@ class Branching:
         if begun is None:
             return NOWHERE
         back: list[float] = []
-        aside = (begun - point)[away != 0.0]
-        least = 0.5 * float(np.linalg.norm(aside))
-
-        def parted() -> Iterator[Correction]:
-            before = aside
-            for each in tracer.pieces.from_point(begun, away):
-                after = (each.point - point)[away != 0.0]
-                near, passed = np.linalg.norm(after) <= least, before @ after < 0.0
-                if near or passed:  # the symmetric curve
-                    back.append(float(each.point[-1]))
-                if not near:
-                    yield each
-                if back:
-                    return
-                before = after
-
-        last = deque([replace(response, event="branch")], maxlen=TIP)
-        yield last[0]
-        for each in tracer.curve.followed(parted(), tracer.pieces.metric):
-            last.append(each)
+        corrections = tracer.pieces.from_point(begun, away)
+        parted = _parted(corrections, point, begun, away != 0.0, back)
+        last: list[float] = []
+        for each in tracer.curve.followed(parted, tracer.pieces.metric):
+            if not last:
+                yield replace(response, event="branch")
+            if not each.event and not back:
+                last.clear()  # it is about the last step that is asked
+            last.append(each.frequency)
             yield each
-        ends = [*back, *(each.frequency for each in last)]
-        return (min(ends), max(ends)) if back else NOWHERE
+        return (min(last + back), max(last + back)) if back and last else NOWHERE
 
     def _direction(self, point: Array, fourier: FourierBasis) -> Array:
         """Return the unit direction that the Jacobian maps nearest to zero.
@@ -129,6 +119,31 @@ def _branches(response: PeriodicResponse) -> bool:
     """Return whether a multiplier is +1 there, as it must be to the error of both."""
     nearest = np.abs(response.multipliers - 1.0).min(initial=np.inf)
     return response.event == "branch point" and bool(nearest < NEAR)
+
+
+def _parted(
+    corrections: Iterable[Correction],
+    point: Array,
+    begun: Array,
+    still: NDArray[np.bool_],
+    back: list[float],
+) -> Iterator[Correction]:
+    """Yield what is aside of a branch point; put into ``back`` where it comes back.
+
+    It does where what the symmetry keeps ``still`` vanishes, or changes its sign.
+    """
+    before = (begun - point)[still]
+    least = 0.5 * float(np.linalg.norm(before))
+    for each in corrections:
+        after = (each.point - point)[still]
+        near, passed = np.linalg.norm(after) <= least, before @ after < 0.0
+        if near or passed:
+            back.append(float(each.point[-1]))
+        if not near:
+            yield each
+        if back:
+            return
+        before = after
 
 
 def _beside(tracer: Tracer, point: Array, away: Array) -> Array | None:

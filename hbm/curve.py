@@ -71,7 +71,7 @@ class Curve:
             multipliers=multipliers,
             parameter=float(kept[-1]),
         )
-        return told, Settled(correction, multipliers, finer)
+        return told, Settled(correction, multipliers, finer, finer != fourier)
 
 
 def response(

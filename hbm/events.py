@@ -20,7 +20,7 @@ from hbm.newton import Correction, Outcome
 from hbm.resolution import PathResolution
 from hbm.segment import PRECISION, ROUGH, ROUGHER, SURE, Segment, folds
 from hbm.step_control import StepControl
-from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.response import MARGIN
 
 LOCATING = FourierBasis(31, 256)
@@ -33,9 +33,11 @@ is located, from which on it leaps"""
 UPRIGHT = 5e-3
 """part of the parameter in a unit tangent below which a multiplier +1 is that of a fold
 beside the segment"""
+NEAR = 0.4
+"""share of a step within which a multiplier +1 is that of a fold in the same step"""
 REAL = 1e-6
 """imaginary part of a multiplier, over its modulus, below which it is real"""
-TORUS = "Neimark-Sacker"
+TORUS, BRANCH = "Neimark-Sacker", "branch point"
 
 
 class Settled(NamedTuple):
@@ -45,6 +47,8 @@ class Settled(NamedTuple):
     multipliers: ComplexArray
     finer: FourierBasis
     """the resolution that they ask for"""
+    asks: bool
+    """whether that is more than the reported orbit has"""
 
 
 class Found(NamedTuple):
@@ -64,6 +68,8 @@ class Events:
     resolution: PathResolution
     control: StepControl
     multipliers: Multipliers
+    limits: tuple[float, float]
+    """of the parameter, the least first"""
     recalls: bool
     """whether a contact has a memory"""
 
@@ -78,7 +84,7 @@ class Events:
         ends = before.correction, after.correction
         segment = Segment(self.system, *ends, scale, tolerance, loose)
         found = [*self._turns(segment), *self._changes(segment, before, after)]
-        for _, name, located in _told(found, scale):
+        for _, name, located in _told(found, segment):
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
             small = segment.small(PRECISION * SURE)
@@ -125,7 +131,7 @@ class Events:
         outside = max(ends, key=abs)
 
         def growth(correction: Correction) -> float:
-            nonlocal outside
+            nonlocal outside  # the bracket shrinks: the last one is the nearest
             multiplier = self._finest(correction, finer)[which]
             if excess(multiplier) > 0.0:
                 outside = multiplier
@@ -146,14 +152,13 @@ class Events:
         It is that of the orbits that are reported, or what their multipliers ask for;
         none if it is that of the curve.
         """
-        own = self.system.fourier
-        by_harmonics = attrgetter("harmonics")
+        own, by_harmonics = self.system.fourier, attrgetter("harmonics")
         finer = max(before.finer, after.finer, key=by_harmonics)
-        leaps = finer.harmonics > 2 * own.harmonics + 1
-        most = replace(LOCATING, threshold=finer.threshold)
+        samples = max(LOCATING.samples, own.samples)
+        most = replace(LOCATING, samples=samples, threshold=finer.threshold)
         finer = min(finer, max(own, most, key=by_harmonics), key=by_harmonics)
         used = finer if finer.harmonics > own.harmonics else None
-        return used, ROUGHER if leaps else ROUGH
+        return used, ROUGHER if before.asks or after.asks else ROUGH
 
     def _slope(self, correction: Correction) -> float:
         """Return the change of the largest amplitude along the curve."""
@@ -163,10 +168,9 @@ class Events:
         # At rest any change does: to both sides the amplitude is the same.
         size = float(np.linalg.norm(point[moved])) or 1.0
         small = 1e-6 * size / float(np.linalg.norm(along[moved]))
-        sizes = [
-            self.resolution.amplitudes(point + sign * small * along)
-            for sign in (-1.0, 1.0)
-        ]
+        beside = point + np.outer((-small, small), along)
+        beside[:, -1] = beside[:, -1].clip(*self.limits)
+        sizes = [self.resolution.amplitudes(each) for each in beside]
         place = int(sizes[0].argmax())
         return float(sizes[1][place] - sizes[0][place]) / small
 
@@ -181,22 +185,20 @@ class Events:
         return self.multipliers.at(point, fourier)
 
 
-def _told(found: Sequence[Found], scale: Array) -> list[Found]:
+def _told(found: Sequence[Found], segment: Segment) -> list[Found]:
     """Return the events in their order, without the branch points that are folds.
 
     At a fold, where the curve turns, a multiplier is +1 as well.
     """
-    turns = [each.place for each in found if each.name == "fold"]
     told = sorted(found, key=lambda each: each.place)
-    for turn in turns:
-        branching = [each for each in told if each.name == "branch point"]
-        if branching:
-            nearest = min(branching, key=lambda each: abs(each.place - turn))
+    for turn in [each.place for each in told if each.name == "fold"]:
+        branching = [each for each in told if each.name == BRANCH]
+        nearest = min(branching, key=lambda each: abs(each.place - turn), default=None)
+        if nearest is not None and abs(nearest.place - turn) < NEAR * segment.length:
             told = [each for each in told if each is not nearest]
+    least = UPRIGHT * segment.scale[-1]
     return [
-        each
-        for each in told
-        if each.name != "branch point" or abs(folds(each.point) / scale[-1]) > UPRIGHT
+        each for each in told if each.name != BRANCH or abs(folds(each.point)) > least
     ]
 
 
@@ -221,7 +223,7 @@ def crossed(multiplier: complex) -> str:
     """
     if abs(multiplier.imag) > REAL * abs(multiplier):
         return TORUS
-    return "branch point" if multiplier.real > 0.0 else "period doubling"
+    return BRANCH if multiplier.real > 0.0 else "period doubling"
 
 
 def _outside(multipliers: ComplexArray) -> int:

@@ -46,8 +46,14 @@ class Tracer:
         multipliers = Multipliers(
             resolution, motions, self.control, options.harmonics is not None
         )
-        recalls = bool(remembers(problem.interface.points).any())
-        events = Events(self.system, resolution, self.control, multipliers, recalls)
+        events = Events(
+            self.system,
+            resolution,
+            self.control,
+            multipliers,
+            limits=(min(options.start, options.end), max(options.start, options.end)),
+            recalls=bool(remembers(problem.interface.points).any()),
+        )
         self.curve = Curve(
             problem,
             self.system,

@@ -24,6 +24,8 @@ class Line:
     """The curve x = a + 2 p, with what an adaptive balance has besides a residual."""
 
     fourier = settled = FOURIER
+    component = -1
+    """that runs from 0 to 1"""
 
     def __init__(self, start: float) -> None:
         self.start = start
@@ -31,13 +33,41 @@ class Line:
     def __call__(self, point: Array) -> tuple[Array, Dense]:
         return np.array([point[0] - 2.0 * point[1] - self.start]), Dense([[1.0, -2.0]])
 
+    def at(self, place: float) -> Array:
+        """Return a point of the curve."""
+        return np.array([self.start + 2.0 * place, place])
+
+    def along(self, _: float) -> Array:
+        """Return its tangent there."""
+        return np.array([2.0, 1.0])
+
     def settle(self, correction: Correction, *_: object) -> Correction:
         """Return a point that needs nothing more."""
         return correction
 
 
+class Parabola(Line):
+    """The curve p = 1 − (x − a)², which folds at a."""
+
+    component = 0
+
+    def __call__(self, point: Array) -> tuple[Array, Dense]:
+        aside = point[0] - self.start
+        return np.array([point[1] - 1.0 + aside**2]), Dense([[2.0 * aside, 1.0]])
+
+    def at(self, place: float) -> Array:
+        """Return a point of the curve."""
+        return np.array([place, 1.0 - (place - self.start) ** 2])
+
+    def along(self, place: float) -> Array:
+        """Return its tangent there."""
+        return np.array([1.0, -2.0 * (place - self.start)])
+
+
 class Known:
-    """Multipliers along the parameter from 0 to 1, through given sums and products."""
+    """Multipliers between the places 0 and 1, through given sums and products."""
+
+    component = -1
 
     def __init__(self, *ways: tuple[float, float]) -> None:
         places = np.linspace(0.0, 1.0, len(ways))
@@ -45,29 +75,53 @@ class Known:
 
     def at(self, point: Array, _: object = None) -> ComplexArray:
         """Return the multipliers at a point, the largest first."""
-        total, product = polynomial.polyval(point[-1], self.path)
+        total, product = polynomial.polyval(point[self.component], self.path)
         found = np.roots([1.0, -total, product]).astype(complex)
         ordered: ComplexArray = found[np.argsort(-np.abs(found))]
         return ordered
 
 
-def found(known: Known, start: float = 2.0) -> list[tuple[str, float]]:
-    """Return the events between 0 and 1, and where they are."""
-    line: Any = Line(start)
+class Passing(Known):
+    """Real multipliers that pass +1 at given places."""
+
+    def __init__(self, *places: float) -> None:
+        self.places = places
+
+    def at(self, point: Array, _: object = None) -> ComplexArray:
+        """Return the multipliers at a point, the largest first."""
+        away = point[self.component] - np.array(self.places)
+        return np.sort(1.0 + 0.3 * away)[::-1].astype(complex)
+
+
+def found(known: Known, line: Line) -> list[tuple[str, float]]:
+    """Return the events between the places 0 and 1, and where they are."""
+    known.component = line.component
+    system: Any = line
     resolution: Any = SimpleNamespace(amplitudes=lambda point: np.abs(point[:1]))
     multipliers: Any = known
-    along = np.array([2.0, 1.0]) / np.sqrt(5.0)
     ends = []
-    for parameter in (0.0, 1.0):
-        point = np.array([start + 2.0 * parameter, parameter])
+    for place in (0.0, 1.0):
+        point, along = line.at(place), line.along(place)
         residual, linearised = line(point)
         solved = Correction(
-            point, residual, linearised, Outcome.CONVERGED, (0.0,), along
+            point,
+            residual,
+            linearised,
+            Outcome.CONVERGED,
+            (0.0,),
+            along / np.linalg.norm(along),
         )
-        ends.append(Settled(solved, known.at(point), FOURIER))
-    events = Events(line, resolution, StepControl(), multipliers, recalls=False)
+        ends.append(Settled(solved, known.at(point), FOURIER, asks=False))
+    events = Events(
+        system,
+        resolution,
+        StepControl(),
+        multipliers,
+        limits=(0.0, 1.0),
+        recalls=False,
+    )
     between = events.between(ends[0], ends[1], np.ones_like)
-    return [(name, located.point[-1]) for located, name in between]
+    return [(name, located.point[line.component]) for located, name in between]
 
 
 def crossing(known: Known, circle: Array) -> list[float]:
@@ -105,7 +159,7 @@ def test_a_crossing_is_named_by_what_the_multiplier_is_there(
     places = crossing(known, circle)
     assert places
 
-    events = found(known)
+    events = found(known, Line(2.0))
 
     assert [each for each, _ in events] == [name] * len(places)
     # located to a thousandth of the step
@@ -114,4 +168,27 @@ def test_a_crossing_is_named_by_what_the_multiplier_is_there(
 
 @pytest.mark.parametrize("start", [2.0, 0.0], ids=["moving", "from rest"])
 def test_nothing_happens_where_multipliers_stay_inside(start: float) -> None:
-    assert found(Known(INSIDE, (1.5, 0.6)), start) == []
+    assert found(Known(INSIDE, (1.5, 0.6)), Line(start)) == []
+
+
+@pytest.mark.parametrize(
+    ("fold", "places", "names"),
+    [
+        (0.3, (0.31,), ["fold"]),
+        (0.3, (0.3, 0.9), ["fold", "branch point"]),
+        (0.3, (0.25, 0.3), ["branch point", "fold"]),
+        (0.3, (0.9,), ["fold", "branch point"]),
+        # the fold is just beyond the end
+        (1.001, (0.9995,), []),
+        (1.001, (0.9,), ["branch point"]),
+    ],
+)
+def test_a_branch_point_is_told_unless_it_is_the_folds(
+    fold: float, places: tuple[float, ...], names: list[str]
+) -> None:
+    events = found(Passing(*places), Parabola(fold))
+
+    assert [name for name, _ in events] == names
+    for name, place in events:
+        known = (fold,) if name == "fold" else places
+        assert np.abs(place - np.array(known)).min() < 2e-3

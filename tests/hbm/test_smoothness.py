@@ -1,12 +1,13 @@
 """Friction smoother than it is: when that is taken, and what it costs."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from hbm.adaptive import SHARPER, AdaptiveBalance
+from hbm.adaptive import SHARPER, WAIT, AdaptiveBalance
 from hbm.continuation import correct_at
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
@@ -154,13 +155,14 @@ class Blunt(Resolution):
     rank = 1
 
     def __init__(self, sharpest: float) -> None:
-        self.sharpest = sharpest
+        self.sharpest, self.coarsest, self.sampling = sharpest, math.inf, 0.0
         self.tried: list[float] = []
         """threshold velocities that were"""
 
     def at(self, fourier: FourierBasis) -> Any:
         self.tried.append(fourier.threshold)
-        solvable = fourier.threshold >= self.sharpest
+        sharp = fourier.threshold < self.sharpest
+        solvable = not sharp and fourier.samples <= self.coarsest
 
         def system(point: Array) -> tuple[Array, Dense]:
             rows = np.eye(point.size - 1, point.size)
@@ -175,7 +177,7 @@ class Blunt(Resolution):
         self, correction: Correction, fourier: FourierBasis, _: Array
     ) -> Estimate:
         smoothing = 0.1 * fourier.threshold
-        return Estimate(0.0, 0.0, 0.0, smoothing, correction.point, fourier)
+        return Estimate(0.0, 0.0, self.sampling, smoothing, correction.point, fourier)
 
 
 def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:
@@ -196,6 +198,22 @@ def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:
 
     assert again.outcome is Outcome.CONVERGED
     assert set(made.tried) <= {SHARPER**-2}  # it is not tried at every point
+
+    made.sharpest = 0.0
+    for _ in range(WAIT + 1):
+        correct_at(system, found.point, CONTROL, system)
+        system.keep()
+
+    assert system.estimate.error <= 1e-3  # but it is again after some
+
+
+def test_what_fails_for_other_reasons_than_friction_is_not_accepted() -> None:
+    made = Blunt(sharpest=0.0)
+    made.coarsest, made.sampling = 128, 0.5
+    system = AdaptiveBalance(made, FourierBasis(3, 128, 1e-9), tolerance=1e-3, most=3)
+
+    with pytest.raises(ContinuationError):
+        correct_at(system, guess(system.size), CONTROL, system)
 
 
 def test_friction_that_could_be_sharper_with_more_harmonics_is_not_left() -> None:

@@ -153,17 +153,21 @@ def test_what_uses_its_processor_time_is_interrupted_and_nothing_after_it() -> N
 
 
 def test_what_a_part_leaves_of_its_time_is_for_those_after_it() -> None:
-    clock, parts = Clock(1.0), []
+    clock = Clock(1.0)
+    with clock.until(0.4):
+        use_processor(until=clock.began + 0.05)
 
-    for share in (0.2, 0.5, 0.5):
-        began = time.process_time()
-        if share > 0.2:  # the first part ends by itself
-            with pytest.raises(OutOfTimeError), clock.until(share):
-                use_processor(until=began + 5.0)
-        parts.append(time.process_time() - began)
+    with pytest.raises(OutOfTimeError), clock.until(0.5):
+        use_processor(until=clock.began + 5.0)
 
-    assert 0.3 < parts[1] < 0.6
-    assert parts[2] < 0.1
+    assert 0.45 < time.process_time() - clock.began < 0.7
+
+    # what is over before it begins ends at once
+    began = time.process_time()
+    with pytest.raises(OutOfTimeError), clock.until(0.5):
+        use_processor(until=began + 5.0)
+
+    assert time.process_time() - began < 0.1
 
 
 def kernel_call(until: float) -> Iterator[None]:

@@ -84,7 +84,8 @@ def _run(options: argparse.Namespace) -> int:
         print(_rest(traced.curve.contacts, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
-    for hertz in _barren(traced.curve) if options.branches else ():
+    sought = options.branches and traced.curve.ending == "complete"
+    for hertz in _barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")
     print(_resolution(traced.curve))
     if traced.searched is not None:

@@ -98,7 +98,7 @@ def _studied(
         told = f"harmonic balance: {line(error)}"
         yield Finding(cause=told)
         if isinstance(error, ContinuationError):
-            also = from_rest(problem, loaded, seconds)
+            also = from_rest(problem, loaded, clock)
             yield Finding(cause=causes(told, also))
         return
     yield from witnessed(problem, traced, clock)

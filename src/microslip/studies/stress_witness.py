@@ -12,7 +12,7 @@ import numpy as np
 from microslip.scene_file import Scene
 from microslip.studies.curve import Traced
 from microslip.studies.dwell import dwelling
-from microslip.studies.stress_clock import Clock, OutOfTimeError, limited
+from microslip.studies.stress_clock import Clock, OutOfTimeError
 from microslip.studies.stress_condition import condition
 from microslip.studies.stress_finding import (
     AGREED,
@@ -32,8 +32,8 @@ from timedomain.verify import agreement, march_periods
 
 ENDS = ((0.73, 0.8), (0.93, 1.0))
 """shares of a case's time at which shooting, and a march, of each point are left"""
-RESTING, LONGEST = 0.3, 5000
-"""share of a case's time, and periods, after which a march from rest is left"""
+RESTING, LONGEST = 0.9, 5000
+"""share of a case's time, and periods, at which a march from rest is left"""
 LEFT = 0.1
 """relative change of the amplitude in a march that leaves an orbit; what is stable
 stays, but for the march's own error, which a sharp resonance multiplies"""
@@ -64,12 +64,12 @@ def witnessed(problem: Problem, traced: Traced, clock: Clock) -> Iterator[Findin
     yield replace(finding, outcome=outcome)
 
 
-def from_rest(problem: Problem, scene: Scene, seconds: float) -> str:
+def from_rest(problem: Problem, scene: Scene, clock: Clock) -> str:
     """Return whether a march from rest becomes steady where a curve does not begin."""
     frequency, distances = math.tau * scene.curve.lowest, [math.inf]
     marched = dwelling(problem, frequency, scene.march, tolerance=AGREED, most=LONGEST)
     try:
-        with limited(RESTING * seconds):
+        with clock.until(RESTING):
             distances.extend(period.distance for period in marched)
     except OutOfTimeError:
         pass

@@ -93,11 +93,17 @@ class Passing(Known):
         return np.sort(1.0 + 0.3 * away)[::-1].astype(complex)
 
 
+def amplitudes(point: Array) -> Array:
+    """Return the amplitude; there is none beyond the limits of the parameter."""
+    assert 0.0 <= point[-1] <= 1.0
+    return np.abs(point[:1])
+
+
 def found(known: Known, line: Line) -> list[tuple[str, float]]:
     """Return the events between the places 0 and 1, and where they are."""
     known.component = line.component
     system: Any = line
-    resolution: Any = SimpleNamespace(amplitudes=lambda point: np.abs(point[:1]))
+    resolution: Any = SimpleNamespace(amplitudes=amplitudes)
     multipliers: Any = known
     ends = []
     for place in (0.0, 1.0):

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.events import BRANCH
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Outcome, correct
 from hbm.options import CurveOptions
@@ -118,7 +119,7 @@ class Branching:
 def _branches(response: PeriodicResponse) -> bool:
     """Return whether a multiplier is +1 there, as it must be to the error of both."""
     nearest = np.abs(response.multipliers - 1.0).min(initial=np.inf)
-    return response.event == "branch point" and bool(nearest < NEAR)
+    return response.event == BRANCH and bool(nearest < NEAR)
 
 
 def _parted(

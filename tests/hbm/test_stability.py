@@ -101,18 +101,22 @@ def test_stability_of_rattling_contacts_changes_where_a_multiplier_crosses() -> 
     points = curve(rig_problem(model="full"), 125.0, 145.0)
 
     kinds = "Neimark-Sacker", "branch point"
-    changes = [each for each in points if each.event in kinds]
-    beside = [each for each in points if not each.event or each.event == "peak"]
+    beside = [each for each in points if not each.event or each.event in kinds]
+    stays = [each for each in beside if not each.event]
+    turns = sum(one.unstable != two.unstable for one, two in pairwise(stays))
+    assert len(beside) - len(stays) == turns > 0  # as many as the points say
 
-    # as many as the points say
-    turns = sum(one.unstable != two.unstable for one, two in pairwise(beside))
-    assert len(changes) == turns > 0
-    for each in changes:
-        away = np.abs(np.abs(each.multipliers) - 1.0)
-        # besides the one of the element on its rope, which hardly decays; a hundredth
-        # of a step is what they are located to, they change by up to 0.7 in a step, and
-        # by as much as 2e-3 where the located point is settled
-        assert away[away > 1e-4].min() < 1e-2
+    for before, event, after in zip(beside, beside[1:], beside[2:], strict=False):
+        if event.event not in kinds:
+            continue
+        moduli = np.abs(event.multipliers)
+        # without the one of the element on its rope, which hardly decays
+        moduli = moduli[np.abs(moduli - 1.0) > 1e-4]
+        crossing = moduli[min(before.unstable, after.unstable)]
+        # A hundredth of a step is what it is located to, and it changes by up to 0.7 in
+        # a step; the reported orbit has more harmonics: 1.0055 becomes 1.0155. The
+        # modes of the blades, at 0.9917, are not it.
+        assert -6e-3 < crossing - 1.0 < 2e-2
 
 
 @pytest.mark.parametrize("model", ["A", "full"])

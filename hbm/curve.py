@@ -11,10 +11,12 @@ from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import Metric
 from hbm.errors import ContinuationError
 from hbm.events import Events, Settled
+from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction
 from hbm.residual import HarmonicBalance
 from hbm.resolution import PathResolution
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ONE_SIDED
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -58,20 +60,36 @@ class Curve:
         """Return the response at a settled point, and what events beside it need."""
         kept, fourier, error = self.system.kept(correction.point)
         balance, point = self.resolution.at(fourier).at_frequency(kept)
-        made = response(self.problem, balance, replace(correction, point=point))
+        made = replace(
+            response(self.problem, balance, replace(correction, point=point)),
+            error=error,
+            event=event,
+            parameter=float(kept[-1]),
+        )
+        told, finer = self._examined(made, kept, fourier)
+        asks = finer != fourier
+        return told, Settled(correction, told.multipliers, finer, asks)
+
+    def examined(self, known: PeriodicResponse, point: Array) -> PeriodicResponse:
+        """Return a response with its multipliers; ``point`` is where it lies.
+
+        Friction that was smooth for the curve is what it is here, where that converges.
+        """
+        fourier = FourierBasis(known.harmonics, known.samples)
+        orbit = self.multipliers.finer(point, fourier)
+        return self._examined(known, point if orbit is None else orbit, fourier)[0]
+
+    def _examined(
+        self, made: PeriodicResponse, point: Array, fourier: FourierBasis
+    ) -> tuple[PeriodicResponse, FourierBasis]:
+        """Return a response with its multipliers, and the resolution they ask for."""
         points = self.problem.interface.points
         presses = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
         multipliers, finer, confirmed = self.multipliers.sure(
-            kept, fourier, made.normal_smallest[presses]
+            point, fourier, made.normal_smallest[presses]
         )
-        told = replace(
-            made,
-            error=error if confirmed else np.inf,
-            event=event,
-            multipliers=multipliers,
-            parameter=float(kept[-1]),
-        )
-        return told, Settled(correction, multipliers, finer, finer != fourier)
+        error = made.error if confirmed else np.inf
+        return replace(made, error=error, multipliers=multipliers), finer
 
 
 def response(

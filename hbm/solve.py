@@ -61,6 +61,32 @@ def frequency_response(
             yield replace(made, shapes=shapes)
 
 
+def with_multipliers(
+    problem: Problem,
+    rest: StaticState,
+    response: PeriodicResponse,
+    options: CurveOptions,
+) -> PeriodicResponse:
+    """Return a response with the multipliers that its curve left out.
+
+    Its error is infinite if more harmonics, where they ask for them, do not confirm the
+    orbit.
+
+    Parameters
+    ----------
+    problem, rest, options
+        As for :func:`frequency_response`.
+    response
+        On the curve, which was traced without stability.
+    """
+    small, still, _ = _small(problem, rest, options.highest or _most(options))
+    path = along_frequency(small, still, options.start, options.end)
+    tracer = Tracer(small, path, replace(options, stability=True))
+    point = tracer.guess(response, path.problem.selection)
+    with threadpool_limits(1, "blas"):
+        return tracer.curve.examined(response, point)
+
+
 def branches(
     problem: Problem,
     rest: StaticState,

@@ -15,7 +15,7 @@ from hbm.errors import ContinuationError
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.studies import stress
+from microslip.studies import stress, stress_curve
 from microslip.studies.bounded import Ended, bounded
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress import tried
@@ -95,10 +95,10 @@ def test_a_system_is_not_put_under_stress() -> None:
 def test_where_no_curve_begins_a_march_from_rest_says_whether_it_settles(
     override: str, told: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def unbegun(*_: object) -> None:
+    def unbegun(*_: object, **__: object) -> None:
         raise ContinuationError("the curve does not go on")
 
-    monkeypatch.setattr(stress, "trace_curve", unbegun)
+    monkeypatch.setattr(stress_curve, "trace_curve", unbegun)
     case = Case("parameter", "value", (override,))
 
     *_, found = stress._studied("two-blades", (), 10.0, case)
@@ -207,6 +207,39 @@ def test_a_curve_out_of_time_keeps_its_points(compiled: None) -> None:  # noqa: 
 
     assert len(traced.responses) == 1
     assert traced.curve.ending == "out of time"
+
+
+def late(*_: object, **__: object) -> None:
+    raise OutOfTimeError("out of time")
+
+
+def test_a_curve_of_few_harmonics_stands_in_for_one_that_is_out_of_time(
+    compiled: None,  # noqa: ARG001
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = load_scene("two-blades", ("model=A",))
+    monkeypatch.setattr(stress_curve, "trace_curve", late)
+
+    made = stress_curve.drawn(problem_of(scene), scene.curve, Clock(60.0))
+    traced, said, options = made
+
+    assert options is None
+    assert said == "out of time; with 7 harmonics instead"
+    assert traced.curve.ending == "complete"
+    assert {each.harmonics for each in traced.responses} == {7}
+    assert all(math.isinf(each.error) for each in traced.responses)
+
+
+@pytest.mark.parametrize("override", ["curve.tolerance=1e-3", "curve.harmonics=7"])
+def test_without_time_or_with_harmonics_that_are_given_nothing_stands_in(
+    override: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = load_scene("two-blades", ("model=A", override))
+    monkeypatch.setattr(stress_curve, "trace_curve", late)
+    seconds = 60.0 if "harmonics" in override else 0.0
+
+    with pytest.raises(OutOfTimeError):
+        stress_curve.drawn(problem_of(scene), scene.curve, Clock(seconds))
 
 
 def test_a_defect_is_no_honest_outcome(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,5 +1,6 @@
 """How both solvers' answers to a case under stress are judged."""
 
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -7,10 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hbm.options import CurveOptions
 from microslip.studies import stress_witness
 from microslip.studies.curve import Traced
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_clock import Clock
+from microslip.studies.stress_curve import Drawn
 from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
@@ -72,10 +75,27 @@ def test_a_witness_that_errs_by_more_than_one_per_cent_does_not_decide_little(
     assert cause.endswith(doubt) is (outcome is Outcome.HONEST)
 
 
+NOBODY: Any = None
+
+
+def drawn_of(response: PeriodicResponse, said: str = "") -> Drawn:
+    """Return a whole curve of one point."""
+    curve: Any = SimpleNamespace(
+        amplitude=np.ones((1, 1)),
+        event=[""],
+        ending="complete",
+        frequency=np.ones(1),
+        harmonics=np.ones(1),
+        iterations=np.ones(1),
+    )
+    return Drawn(Traced(curve, (response,), NOBODY), said)
+
+
 @pytest.mark.parametrize(
     ("apart", "multiplier", "outcome"),
     [
-        (0.005, 0.9, Outcome.WITHIN),
+        (0.003, 0.9, Outcome.WITHIN),
+        (0.005, 0.9, Outcome.HONEST),
         (0.05, 0.9, Outcome.HONEST),
         (0.5, 0.9, Outcome.DISAGREES),
         (0.5, 1.5, Outcome.HONEST),
@@ -102,21 +122,51 @@ def test_a_march_judges_where_shooting_finds_nothing(
         monkeypatch.setattr(stress_witness, name, stand_in)
     made = comparison(0.0, 1e-3, 0.9).response
     response = replace(made, error=1e-3, multipliers=np.array([multiplier + 0.0j]))
-    curve: Any = SimpleNamespace(
-        amplitude=np.ones((1, 1)),
-        event=[""],
-        ending="complete",
-        frequency=np.ones(1),
-        harmonics=np.ones(1),
-        iterations=np.ones(1),
-    )
-    nobody: Any = None
-    traced = Traced(curve, (response,), nobody)
 
-    *_, found = stress_witness.witnessed(nobody, traced, Clock(60.0))
+    *_, found = stress_witness.witnessed(NOBODY, drawn_of(response), Clock(60.0))
 
     assert found.outcome is outcome
     assert "no orbit by shooting" in found.cause
+
+
+@pytest.mark.parametrize(
+    ("difference", "outcome"), [(1e-3, Outcome.WITHIN), (0.02, Outcome.HONEST)]
+)
+def test_a_curve_that_stands_in_for_another_agrees_within_one_per_cent_at_best(
+    difference: float, outcome: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    unsure = replace(comparison(difference, 1e-3, 0.9), predicted_error=math.inf)
+    monkeypatch.setattr(stress_witness, "compared", lambda *_: unsure)
+    monkeypatch.setattr(stress_witness, "condition", lambda *_: 1.0)
+    coarse = drawn_of(replace(unsure.response, error=math.inf), "out of time; instead")
+
+    *_, found = stress_witness.witnessed(NOBODY, coarse, Clock(60.0))
+
+    assert found.outcome is outcome
+    assert found.cause.startswith("harmonic balance: out of time; instead")
+    assert "confirm" not in found.cause
+
+
+def test_orbits_that_are_compared_have_multipliers(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    told = comparison(1e-3, 1e-2, 0.9)
+    known = replace(told.response, multipliers=np.array([1.5 + 0.0j]))
+    seen: list[PeriodicResponse] = []
+
+    def compared(_: object, response: PeriodicResponse) -> Comparison:
+        seen.append(response)
+        return told
+
+    monkeypatch.setattr(stress_witness, "with_multipliers", lambda *_: known)
+    monkeypatch.setattr(stress_witness, "compared", compared)
+    monkeypatch.setattr(stress_witness, "condition", lambda *_: 1.0)
+    drawn = drawn_of(told.response)._replace(options=CurveOptions(1.0, 2.0))
+
+    *_, found = stress_witness.witnessed(NOBODY, drawn, Clock(60.0))
+
+    assert seen == [known]
+    assert found.outcome is Outcome.AGREES
 
 
 def test_the_rate_leaves_out_what_is_refused() -> None:

@@ -57,16 +57,16 @@ def trace_curve(
     searching: Watch = iter,
     *,
     pruned: bool = True,
+    stability: bool = True,
 ) -> Traced:
     """Trace a scene's curve; keep what there is when it cannot go on or is stopped.
 
     ``wanted`` says what is sought beside it, and ``searching`` watches the search for
-    detached curves; ``pruned``, whether what always stays at zero is left out.
+    detached curves; ``pruned``, whether what always stays at zero is left out;
+    ``stability``, whether its points have multipliers.
     """
-    rest, options = (
-        static_equilibrium(problem),
-        replace(curve_options(curve), pruned=pruned),
-    )
+    rest = static_equilibrium(problem)
+    options = replace(curve_options(curve), pruned=pruned, stability=stability)
     traced = _gathered(problem, rest, _all(problem, rest, options, wanted), watch)
     ending = traced.curve.ending
     if not wanted.detached or not (ending == "complete" or ending.startswith(LOST)):

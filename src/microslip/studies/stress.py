@@ -15,7 +15,8 @@ from microslip.scene_file import load_scene
 from microslip.studies.bounded import Ended, bounded
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_case import Case
-from microslip.studies.stress_clock import Clock, OutOfTimeError, heeded
+from microslip.studies.stress_clock import Clock, OutOfTimeError
+from microslip.studies.stress_curve import Drawn, drawn
 from microslip.studies.stress_finding import (
     EXPECTED,
     Finding,
@@ -32,8 +33,6 @@ from timedomain.whole_orbit import whole_orbit
 
 TOLERANCE = "curve.tolerance=5e-3"
 """half of what is asked, unless the curve is told otherwise"""
-TRACING = 0.6
-"""share of a case's time after which its curve is left"""
 
 
 def tried(
@@ -75,7 +74,7 @@ def _prepare(scene: str, overrides: tuple[str, ...]) -> None:
     first = traced.responses[0]
     deque(march_periods(problem, first, periods=1, steps_per_period=60), maxlen=0)
     whole_orbit(PeriodMap.of(problem, first.frequency, 2 * BLOCK), first)
-    deque(witnessed(problem, traced, Clock(math.inf)), maxlen=0)
+    deque(witnessed(problem, Drawn(traced), Clock(math.inf)), maxlen=0)
 
 
 def _studied(
@@ -92,8 +91,7 @@ def _studied(
     try:
         loaded = load_scene(*own)
         problem = problem_of(loaded)
-        with clock.until(TRACING):
-            traced = trace_curve(problem, loaded.curve, heeded)
+        made = drawn(problem, loaded.curve, clock)
     except (*EXPECTED, OutOfTimeError) as error:
         told = f"harmonic balance: {line(error)}"
         yield Finding(cause=told)
@@ -101,4 +99,4 @@ def _studied(
             also = from_rest(problem, loaded, clock)
             yield Finding(cause=causes(told, also))
         return
-    yield from witnessed(problem, traced, clock)
+    yield from witnessed(problem, made, clock)

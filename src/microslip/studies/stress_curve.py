@@ -17,7 +17,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import response_curve
 from microslip_mechanics.static import static_equilibrium
 
-TRACING, COARSE = 0.58, 0.71
+TRACING, COARSE = 0.6, 0.71
 """shares of a case's time after which a curve, and the one instead of it, is left"""
 FEW = 7
 """harmonics of that one"""

@@ -31,9 +31,9 @@ from timedomain.closed_march import ShootingError
 from timedomain.comparison import COVERAGE, compared
 from timedomain.verify import agreement, march_periods
 
-ENDS = ((0.81, 0.87), (0.94, 1.0))
+ENDS = ((0.79, 0.84), (0.91, 0.95))
 """shares of a case's time at which shooting, and a march, of each point are left"""
-RESTING, LONGEST = 0.81, 2000
+RESTING, LONGEST = 0.8, 1000
 """share of a case's time, and periods, at which a march from rest is left"""
 LEFT = 0.1
 """relative change of the amplitude in a march that leaves an orbit; what is stable
@@ -169,7 +169,7 @@ def _marched(
         return replace(finding, cause=cause), Outcome.HONEST
     size = max(float(found.predicted.max(initial=0.0)), 1e-300)
     apart = float(np.abs(found.marched - found.predicted).max(initial=0.0)) / size
-    stays = max(apart, found.last_distance) <= STAYS
+    stays = apart <= STAYS and found.last_distance <= AGREED
     told = f"{said}; a march of {PERIODS} periods is {apart:.1e} away"
     added = replace(
         finding,

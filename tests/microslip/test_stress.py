@@ -6,6 +6,7 @@ import os
 import signal
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -17,7 +18,7 @@ from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies import stress, stress_curve
 from microslip.studies.bounded import Ended, bounded
-from microslip.studies.curve import trace_curve
+from microslip.studies.curve import curve_options, trace_curve
 from microslip.studies.stress import tried
 from microslip.studies.stress_bad_values import BAD, bad_values
 from microslip.studies.stress_case import Case
@@ -240,6 +241,28 @@ def test_without_time_or_with_harmonics_that_are_given_nothing_stands_in(
 
     with pytest.raises(OutOfTimeError):
         stress_curve.drawn(problem_of(scene), scene.curve, Clock(seconds))
+
+
+def test_nothing_stands_in_for_a_curve_that_does_not_go_on(
+    compiled: None,  # noqa: ARG001
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = load_scene("two-blades", ("model=A",))
+    coarse = replace(scene.curve, harmonics=3)
+
+    def stopped(points: Iterable[PeriodicResponse]) -> Iterator[PeriodicResponse]:
+        yield next(iter(points))
+        raise ContinuationError("the curve does not go on")
+
+    problem = problem_of(scene)
+    known = trace_curve(problem, coarse, stopped)
+    monkeypatch.setattr(stress_curve, "trace_curve", lambda *_, **__: known)
+
+    made = stress_curve.drawn(problem, scene.curve, Clock(60.0))
+
+    assert made.traced is known
+    assert made.said == ""
+    assert made.options == curve_options(scene.curve)
 
 
 def test_a_defect_is_no_honest_outcome(monkeypatch: pytest.MonkeyPatch) -> None:

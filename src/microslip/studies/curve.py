@@ -67,7 +67,7 @@ def trace_curve(
     """
     rest = static_equilibrium(problem)
     options = replace(curve_options(curve), pruned=pruned, stability=stability)
-    traced = _gathered(problem, rest, _all(problem, rest, options, wanted), watch)
+    traced = traced_of(problem, rest, _all(problem, rest, options, wanted), watch)
     ending = traced.curve.ending
     if not wanted.detached or not (ending == "complete" or ending.startswith(LOST)):
         return traced
@@ -95,7 +95,7 @@ def trace_sector(
         )
     standing = problem.standing()
     traced = cyclic_response(problem, curve_options(curve))
-    return _gathered(standing, static_equilibrium(standing), traced, watch)
+    return traced_of(standing, static_equilibrium(standing), traced, watch)
 
 
 def curve_options(curve: Curve) -> CurveOptions:
@@ -109,13 +109,13 @@ def curve_options(curve: Curve) -> CurveOptions:
     )
 
 
-def _gathered(
+def traced_of(
     problem: Problem,
     rest: StaticState,
     traced: Iterator[PeriodicResponse],
     watch: Watch,
 ) -> Traced:
-    """Return what was traced until it ended or was stopped."""
+    """Return what is traced until it ends or is stopped."""
     responses, ending = gathered(watch(traced))
     made = response_curve(problem, responses, ending)
     return Traced(made, tuple(responses), rest)

@@ -13,6 +13,8 @@ from typing import TypeVar
 Item = TypeVar("Item")
 LEAST = 1e-3
 """seconds for a part whose time is over before it begins"""
+LATE = "out of time"
+"""what is said of it"""
 
 
 class OutOfTimeError(KeyboardInterrupt):
@@ -57,7 +59,7 @@ def limited(seconds: float) -> Iterator[None]:
         return
 
     def stop(*_: object) -> None:
-        raise OutOfTimeError("out of time")
+        raise OutOfTimeError(LATE)
 
     before = signal.signal(signal.SIGPROF, stop)
     signal.setitimer(signal.ITIMER_PROF, seconds)
@@ -89,4 +91,4 @@ def heeded(items: Iterable[Item]) -> Iterator[Item]:
 def _check(error: SystemError) -> None:
     """Raise the interruption of which a kernel's call has made an error."""
     if signal.getitimer(signal.ITIMER_PROF)[0] == 0.0:
-        raise OutOfTimeError("out of time") from error
+        raise OutOfTimeError(LATE) from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from dataclasses import replace
 from typing import NamedTuple
@@ -10,18 +11,15 @@ from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.experiments import Curve
-from microslip.studies.curve import Traced, curve_options, gathered, trace_curve
-from microslip.studies.stress_clock import Clock, OutOfTimeError, heeded
-from microslip.studies.stress_finding import line
+from microslip.studies.curve import Traced, curve_options, trace_curve, traced_of
+from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError, heeded
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import response_curve
 from microslip_mechanics.static import static_equilibrium
 
 TRACING, COARSE = 0.6, 0.71
 """shares of a case's time after which a curve, and the one instead of it, is left"""
 FEW = 7
 """harmonics of that one"""
-WHOLE = "complete"
 
 
 class Drawn(NamedTuple):
@@ -35,11 +33,11 @@ class Drawn(NamedTuple):
 
 
 def drawn(problem: Problem, curve: Curve, clock: Clock) -> Drawn:
-    """Return the curve; where it is not whole in time, one of few harmonics that is.
+    """Return the curve; where it is out of time, one of few harmonics that is not.
 
     Neither has multipliers: those of the orbits that are compared are enough. The
-    error of few harmonics, which is not estimated, is infinite. If neither is whole,
-    the first is what there is.
+    error of few harmonics, which is not estimated, is infinite. If they are out of time
+    too, or given, what there is of the first is returned.
 
     Raises
     ------
@@ -49,23 +47,15 @@ def drawn(problem: Problem, curve: Curve, clock: Clock) -> Drawn:
         If no curve has begun in time.
     """
     traced: Traced | None = None
-    try:
-        with clock.until(TRACING):
-            traced = trace_curve(problem, curve, heeded, stability=False)
-        said = traced.curve.ending
-    except OutOfTimeError as error:
-        said = line(error)
-    if said == WHOLE or curve.harmonics is not None:
-        return _there(traced, curve)
-    coarse = _coarse(problem, replace(curve, harmonics=FEW), clock)
-    if coarse is None:
-        return _there(traced, curve)
-    return Drawn(coarse, f"{said}; with {FEW} harmonics instead")
-
-
-def _there(traced: Traced | None, curve: Curve) -> Drawn:
+    with contextlib.suppress(OutOfTimeError), clock.until(TRACING):
+        traced = trace_curve(problem, curve, heeded, stability=False)
+    late = traced is None or traced.curve.ending == LATE
+    if late and curve.harmonics is None:
+        coarse = _coarse(problem, replace(curve, harmonics=FEW), clock)
+        if coarse is not None:
+            return Drawn(coarse, f"{LATE}; with {FEW} harmonics instead")
     if traced is None:
-        raise OutOfTimeError("out of time")
+        raise OutOfTimeError(LATE)
     return Drawn(traced, options=curve_options(curve))
 
 
@@ -73,13 +63,11 @@ def _coarse(problem: Problem, curve: Curve, clock: Clock) -> Traced | None:
     """Return a curve of fixed harmonics if it is whole in time."""
     rest = static_equilibrium(problem)
     options = replace(curve_options(curve), errors=False, stability=False)
+    responses = frequency_response(problem, rest, options)
+    unsure = (replace(each, error=math.inf) for each in responses)
     try:
         with clock.until(COARSE):
-            traced = heeded(frequency_response(problem, rest, options))
-            responses, ending = gathered(traced)
+            traced = traced_of(problem, rest, unsure, heeded)
     except (ContinuationError, OutOfTimeError):
         return None
-    if ending != WHOLE:
-        return None
-    unsure = tuple(replace(each, error=math.inf) for each in responses)
-    return Traced(response_curve(problem, unsure, ending), unsure, rest)
+    return traced if traced.curve.ending == "complete" else None

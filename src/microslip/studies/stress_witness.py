@@ -14,7 +14,7 @@ from microslip.scene_file import Scene
 from microslip.studies.dwell import dwelling
 from microslip.studies.stress_clock import Clock, OutOfTimeError
 from microslip.studies.stress_condition import condition
-from microslip.studies.stress_curve import WHOLE, Drawn
+from microslip.studies.stress_curve import Drawn
 from microslip.studies.stress_finding import (
     AGREED,
     EXPECTED,
@@ -32,7 +32,8 @@ from timedomain.comparison import COVERAGE, compared
 from timedomain.verify import agreement, march_periods
 
 ENDS = ((0.79, 0.84), (0.91, 0.95))
-"""shares of a case's time at which shooting, and a march, of each point are left"""
+"""shares of a case's time at which shooting, and a march, of each point are left; the
+rest is for what heeds its end late"""
 RESTING, LONGEST = 0.8, 1000
 """share of a case's time, and periods, at which a march from rest is left"""
 LEFT = 0.1
@@ -54,7 +55,7 @@ def witnessed(problem: Problem, drawn: Drawn, clock: Clock) -> Iterator[Finding]
     traced, said, _ = drawn
     curve = traced.curve
     places = _places(curve.amplitude.max(axis=1), curve.event)
-    whole = curve.ending == WHOLE
+    whole = curve.ending == "complete"
     told = said or ("" if whole else curve.ending)
     finding = Finding(
         cause=told and f"harmonic balance: {told}",

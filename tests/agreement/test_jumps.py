@@ -114,13 +114,13 @@ def test_too_few_rates_are_refused() -> None:
         list(jumps(problem, folds, [1e-4, 1e-4, 1e-4, 5e-5]))
 
 
-@pytest.mark.slow(seconds=30)
+@pytest.mark.slow(seconds=15)
 def test_the_rig_with_falling_friction_jumps_on_its_upper_fold() -> None:
     # Under 1.9 N the excited blade leaves 1 mm for 0.26 mm at 137.17 Hz.
     problem = rig_problem(model="A", friction__law="gkf", excitation__force="1.9 N")
-    folds = folds_of(problem, traced(problem, TURN * 133.0, TURN * 140.0), lead=8e-3)
+    folds = folds_of(problem, traced(problem, TURN * 133.0, TURN * 140.0), lead=5e-3)
     (fold,) = [each for each in folds if each.upward and each.hertz > 136.0]
 
-    (jump,) = jumps(problem, [fold], [0.4, 0.2, 0.1, 0.05], steps=400)
+    (jump,) = jumps(problem, [fold], [0.4, 0.2, 0.1, 0.05], steps=STEPS)
 
     assert abs(jump.extrapolated - fold.hertz) < 3.0 * jump.error + 1e-4 * fold.hertz

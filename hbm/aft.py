@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hbm.fourier import FourierBasis, Transform, derivative
 from hbm.memory import FrictionMemory, marched
 from hbm.sampling import Forces, hat, sample
-from hbm.symmetry import Symmetry, symmetry
+from hbm.symmetry import Symmetry, holds, symmetry
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
     PUSHED,
@@ -109,8 +109,15 @@ class AlternatingFrequencyTime:
         self._entries = _entries(points, pruned)
         recalls = bool(marched(points).any())
         self._memory = FrictionMemory(basis, fourier) if recalls else None
-        self._symmetry = symmetry(basis, self._entries, None if recalls else odd)
         samples = fourier.samples
+        self._odd, self._pruned = odd, pruned
+        self._symmetry = symmetry(
+            points,
+            self._offset,
+            basis,
+            self._entries,
+            None if recalls or samples % 2 else odd,
+        )
         self._seen = samples // 2 + 1 if self._symmetry.signs.size else samples
         self._displacement = Transform(rank, samples)
         self._velocity = Transform(rank, samples)
@@ -132,15 +139,20 @@ class AlternatingFrequencyTime:
     def with_points(
         self, points: ContactPoints, offset: Array
     ) -> AlternatingFrequencyTime:
-        """Return the same for other values of the contacts; both share buffers."""
-        kinds = (points.normal, points.friction, points.constant_load)
-        known = (
-            self._points.normal,
-            self._points.friction,
-            self._points.constant_load,
-        )
-        if not all(map(np.array_equal, kinds, known)):
-            raise ValueError("the contacts are of another kind: plan for them anew")
+        """Return the same for other values of the contacts.
+
+        Both share buffers, unless other tangents are needed or a symmetry is lost.
+        """
+        alike = not self._symmetry.signs.size or holds(self._symmetry, points, offset)
+        if not (alike and np.array_equal(_kinds(points), _kinds(self._points))):
+            return AlternatingFrequencyTime(
+                points,
+                self._basis,
+                self._fourier,
+                offset=offset,
+                odd=self._odd,
+                pruned=self._pruned,
+            )
         other = copy.copy(self)
         other._points, other._offset, other._last = points, offset, None
         return other
@@ -313,6 +325,14 @@ class AlternatingFrequencyTime:
         else:
             np.dot(self._basis.T, rows, out=self._force.samples)
         return self._force.analysis(harmonics or self._fourier.harmonics)
+
+
+def _kinds(points: ContactPoints) -> Array:
+    """Return all that says which tangents points have, shape (kinds, points)."""
+    acting = (
+        each != 0.0 for each in (points.stiffness, points.damping, points.viscous)
+    )
+    return np.array([points.normal, points.friction, points.constant_load, *acting])
 
 
 def _entries(points: ContactPoints, pruned: bool) -> NDArray[np.int64]:

@@ -64,11 +64,14 @@ class ParametricBalance:
         parameter = float(point[-1])
         problem, frequency = self._problem_at(parameter)
         if parameter not in self._past:
-            if self._balance is None:
-                self._balance = HarmonicBalance(problem, self.fourier, self._active)
             while len(self._past) >= PAST:
                 self._past.pop(next(iter(self._past)))
-            self._past[parameter] = self._balance.with_problem(problem)
+            self._past[parameter] = (
+                HarmonicBalance(problem, self.fourier, self._active)
+                if self._balance is None
+                else self._balance.with_problem(problem)
+            )
+        self._balance = self._past[parameter]
         inner = point.copy()
         inner[-1] = frequency
-        return self._past[parameter], inner
+        return self._balance, inner

@@ -8,7 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import ContactPoints
 from microslip_mechanics.jit import kernel
+
+CLOSE = 1e-9
+"""relative difference of what counts as equal"""
 
 
 class Symmetry(NamedTuple):
@@ -24,27 +28,46 @@ class Symmetry(NamedTuple):
 
 
 def symmetry(
-    basis: Array, entries: NDArray[np.int64], odd: NDArray[np.bool_] | None
+    points: ContactPoints,
+    offset: Array,
+    basis: Array,
+    entries: NDArray[np.int64],
+    odd: NDArray[np.bool_] | None,
 ) -> Symmetry:
     """Return which rows and tangents look like others half a period later.
 
     Odd coordinates change their sign then: a point moves like its mirror image did. No
-    symmetry if some point has no mirror image among the points.
+    symmetry if some point has no mirror image of the same law among the points.
+
+    Parameters
+    ----------
+    points, offset
+        Contact table, and constant displacement of the points [m], (3 points,).
+    basis
+        Map from the coordinates to the points, shape ``(3 points, rank)``.
+    entries
+        (row, column, by velocity) of each tangent.
+    odd
+        Which coordinates have odd harmonics only; None without that symmetry.
     """
     none = Symmetry(*(np.empty(0, kind) for kind in (int, float, int, float)))
     if odd is None:
         return none
     later = (basis * np.where(odd, -1.0, 1.0)).reshape(len(basis) // 3, 3, len(odd))
     faces = basis.reshape(later.shape)
-    close = 1e-9 * np.abs(basis).max(initial=0.0)
+    close = CLOSE * np.abs(basis).max(initial=0.0)
+    laws, sizes = _laws(points, offset)
     partners, signs = np.empty(len(basis), dtype=int), np.empty(len(basis))
     for point, wanted in enumerate(later):
         sign = np.where((wanted * faces).sum(axis=2) < 0.0, -1.0, 1.0)
         sign[:, 0] = 1.0  # the normal law tells pressing from pulling
         away = np.abs(wanted - sign[..., None] * faces).max(axis=(1, 2), initial=0.0)
-        if not (away <= close).any():
+        alike = np.isclose(laws, laws[:, [point]], rtol=0.0, atol=CLOSE * sizes)
+        images = (away <= close) & alike.all(axis=0)
+        if not images.any():
             return none
-        image, rows = int((away <= close).argmax()), slice(3 * point, 3 * point + 3)
+        image = point if images[point] else int(images.argmax())
+        rows = slice(3 * point, 3 * point + 3)
         partners[rows], signs[rows] = 3 * image + np.arange(3), sign[image]
     places = {tuple(entry): place for place, entry in enumerate(entries.tolist())}
     turned = [
@@ -59,6 +82,26 @@ def symmetry(
         np.array(turned, dtype=int),
         signs[entries[:, 0]] * signs[entries[:, 1]],
     )
+
+
+def holds(symmetry: Symmetry, points: ContactPoints, offset: Array) -> bool:
+    """Return whether each point still has the law of its mirror image."""
+    laws, sizes = _laws(points, offset)
+    images = symmetry.partners[::3] // 3
+    return np.allclose(laws, laws[:, images], rtol=0.0, atol=CLOSE * sizes)
+
+
+def _laws(points: ContactPoints, offset: Array) -> tuple[Array, Array]:
+    """Return the values of the points' laws, and their sizes, (values, points) each.
+
+    Gaps count from where a point is without vibration.
+    """
+    laws = np.array([np.asarray(each, float) for each in points])
+    sizes, shift = np.abs(laws), offset[::3]
+    place = ContactPoints._fields.index("gap")
+    laws[place] -= shift
+    sizes[place] += np.abs(shift)
+    return laws, sizes
 
 
 @kernel

@@ -188,3 +188,19 @@ def test_force_on_the_coordinates_is_that_of_the_points_brought_back() -> None:
     at_points = AlternatingFrequencyTime(points, np.eye(6), fourier)
     expected = at_points(motion @ basis.T, FREQUENCY)[0] @ basis
     np.testing.assert_allclose(force, expected, atol=1e-14)
+
+
+def test_values_that_were_zero_have_their_tangents_when_they_are_not() -> None:
+    still = contact_points(friction=0, stiffness=3.0, damping=0.0)
+    damped = still._replace(damping=np.array([0.7]))
+    motion = moved(normal=(COSINE, AMPLITUDE))
+    motion[MEAN, 0] = 2.0 * AMPLITUDE
+
+    made = one_point(still).with_points(damped, np.zeros(3))
+    anew = one_point(damped)
+
+    for contact in (made, anew):
+        contact(motion, FREQUENCY)
+    for found, expected in zip(made.spectra(3), anew.spectra(3), strict=True):
+        assert np.abs(expected).max() > 0.0
+        np.testing.assert_allclose(found, expected, atol=1e-14)

@@ -10,7 +10,10 @@ from hbm.active import extended, moving, symmetric
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem, relative_problem
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from rigs import rig_problem
 from sliding import (
     FREQUENCY,
@@ -39,7 +42,7 @@ def rig(
     return half, dataclasses.replace(half, odd=None), active[:, kept]
 
 
-@pytest.mark.parametrize("samples", [64, 66, 256])
+@pytest.mark.parametrize("samples", [64, 65, 66, 256])
 @pytest.mark.parametrize("law", ["coulomb", "gkf"])
 @pytest.mark.parametrize("model", ["A", "B", "full"])
 def test_half_a_period_says_all_of_the_rig(model: str, law: str, samples: int) -> None:
@@ -99,3 +102,59 @@ def test_a_normal_force_is_never_the_mirror_image_of_its_own() -> None:
     ]
 
     np.testing.assert_allclose(forces[0], forces[1], rtol=0.0, atol=1e-14)
+
+
+def sliders(*friction: float) -> RelativeProblem:
+    """Return 1 kg on 1 kN/m, driven, on so many rough planes under 1 N each."""
+    laws = [
+        RegularisedCoulomb(mu=mu, load=1.0, threshold_velocity=1e-3) for mu in friction
+    ]
+    made = system(
+        mass=[1.0],
+        stiffness=[1e3],
+        names=("x",),
+        elements=[Element(law, tangents=[("x", "ground")]) for law in laws],
+        drive={"x": (1.0, 0.0)},
+    )
+    whole = relative_problem(made, static_equilibrium(made))
+    kept, odd = symmetric(moving(whole, FREQUENCY))
+    assert odd is not None
+    return whole.restricted(kept, odd)
+
+
+@pytest.mark.parametrize("friction", [(0.1, 0.4), (0.4, 0.1)])
+def test_a_point_of_another_law_is_no_mirror_image(
+    friction: tuple[float, float],
+) -> None:
+    half = sliders(*friction)
+    fourier = FourierBasis(3, 64)
+    moved = np.array([[0.0], [1e-3], [-2e-3], [0.0], [0.0], [0.0], [0.0]])
+
+    contacts = [
+        half.contact(fourier),
+        sliders(0.3, 0.3).contact(fourier).with_points(half.points, half.offset),
+        dataclasses.replace(half, odd=None).contact(fourier),
+    ]
+    forces = [each(moved, FREQUENCY)[0].copy() for each in contacts]
+
+    unit = np.abs(forces[-1]).max()
+    for force in forces[:-1]:
+        np.testing.assert_allclose(force, forces[-1], rtol=0.0, atol=1e-12 * unit)
+
+
+def test_a_mirror_image_that_becomes_another_is_one_no_more() -> None:
+    half, _, active = rig(model="full")
+    fourier, draw = FourierBasis(HARMONICS, 64), np.random.default_rng(3)
+    moves = extended(active, HARMONICS)
+    moved = 1e-4 * draw.standard_normal(moves.shape) * moves
+    dynamic = half.points.dynamic * np.linspace(1.0, 2.0, half.points.dynamic.size)
+    other = dataclasses.replace(half, points=half.points._replace(dynamic=dynamic))
+
+    found = half.contact(fourier).with_points(other.points, other.offset)
+    whole = dataclasses.replace(other, odd=None).contact(fourier)
+
+    expected, _ = whole(moved, FREQUENCY)
+    unit = np.abs(expected).max()
+    np.testing.assert_allclose(
+        found(moved, FREQUENCY)[0], expected, rtol=0.0, atol=1e-11 * unit
+    )

@@ -116,7 +116,9 @@ class AdaptiveBalance:
         normal: Array,
         tolerance: float,
         small: Small | None = None,
+        *,
         share: float = 1.0,
+        across: bool = False,
     ) -> Correction:
         """Refine a converged point until its error is small enough, and note the error.
 
@@ -124,8 +126,9 @@ class AdaptiveBalance:
         ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`, ``share``
         that of the error that is allowed with fewer than :data:`MARKED` harmonics. With
         less than the whole, a point of unknown error stays as it is; so does one that
-        has the most harmonics and whose friction cannot be sharper. What is returned
-        may have failed.
+        has the most harmonics and whose friction cannot be sharper. ``across`` says
+        that the error is one in that plane, not at constant frequency, as at a fold.
+        What is returned may have failed.
         """
         while True:
             self.settled = self.fourier
@@ -133,7 +136,7 @@ class AdaptiveBalance:
             if not self._estimates:
                 return correction
             try:
-                self.estimate = self._estimated(correction, normal)
+                self.estimate = self._estimated(correction, normal, across)
             except SingularError:
                 self.estimate = None
                 return correction
@@ -162,15 +165,19 @@ class AdaptiveBalance:
             if not converged:
                 return correction
 
-    def _estimated(self, correction: Correction, normal: Array) -> Estimate:
+    def _estimated(
+        self, correction: Correction, normal: Array, across: bool
+    ) -> Estimate:
         """Return the error at constant frequency or, where that is steep, across."""
+        if across:
+            return self._resolution.estimate(correction, self.fourier, normal)
         upright = np.zeros_like(normal)
         upright[-1] = 1.0
         estimate = self._resolution.estimate(correction, self.fourier, upright)
         if estimate.error < STEEP:
             return estimate
-        across = self._resolution.estimate(correction, self.fourier, normal)
-        return min(estimate, across, key=lambda each: each.error)
+        other = self._resolution.estimate(correction, self.fourier, normal)
+        return min(estimate, other, key=lambda each: each.error)
 
     def kept(self, point: Array) -> tuple[Array, FourierBasis, float]:
         """Return the settled point as it is to be reported, its resolution and error.

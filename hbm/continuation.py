@@ -209,17 +209,11 @@ def _next(
     normal = direction / scale**2
     normal /= np.abs(normal).max()
     failures = 0
-    small = _small(control, lambda _: scale)
     while True:
         predicted = past.predict(step)
-        candidate = correct(
-            system, predicted, normal, tolerance=control.tolerance, small=small
+        candidate, close = _settled(
+            system, predicted, normal, scale, step, control, settler
         )
-        moved = float(np.linalg.norm((candidate.point - predicted) / scale))
-        slack = control.shift if settler.changed else control.slack
-        close = moved <= max(0.5 * step, slack)
-        if candidate.outcome is Outcome.CONVERGED and close:
-            candidate = settler.settle(candidate, normal, control.tolerance, small)
         candidate = _directed(candidate, direction, scale)
         if candidate.outcome is Outcome.CONVERGED:
             cosine = float((candidate.along / scale) @ (direction / scale))
@@ -235,6 +229,44 @@ def _next(
         if step < 0.1 * control.largest:
             past.order = 1
         step = max(step * 0.5, control.smallest)
+
+
+def _settled(
+    system: System,
+    predicted: Array,
+    normal: Array,
+    scale: Array,
+    step: float,
+    control: StepControl,
+    settler: Settler,
+) -> tuple[Correction, bool]:
+    """Return a point across a prediction, settled if it is close to it, and whether.
+
+    If settling moves it far away, to another branch perhaps, and the system that this
+    has made finer has a point close to the prediction, that one is taken.
+    """
+    small = _small(control, lambda _: scale)
+
+    def found() -> tuple[Correction, bool]:
+        candidate = correct(
+            system, predicted, normal, tolerance=control.tolerance, small=small
+        )
+        slack = control.shift if settler.changed else control.slack
+        near = away(candidate) <= max(0.5 * step, slack)
+        return candidate, near and candidate.outcome is Outcome.CONVERGED
+
+    def away(candidate: Correction) -> float:
+        return float(np.linalg.norm((candidate.point - predicted) / scale))
+
+    candidate, close = found()
+    if not close:
+        return candidate, False
+    settled = settler.settle(candidate, normal, control.tolerance, small)
+    if away(settled) > max(0.5 * step, control.shift):
+        again, close = found()
+        if close:
+            settled = settler.settle(again, normal, control.tolerance, small)
+    return settled, True
 
 
 def _directed(candidate: Correction, direction: Array, scale: Array) -> Correction:

@@ -88,8 +88,10 @@ class Events:
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
             small = segment.small(PRECISION * SURE)
-            share = STRICT if name in SHARP else 1.0
-            settled = self.system.settle(located, normal, tolerance, small, share)
+            share, turns = STRICT if name in SHARP else 1.0, name == "fold"
+            settled = self.system.settle(
+                located, normal, tolerance, small, share=share, across=turns
+            )
             moved = float(np.linalg.norm((settled.point - located.point) / scale))
             if settled.outcome is Outcome.CONVERGED and moved < segment.length:
                 yield settled, name

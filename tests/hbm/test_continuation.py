@@ -341,6 +341,32 @@ def test_a_system_that_changes_may_move_a_point_by_more_than_the_step() -> None:
     assert along @ (points[1] - points[0]) == pytest.approx(CONTROL.initial / 8.0)
 
 
+class Leaping(Picky):
+    """Moves points to the neighbouring line the first time it makes them finer."""
+
+    def settle(
+        self,
+        correction: Correction,
+        normal: Array,
+        tolerance: float,
+        small: Small | None = None,
+    ) -> Correction:
+        found = super().settle(correction, normal, tolerance, small)
+        if self.told.count("settle") != 2:
+            return found
+        return dataclasses.replace(found, point=found.point + 0.4 * normal)
+
+
+def test_a_point_that_settling_moves_far_away_is_sought_from_the_prediction() -> None:
+    settler = Leaping()
+
+    points = settled(settler, 3)
+
+    assert settler.told == [*("settle", "keep"), "settle", *("settle", "keep") * 2]
+    for point in points:
+        assert np.abs(line(point)[0]).max() < 1e-9
+
+
 @pytest.mark.parametrize(
     ("steps", "text"),
     [

@@ -41,7 +41,7 @@ class Line:
         """Return its tangent there."""
         return np.array([2.0, 1.0])
 
-    def settle(self, correction: Correction, *_: object) -> Correction:
+    def settle(self, correction: Correction, *_: object, **__: object) -> Correction:
         """Return a point that needs nothing more."""
         return correction
 

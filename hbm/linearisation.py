@@ -1,4 +1,4 @@
-"""Solutions with the bordered Jacobian of harmonic balance (theory, eqs. 18–20)."""
+"""Solutions with the bordered Jacobian of harmonic balance (theory, eqs. 18–19)."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """The part of a curve between two of its points, and the place of a zero on it.
 
 It is parametrised by the distance along the tangent at the first point; a sign change
-of a test function is refined by Brent's method, each of its evaluations being a
-corrected point (theory §6).
+of a test function is refined by Brent's method, or by bisection where the precision is
+:data:`ROUGHER`, each of its evaluations being a corrected point (theory §6).
 """
 
 from __future__ import annotations

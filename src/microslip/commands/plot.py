@@ -13,8 +13,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "plot",
         help="draw a result file again",
-        description="Draw the picture of a file that frc, sweep or dwell wrote, also "
-        "of a run that was stopped or is still going on.",
+        description="Draw the picture of a file that frc, follow, sweep, dwell or "
+        "decay wrote, also of a run that was stopped or is still going on.",
         epilog="example: microslip plot two-blades-frc.nc -o curve.pdf",
     )
     parser.add_argument("file", type=Path, help="netCDF file of a result")

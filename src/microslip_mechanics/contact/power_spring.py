@@ -1,4 +1,4 @@
-"""A spring and a damper that pull and push: F = K xᵖ + C |ẋ|^q ẋ (theory, eq. 8a)."""
+"""A spring and a damper that pull and push: F = K xᵖ + C |ẋ|^q ẋ (theory, eq. 7a)."""
 
 from __future__ import annotations
 

@@ -60,6 +60,11 @@ class ModeOptions:
             value = getattr(self, name)
             if not 0.0 < value < math.inf:
                 raise ValueError(f"{name} {value:g}: give a positive number")
+        if self.harmonics is not None and self.harmonics < 1:
+            raise ValueError(
+                f"harmonics {self.harmonics}: give at least 1, or None for as many as "
+                "the error asks for"
+            )
 
     @property
     def first(self) -> FourierBasis:
@@ -146,7 +151,7 @@ def nonlinear_mode(
     system = AdaptiveBalance(
         resolution,
         options.first,
-        tolerance=None if options.harmonics else options.error,
+        tolerance=options.error if options.harmonics is None else None,
         most=MOST,
     )
     with threadpool_limits(1, "blas"), placed(_metres):

@@ -31,7 +31,7 @@ class CurveOptions:
     error: float = 1e-3
     """of the amplitude at each point, relative: harmonics and samples follow from it"""
     harmonics: int | None = None
-    """fixed number instead"""
+    """fixed number instead, at least 1"""
     samples: int | None = None
     """fixed number per period; 16 (harmonics + 1) if left out"""
     tolerance: float = 1e-8
@@ -57,7 +57,7 @@ class CurveOptions:
     :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger one if left out"""
 
     def __post_init__(self) -> None:
-        """Check the range."""
+        """Check range, accuracy and harmonics."""
         if not np.isfinite([self.start, self.end]).all() or self.start == self.end:
             raise ValueError(
                 f"from {self.start:g} to {self.end:g}: give two different finite values"
@@ -66,6 +66,11 @@ class CurveOptions:
             value = getattr(self, name)
             if value is not None and not 0.0 < value < np.inf:
                 raise ValueError(f"{name} {value:g}: give a positive number")
+        if self.harmonics is not None and self.harmonics < 1:
+            raise ValueError(
+                f"harmonics {self.harmonics}: give at least 1, or None for as many as "
+                "the error asks for"
+            )
         if self.samples is not None and self.harmonics is None:
             raise ValueError("samples without harmonics: give both, or harmonics alone")
 
@@ -81,7 +86,7 @@ class CurveOptions:
         With a ``drive`` [N], and without fixed harmonics, Newton's iteration ends where
         it no longer changes the motion.
         """
-        ends_early = drive > 0.0 and not self.harmonics
+        ends_early = drive > 0.0 and self.harmonics is None
         return StepControl(
             tolerance=self.tolerance * force_scale,
             initial=min(0.02, self.largest_step),

@@ -34,7 +34,7 @@ class Tracer:
         self.system = AdaptiveBalance(
             resolution,
             replace(options.first, threshold=smoothest(path, options)),
-            tolerance=None if options.harmonics else options.error,
+            tolerance=options.error if options.harmonics is None else None,
             most=options.most_harmonics,
             errors=options.errors,
             effort=self.effort,

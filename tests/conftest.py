@@ -109,7 +109,8 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     def undrawn(*_: object) -> None:
         return
 
-    for name in ("figures.curve.curve_figure", "figures.result.result_figure"):
+    # the first, when it is loaded, takes the second as it is then
+    for name in ("figures.result.result_figure", "figures.curve.curve_figure"):
         monkeypatch.setattr(f"microslip.{name}", undrawn)
     monkeypatch.setattr("microslip.store.save_figure", undrawn)
 

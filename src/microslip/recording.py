@@ -67,26 +67,33 @@ def resumed(path: Path, scene: str) -> tuple[Recording, Growing]:
         If the march of this file cannot go on.
     """
     end, head = end_of(path)
-    if head.text("scene") != scene:
-        raise SceneError(
-            f"{path} is the march of another scene: give the scene and the overrides "
-            f"of its command, {head.text('command')}"
-        )
+    _demand_same(path, head, scene)
     if end.ending == "complete":
         raise StoreError(f"{path} is complete: there is nothing to resume")
     return Recording(path, scene, head.text("command"), head), end
 
 
-def last_state(path: Path) -> tuple[Checkpoint, float]:
-    """Return where a march stood at its end, and the drive's frequency there [rad/s].
+def last_state(path: Path, scene: str) -> tuple[Checkpoint, float]:
+    """Return where a march of this scene stood at its end, and its drive's ω [rad/s].
 
     Raises
     ------
+    SceneError
+        If the file is that of another scene.
     StoreError
         If the file does not tell.
     """
     end, head = end_of(path)
+    _demand_same(path, head, scene)
     if end.checkpoint is None or not head.rows or "frequency" not in head.growing:
         raise StoreError(f"{path} does not tell where its march ended: march anew")
     row = rows_of(path, head, head.rows - 1, 1)
     return end.checkpoint, float(row["frequency"][0])
+
+
+def _demand_same(path: Path, head: Head, scene: str) -> None:
+    if head.text("scene") != scene:
+        raise SceneError(
+            f"{path} is the march of another scene: give the scene and the overrides "
+            f"of its command, {head.text('command')}"
+        )

@@ -108,15 +108,13 @@ def save_figure(path: Path, figure: Figure) -> None:
     StoreError
         If the file cannot be written or the ending is unknown.
     """
-    try:
-        figure.savefig(path, dpi=160)
-    except OSError as error:
-        reason = error.strerror or error
-        raise StoreError(f"{path} cannot be written: {reason}") from None
-    except ValueError:
+    ending = path.suffix[1:].lower()
+    if ending and ending not in figure.canvas.get_supported_filetypes():
         raise StoreError(
             f"{path} cannot be written: give an ending such as .png, .pdf or .svg"
-        ) from None
+        )
+    with told(path):
+        figure.savefig(path, dpi=160)
 
 
 def save_table(

@@ -146,13 +146,13 @@ def response_curve(
     contacts = (problem.interface.count,)
     seen = [_seen(point, problem.probes.rows) for point in points]
     amplitude, peak, velocity_peak = (
-        np.array(column).reshape(-1, *probes)
+        np.array(column).reshape(len(points), *probes)
         for column in (zip(*seen, strict=True) if seen else ((), (), ()))
     )
 
     def column(name: str, shape: tuple[int, ...] = ()) -> Array:
         values = [getattr(point, name) for point in points]
-        return np.array(values, dtype=float).reshape(-1, *shape)
+        return np.array(values, dtype=float).reshape(len(points), *shape)
 
     return ResponseCurve(
         column("frequency"),

@@ -8,6 +8,7 @@ import pytest
 from contact_tables import contact_points
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis, to_complex
+from hbm.modes import ModeOptions
 from hbm.options import CurveOptions
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
@@ -275,6 +276,15 @@ def test_what_spans_no_range_is_refused(end: float) -> None:
     text = rf"^from 3 to {end:g}: give two different finite values$"
     with pytest.raises(ValueError, match=text):
         CurveOptions(3.0, end)
+
+
+@pytest.mark.parametrize("harmonics", [0, -1])
+def test_fewer_than_one_harmonic_are_refused(harmonics: int) -> None:
+    text = rf"^harmonics {harmonics}: give at least 1, or None"
+    with pytest.raises(ValueError, match=text):
+        CurveOptions(3.0, 4.0, harmonics=harmonics)
+    with pytest.raises(ValueError, match=text):
+        ModeOptions(1e-5, 1e-4, harmonics=harmonics)
 
 
 @pytest.mark.parametrize(("start", "end"), [(0.0, 3.0), (3.0, -1.0)])

@@ -11,6 +11,7 @@ import pytest
 
 from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
 from microslip.experiments import March
+from microslip.quantity import SceneError
 from microslip.result_file import load
 from microslip.studies.decay import liveliest, measured, released
 from microslip_mechanics.problem import Problem
@@ -119,15 +120,23 @@ def test_decay_is_measured_from_a_dwell_and_from_a_file(
     np.testing.assert_array_equal(history.level, 0.0)
 
 
-def test_state_of_another_structure_is_refused(
-    run: Run, quick_scene: Path, tmp_path: Path
+@pytest.mark.parametrize("change", ["blade.elements=3", "friction.mu_dynamic=0.1"])
+def test_march_of_another_scene_is_refused(
+    change: str, run: Run, quick_scene: Path, tmp_path: Path
 ) -> None:
     run("sweep", str(quick_scene))
 
-    words = ("--set", "blade.elements=3", "--from", "quick-sweep.nc")
+    words = ("--set", change, "--from", "quick-sweep.nc")
     status, _, error = run("decay", str(quick_scene), *words)
 
     assert status == 2
-    assert "give the scene of its file" in error
+    assert "quick-sweep.nc is the march of another scene" in error
     assert error.count("\n") == 1
     assert not (tmp_path / "quick-decay.nc").exists()
+
+
+def test_state_of_another_structure_is_refused() -> None:
+    two = Start(np.zeros(2), np.zeros(2))
+
+    with pytest.raises(SceneError, match="give the scene of its file"):
+        let_go(oscillator(preload=4.0), two, 10.0, periods=1)

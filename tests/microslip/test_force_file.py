@@ -1,14 +1,30 @@
 """Forces from files: what is read, what is refused and in which words."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import pytest
 
 from microslip.force_file import read_force
 from microslip.quantity import SceneError
+from microslip.result_file import load
 from microslip.scene_file import load_scene
 from microslip.studies.loads import load_history
+from microslip_mechanics.time_history import TimeHistory
+from scene_texts import EXPERIMENTS
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+MASS = """
+scene = "system"
+[structure]
+names = ["x"]
+mass = [1]
+stiffness = [1000]
+[drive]
+x = "2 N"
+"""
 
 
 @pytest.mark.parametrize(
@@ -103,3 +119,45 @@ def test_force_without_a_drive_is_refused(quick_scene: Path) -> None:
 
     with pytest.raises(SceneError, match="give it a value"):
         load_history(load_scene(str(quick_scene), words))
+
+
+@pytest.mark.usefixtures("no_picture")
+def test_force_of_a_system_acts_where_its_drive_does(run: Run, tmp_path: Path) -> None:
+    # a linear mass of 1 kg on 1000 N/m, without damping, pushed by 3 N from 0 on
+    (tmp_path / "step.csv").write_text("0,3\n1,3\n")
+    path = tmp_path / "mass.toml"
+    path.write_text(MASS + EXPERIMENTS, encoding="utf-8")
+
+    status, _, error = run("sweep", str(path), "--set", "sweep.force_file=step.csv")
+
+    assert (status, error) == (0, "")
+    history = load(tmp_path / "mass-sweep.nc").result
+    assert isinstance(history, TimeHistory)
+    expected = 3e-3 * (1.0 - np.cos(np.sqrt(1000.0) * history.time))
+    np.testing.assert_allclose(history.displacement[:, 0], expected, atol=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("scene", "words", "hint"),
+    [
+        ("bladed-disk", ["solve=disk", "sectors=3"], "give one [drive] without phase"),
+        ("jenkins", ["drive.x={amplitude = 1, phase = 1}"], "without phase"),
+        ("chain", ["drive.x1=1"], "give one [drive]"),
+        ("jenkins", ["drive.x=0"], "[drive] x = 0 N"),
+    ],
+)
+def test_force_without_one_drive_along_which_to_act_is_refused(
+    scene: str, words: list[str], hint: str, run: Run, tmp_path: Path
+) -> None:
+    (tmp_path / "step.csv").write_text("0,3\n1,3\n")
+    sets = [
+        part
+        for each in ("sweep.force_file=step.csv", *words)
+        for part in ("--set", each)
+    ]
+
+    status, output, error = run("sweep", scene, *sets)
+
+    assert (status, output) == (2, "")
+    assert hint in error
+    assert error.count("\n") == 1

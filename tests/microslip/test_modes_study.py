@@ -7,13 +7,23 @@ from pathlib import Path
 
 import pytest
 
-from hbm.modes import ModeOptions, NonlinearMode
+from hbm.errors import ContinuationError
+from hbm.modes import ModeOptions, NonlinearMode, nonlinear_mode
 from microslip.cli import main
 from microslip.studies.modes import followed
 from rigs import rig_problem
 
 RANGE = (800.0, 900.0)
+TWO = ["--set", "friction.law=none", "--range", "127.3", "143.3"]
 FEW = ["--harmonics", "5", "--amplitudes", "0.1", "0.34"]
+
+
+def two_modes(folder: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:
+    """Return status and output of the command for two modes of model A."""
+    few = ["--harmonics", "3", "--amplitudes", "0.1", "0.12"]
+    words = ["modes", "two-blades", "--set", "model=A", *TWO, *few]
+    status = main([*words, "-o", str(folder / "modes")])
+    return status, *capsys.readouterr()
 
 
 def test_the_command_writes_a_table_and_a_picture(
@@ -76,3 +86,57 @@ def test_two_modes_in_a_range_are_both_followed() -> None:
         assert mode.ending == "complete"
         hertz = mode.points[-1].frequency / math.tau
         assert hertz == pytest.approx(136.836, abs=1e-3)
+
+
+def test_a_mode_without_a_first_point_leaves_the_others(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    begun: list[object] = []
+
+    def lost(*arguments: object) -> Iterator[NonlinearMode]:
+        begun.append(arguments)
+        if len(begun) == 2:
+            raise ContinuationError("no first point: try less")
+        yield from nonlinear_mode(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("microslip.studies.modes.nonlinear_mode", lost)
+
+    status, output, error = two_modes(tmp_path, capsys)
+
+    assert status == 1
+    assert output.count("most damped") == 1
+    assert "it has no first point: no first point: try less" in output
+    told = "microslip: no first point: try less; what was computed is kept\n"
+    assert error == told
+    assert (tmp_path / "modes.csv").stat().st_size > 100
+    assert (tmp_path / "modes.png").is_file()
+
+
+def test_modes_without_any_point_leave_no_file(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def lost(*_: object) -> Iterator[NonlinearMode]:
+        raise ContinuationError("no first point: try less")
+
+    monkeypatch.setattr("microslip.studies.modes.nonlinear_mode", lost)
+
+    status, _, error = two_modes(tmp_path, capsys)
+
+    assert (status, error) == (1, "microslip: no first point: try less\n")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_table_that_cannot_be_written_is_told_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "modes.csv").mkdir()
+
+    status, _, error = two_modes(tmp_path, capsys)
+
+    assert status == 1
+    assert error.startswith(f"microslip: {tmp_path / 'modes.csv'} cannot be")
+    assert error.count("\n") == 1

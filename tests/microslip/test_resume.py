@@ -11,6 +11,7 @@ import pytest
 
 from microslip.recording import last_state
 from microslip.result_file import load
+from microslip.scene_file import load_scene
 from microslip.store import StoreError
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
@@ -107,7 +108,8 @@ def test_last_state_is_that_of_the_last_row(
 ) -> None:
     run("sweep", str(quick_scene))
 
-    state, frequency = last_state(tmp_path / "quick-sweep.nc")
+    scene = load_scene(str(quick_scene)).text
+    state, frequency = last_state(tmp_path / "quick-sweep.nc", scene)
 
     history = load(tmp_path / "quick-sweep.nc").result
     assert isinstance(history, TimeHistory)
@@ -148,4 +150,4 @@ def test_state_of_a_curve_is_refused(
     run("frc", str(quick_scene), "-o", "curve")
 
     with pytest.raises(StoreError, match="give what sweep or dwell wrote"):
-        last_state(tmp_path / "curve.nc")
+        last_state(tmp_path / "curve.nc", "")

@@ -323,6 +323,13 @@ def test_picture_of_an_unknown_format_is_told_in_words(tmp_path: Path) -> None:
         save_figure(tmp_path / "picture.xyz", Figure())
 
 
+def test_picture_that_cannot_be_drawn_is_not_blamed_on_its_ending(
+    tmp_path: Path,
+) -> None:
+    with pytest.raises(ValueError, match="too large"):
+        save_figure(tmp_path / "picture.png", Figure(figsize=(1e6, 1.0)))
+
+
 @pytest.mark.parametrize(
     ("ending", "start"),
     [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml")],

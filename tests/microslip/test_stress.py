@@ -26,6 +26,7 @@ from microslip.studies.stress_cases import cases
 from microslip.studies.stress_clock import Clock, OutOfTimeError, heeded, limited
 from microslip.studies.stress_finding import Finding, Outcome, Tried
 from microslip_mechanics.response import PeriodicResponse
+from timedomain.closed_march import ShootingError
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 ENDS = {
@@ -86,6 +87,23 @@ def test_bad_values_are_given_to_each_number() -> None:
 def test_a_system_is_not_put_under_stress() -> None:
     with pytest.raises(SceneError, match="two blades"):
         cases(load_scene("duffing"))
+
+
+def test_a_rig_that_nothing_drives_is_not_put_under_stress(run: Run) -> None:
+    status, output, error = run("stress", "two-blades", "--set", "excitation.force=0")
+
+    assert (status, output) == (2, "")
+    assert "nothing vibrates" in error
+    assert error.count("\n") == 1
+
+
+def test_what_a_scene_does_not_allow_does_not_end_the_process_before_a_case() -> None:
+    still = ("model=A", "excitation.force=0")
+
+    stress._prepare("two-blades", still)
+
+    with pytest.raises(ShootingError):
+        stress._warmed("two-blades", still)
 
 
 @pytest.mark.slow

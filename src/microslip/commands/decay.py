@@ -108,7 +108,7 @@ def _driven(
     from microslip.recording import last_state
 
     if options.file is not None:
-        return last_state(options.file)
+        return last_state(options.file, scene.text)
     history, _, ending = dwell.dwelled(options, scene, problem, data)
     if ending == "interrupted":
         raise KeyboardInterrupt

@@ -19,6 +19,14 @@ HEADER = (
     "amplitude  frequency  damping   estimated error of\n"
     "     [mm]       [Hz]      [%]  frequency    damping"
 )
+COLUMNS = (
+    "mode_hz",
+    "amplitude_m",
+    "frequency_hz",
+    "damping_ratio",
+    "frequency_error",
+    "damping_error",
+)
 AMPLITUDES = (1e-2, 10.0)
 """smallest and largest [mm]"""
 HARMONICS = 31
@@ -66,7 +74,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.progress import shown
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
-    from microslip.studies.modes import followed
+    from microslip.studies.modes import ModeError, followed
 
     data, picture = arguments.outputs(options, "modes")
     scene = load_scene(options.scene, options.overrides)
@@ -90,8 +98,10 @@ def _run(options: argparse.Namespace) -> int:
             print("\n".join(_lines(mode)), flush=True)
     except KeyboardInterrupt:
         ending = "interrupted"
-        if not modes:
+        if not any(mode.points for mode in modes):
             raise
+    if not any(mode.points for mode in modes):
+        raise ModeError(ending)
     _keep(options, modes, data.with_suffix(".csv"), picture)
     return arguments.ended(ending)
 
@@ -130,8 +140,10 @@ def _lines(mode: FollowedMode) -> list[str]:
     rows = [
         f"mode at {hertz:.4f} Hz, damping ratio {100.0 * mode.linear.damping:.4f} %, "
         "while its contacts stick",
-        HEADER,
     ]
+    if not mode.points:
+        return [*rows, f"it has no first point: {mode.ending}"]
+    rows.append(HEADER)
     for point in shown_points(mode):
         note = "  most damped" if point is mode.most_damped else ""
         rows.append(
@@ -153,35 +165,22 @@ def _keep(
     options: argparse.Namespace, modes: list[FollowedMode], table: Path, picture: Path
 ) -> None:
     """Write table and picture."""
-    import csv
-
     from microslip.figures.modes import ModeLine, modes_figure
-    from microslip.store import save_figure
+    from microslip.store import save_figure, save_table
 
-    with table.open("w", encoding="utf-8", newline="") as file:
-        rows = csv.writer(file)
-        rows.writerow(
-            [
-                "mode_hz",
-                "amplitude_m",
-                "frequency_hz",
-                "damping_ratio",
-                "frequency_error",
-                "damping_error",
-            ]
+    rows = [
+        (
+            mode.linear.frequency / math.tau,
+            point.amplitude,
+            point.frequency / math.tau,
+            point.damping,
+            point.frequency_error,
+            point.damping_error,
         )
-        for mode in modes:
-            for point in mode.points:
-                rows.writerow(
-                    [
-                        mode.linear.frequency / math.tau,
-                        point.amplitude,
-                        point.frequency / math.tau,
-                        point.damping,
-                        point.frequency_error,
-                        point.damping_error,
-                    ]
-                )
+        for mode in modes
+        for point in mode.points
+    ]
+    save_table(table, COLUMNS, rows)
     lines = [
         ModeLine(
             f"mode at {mode.linear.frequency / math.tau:.2f} Hz",
@@ -190,6 +189,7 @@ def _keep(
             [point.damping for point in mode.points],
         )
         for mode in modes
+        if mode.points
     ]
     save_figure(picture, modes_figure(lines, arguments.title(options)))
     print(f"table in {table}, picture in {picture}")

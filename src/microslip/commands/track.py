@@ -23,7 +23,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="peak and bifurcations of the curve against a parameter",
         description="Trace the curve of a scene for several values of one of its keys, "
         "such as drive, preload or friction coefficient; print where its peaks, folds "
-        "and changes of stability are, write SCENE-track.csv and SCENE-track.png.",
+        "and changes of stability are, write SCENE-track.csv and SCENE-track.png. Exit "
+        "status 1 if a curve is not whole.",
         epilog="example: microslip track two-blades excitation.force 0.5 1 2 4 "
         "--set model=A",
     )
@@ -59,6 +60,9 @@ def _run(options: argparse.Namespace) -> int:
         ending = "interrupted"
     if found:
         _keep(options, found, data.with_suffix(".csv"), picture)
+    torn = sum(each.ending != "complete" for each in found)
+    if torn and ending == "complete":
+        ending = f"{torn} of {len(found)} curves are not whole"
     return arguments.ended(ending)
 
 

@@ -102,7 +102,13 @@ def cases(scene: Scene) -> list[Case]:
 def attempts(
     scene: str, overrides: tuple[str, ...], chosen: list[Case]
 ) -> Iterator[Attempt]:
-    """Trace the curve of each case; a curve that cannot be traced is a result too."""
+    """Trace the curve of each case; a curve that cannot be traced is a result too.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        After the attempt that is interrupted, which is a result as far as it went.
+    """
     for case in chosen:
         began = time.perf_counter()
         points, error, gap = 0, 0.0, 1.0
@@ -114,6 +120,8 @@ def attempts(
         except (MicroslipError, ValueError, ArithmeticError, RuntimeWarning) as cause:
             ending = " ".join(str(cause).split())
         yield Attempt(case, ending, points, error, gap, time.perf_counter() - began)
+        if ending == "interrupted":
+            raise KeyboardInterrupt
 
 
 def uncovered(curve: ResponseCurve) -> float:

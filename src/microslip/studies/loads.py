@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from microslip.experiments import Sweep
 from microslip.quantity import SceneError
 from microslip.scene_file import Scene
+from microslip.scenes.bladed_disk.tables import BladedDisk
+from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.force_record import ForceRecord
 from microslip_mechanics.sine_test import SineTest, Tone, stepped
+
+if TYPE_CHECKING:
+    from microslip.scenes.systems.tables import System
 
 
 def load_history(scene: Scene) -> LoadHistory:
@@ -25,12 +32,7 @@ def load_history(scene: Scene) -> LoadHistory:
     sweep = scene.sweep
     free = sweep.duration - sweep.end
     if scene.force is not None:
-        drive = scene.rig.excitation.force
-        if drive == 0.0:
-            raise SceneError(
-                "[excitation] force = 0 N: the force file is read in parts of it: "
-                "give it a value, such as 1 N"
-            )
+        drive = _drive(scene)
         time, factor = scene.force.time, scene.force.force / drive
         return ForceRecord(sweep.ramp, sweep.start, time, factor, free, sweep.lowest)
     tones: list[Tone] = []
@@ -39,6 +41,35 @@ def load_history(scene: Scene) -> LoadHistory:
             tones.append(Tone(tones[-1].last, tones[-1].last, free, 0.0))
         tones += _tones(sweep, level)
     return SineTest(sweep.ramp, sweep.start, tuple(tones), free)
+
+
+def _drive(scene: Scene) -> float:
+    """Return the force of a scene's one drive [N], of which a file's force is parts."""
+    rig = scene.rig
+    if isinstance(rig, TwoBlades):
+        name, drive = "[excitation] force", rig.excitation.force
+    elif isinstance(rig, BladedDisk) or not _driven_at_one(rig):
+        raise SceneError(
+            f'[sweep] force_file = "{scene.sweep.force_file}": a force acts where the '
+            "drive does: give one [drive] without phase and no other load, or leave "
+            "the file out"
+        )
+    else:
+        ((place, wave),) = rig.drive.items()
+        name, drive = f"[drive] {place}", wave.amplitude
+    if drive == 0.0:
+        raise SceneError(
+            f"{name} = 0 N: the force file is read in parts of it: give it a value, "
+            "such as 1 N"
+        )
+    return float(drive)
+
+
+def _driven_at_one(rig: System) -> bool:
+    """Return whether one force in phase with the sine is all that drives a system."""
+    if rig.base is not None or rig.engine_order is not None:
+        return False
+    return [wave.phase for wave in rig.drive.values()] == [0.0]
 
 
 def _tones(sweep: Sweep, level: float) -> list[Tone]:

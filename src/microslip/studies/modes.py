@@ -30,7 +30,7 @@ class FollowedMode:
 
     @property
     def most_damped(self) -> NonlinearMode:
-        """The point of the largest damping ratio."""
+        """The point of the largest damping ratio; there must be one."""
         return max(self.points, key=lambda point: point.damping)
 
 
@@ -42,12 +42,15 @@ def followed(
 ) -> Iterator[FollowedMode]:
     """Yield the modes with natural frequencies in a range [rad/s], the lowest first.
 
-    What cannot go on, or is interrupted, keeps what it has.
+    What cannot go on, or is interrupted, keeps what it has; a mode without a first
+    point has the cause alone.
 
     Raises
     ------
     ModeError
         If there is no mode in the range.
+    KeyboardInterrupt
+        If it comes before the first point of a mode.
     """
     rest = static_equilibrium(problem)
     found = modes_in_range(problem, rest, *frequencies)
@@ -66,7 +69,7 @@ def followed(
 def _followed(
     linear: LinearMode, growth: Iterator[NonlinearMode], watch: Watch
 ) -> FollowedMode:
-    """Return a mode as far as it grows; without a first point there is none."""
+    """Return a mode as far as it grows."""
     points: list[NonlinearMode] = []
     ending = "complete"
     try:
@@ -74,8 +77,6 @@ def _followed(
             points.append(point)  # noqa: PERF402  (what is there must be kept)
     except ContinuationError as error:
         ending = str(error)
-        if not points:
-            raise
     except KeyboardInterrupt:
         ending = "interrupted"
         if not points:

@@ -106,11 +106,15 @@ def case_of(scene: Scene, hertz: float | None = None) -> Case:
         If the curve has no stable point near it.
     SceneError
         If nothing drives the scene.
+    KeyboardInterrupt
+        If the curve is interrupted: its highest peak may be still to come.
     """
     problem = problem_of(scene)
     if not problem.drive.any():
         raise SceneError("nothing drives the scene: give a force")
     traced = trace_curve(problem, scene.curve)
+    if traced.curve.ending == "interrupted":
+        raise KeyboardInterrupt
     if hertz is None:
         highest = int(traced.curve.amplitude.max(axis=1).argmax())
         hertz = SHARE * float(traced.curve.frequency[highest]) / math.tau

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections import deque
 from collections.abc import Iterator, Sequence
@@ -66,7 +67,16 @@ def _last(ended: Ended[Case]) -> Finding:
 
 
 def _prepare(scene: str, overrides: tuple[str, ...]) -> None:
-    """Have all machine code made: points of the scene's curve, roughly, and a march."""
+    """Have all machine code made, as far as the scene lets it.
+
+    The cases themselves tell what the scene does not allow.
+    """
+    with contextlib.suppress(*EXPECTED):
+        _warmed(scene, overrides)
+
+
+def _warmed(scene: str, overrides: tuple[str, ...]) -> None:
+    """Make points of the scene's curve, roughly, an orbit and a march."""
     rough = ("curve.harmonics=3", "curve.samples=64")
     loaded = load_scene(scene, (*overrides, *rough))
     problem = problem_of(loaded)

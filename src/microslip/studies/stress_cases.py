@@ -49,7 +49,7 @@ def cases(scene: Scene, *, quick: bool = False) -> list[Case]:
     Raises
     ------
     SceneError
-        If the scene is not one of two blades.
+        If the scene is not one of two blades, or nothing drives it.
     """
     if not isinstance(scene.rig, TwoBlades):
         raise SceneError(
@@ -57,6 +57,11 @@ def cases(scene: Scene, *, quick: bool = False) -> list[Case]:
             'scene = "two-blades"'
         )
     rig = scene.rig
+    if rig.excitation.force == 0.0:
+        raise SceneError(
+            "[excitation] force = 0 N: nothing vibrates, so there is nothing to "
+            "compare: give a force"
+        )
     own = [Case("scene", "as it is", ())]
     solved = [*own, *_contact(rig), *_loads(rig), *_structure(rig)]
     if quick:

@@ -48,12 +48,15 @@ def tracked(
 ) -> Iterator[Tracked]:
     """Yield the events of the curve for each value of a scene's key.
 
-    A curve without a first point is a result too.
+    A curve without a first point is a result too, and what there is of one that is
+    interrupted.
 
     Raises
     ------
     SceneError
         If the scene does not take a value.
+    KeyboardInterrupt
+        After the curve that is interrupted.
     """
     for value in values:
         loaded = load_scene(scene, (*overrides, f"{key}={value}"))
@@ -63,6 +66,8 @@ def tracked(
             yield Tracked(value, str(error), ())
         else:
             yield Tracked(value, curve.ending, _events(curve))
+            if curve.ending == "interrupted":
+                raise KeyboardInterrupt
 
 
 def _events(curve: ResponseCurve) -> tuple[Event, ...]:

@@ -65,16 +65,24 @@ def timed(scene: Scene, watch: Watch = iter) -> Iterator[Timed]:
 
     Both have the same harmonics, those of the scene or :data:`HARMONICS`, no estimate
     of what more of them would change and, for one sector of a disk, no stability.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        After the first curve, if that is interrupted.
     """
     sector, whole = sector_of(scene), unpruned_of(scene)
     fixed = replace(scene.curve, harmonics=scene.curve.harmonics or HARMONICS)
     options = replace(curve_options(fixed), errors=False, stability=sector is None)
     if sector is None:
         problem = problem_of(scene)
-        yield _timed(problem, partial(_responses, problem), options, watch)
+        some = _timed(problem, partial(_responses, problem), options, watch)
     else:
         trace = partial(cyclic_response, sector)
-        yield _timed(sector.standing(), trace, options, watch)
+        some = _timed(sector.standing(), trace, options, watch)
+    yield some
+    if some.curve.ending == "interrupted":
+        raise KeyboardInterrupt
     unpruned = replace(options, pruned=False)
     yield _timed(whole, partial(_responses, whole), unpruned, watch)
 

@@ -63,6 +63,14 @@ class Linearisation:
         places, last = self._places[:-1], int(self._places[-1])
         return Linearisation(lambda: (self.jacobian, slope[places]), places, last + 1)
 
+    def continued(self, image: Linearisation) -> Linearisation:
+        """Return that of 2 R(border) − R(image), this one being at the border."""
+
+        def made() -> tuple[Array, Array]:
+            return 2.0 * self.jacobian - image.jacobian, image.slope
+
+        return Linearisation(made, self._places[:-1], int(self._places[-1]) + 1)
+
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian slope; normal] d = right.
 

@@ -37,8 +37,8 @@ FIRST = (0.0, 1e-2)
 class Pieces:
     """The corrections along a curve from ``start`` to ``end``, in order.
 
-    A curve that folds back and returns to ``start``, or that stops, is followed from
-    ``end`` as well.
+    A curve that folds back and returns to ``start``, that stops, or that does not
+    begin, is followed from ``end`` as well.
     """
 
     path: Path
@@ -57,8 +57,6 @@ class Pieces:
             for last in self._from(self.start, self.end):
                 yield last
         except ContinuationError as error:
-            if last is None:
-                raise
             stopped = error
         if stopped is None and (last is None or last.point[-1] == self.end):
             return

@@ -189,9 +189,13 @@ class Pieces:
         return None
 
     def _settled(self, coefficients: Array, parameter: float) -> Array | None:
-        """Return the point near a coarse response; None if it does not converge."""
+        """Return the point near a coarse response; None if it does not converge.
+
+        Harmonics for which a point has no room are left out.
+        """
         guess = self._still(parameter)
-        guess[: coefficients.size] = coefficients.ravel()
+        kept = coefficients.ravel()[: guess.size - 1]
+        guess[: kept.size] = kept
         self.system.restart(coefficients.shape[0] // 2)
         try:
             found = correct_at(

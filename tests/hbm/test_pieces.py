@@ -12,10 +12,12 @@ from hbm.effort import Effort
 from hbm.errors import ContinuationError
 from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
+from hbm.path import along_frequency
 from hbm.pieces import Pieces
 from hbm.settler import Unsettled
 from hbm.solve import frequency_response
 from hbm.step_control import StepControl
+from hbm.tracer import Tracer
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
@@ -165,6 +167,24 @@ def test_a_duffing_curve_without_a_first_point_is_traced_from_its_end() -> None:
     assert curve[0].frequency == TURN * 9.0
     assert curve[-1].frequency == TURN * 5.8
     assert "restart" not in [each.event for each in curve]
+
+
+@pytest.mark.parametrize("limit", [{"harmonics": 1}, {"most_harmonics": 1}])
+@pytest.mark.parametrize("harmonics", [3, 7, 15])
+def test_a_curve_of_few_harmonics_goes_on_from_a_response_of_more(
+    harmonics: int, limit: dict[str, Any]
+) -> None:
+    problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
+    start, end = TURN * 6.8, TURN * 9.0
+    path = along_frequency(problem, static_equilibrium(problem), start, end)
+    tracer = Tracer(problem, path, CurveOptions(start, end, stability=False, **limit))
+
+    found = tracer.pieces._settled(np.zeros((2 * harmonics + 1, 1)), start)
+
+    assert found is not None
+    assert found[-1] == start
+    assert np.abs(found[1:3]).max() > 1e-4
+    np.testing.assert_array_equal(found[3:-1], 0.0)
 
 
 def test_a_rig_whose_coarse_responses_differ_has_a_first_point() -> None:

@@ -81,8 +81,9 @@ class AdaptiveBalance:
         return self._resolution.at(self.fourier)(point)
 
     def restart(self, harmonics: int) -> None:
-        """Begin anew with at least so many harmonics, unless they are fixed."""
+        """Begin anew with so many harmonics, or the most, unless they are fixed."""
         if self._tolerance is not None:
+            harmonics = min(harmonics, self._most)
             samples = max(128, 8 * (harmonics + 1))
             self.fourier = FourierBasis(harmonics, samples, self._smoothest)
             self._kept, self._sharpest = self.fourier, 0.0

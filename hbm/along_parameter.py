@@ -46,7 +46,7 @@ class AlongParameter:
         if frequency <= 0.0:
             raise ValueError(f"frequency {frequency:g} rad/s: give a positive one")
         self._problem_at, self._frequency = problem_at, frequency
-        self._start, self._end = start, end
+        self._limits = min(start, end), max(start, end)
         self._last: tuple[Problem, RelativeProblem, StaticState] | None = None
         self._motions: tuple[Problem, SmallMotions] | None = None
         self._past: dict[float, RelativeProblem] = {}
@@ -58,13 +58,11 @@ class AlongParameter:
         self.rank = self._kept.size
 
     def at(self, parameter: float) -> tuple[RelativeProblem, float]:
-        """Return the problem at one value, and the frequency."""
-        if parameter not in self._past:
-            while len(self._past) >= PAST:
-                self._past.pop(next(iter(self._past)))
-            whole = self._whole(parameter)
-            self._past[parameter] = whole.restricted(self._kept, self._odd)
-        return self._past[parameter], self._frequency
+        """Return the problem at one value of the range, or its end, and the frequency.
+
+        Steps along a curve may lead beyond the range, where there may be no problem.
+        """
+        return self._at(float(np.clip(parameter, *self._limits)))
 
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
@@ -73,12 +71,12 @@ class AlongParameter:
     def balance(self, fourier: FourierBasis) -> ParametricBalance:
         """Return harmonic balance at one resolution."""
         return ParametricBalance(
-            self.at, fourier, self.mask(fourier.harmonics), self.unit
+            self._at, fourier, self.mask(fourier.harmonics), self.unit, self._limits
         )
 
     def unit(self, parameter: float) -> float:
         """Return a tenth of the range, or the same share of its logarithm."""
-        low, high = sorted((self._start, self._end))
+        low, high = self._limits
         if low > 0.0 and high > WIDE * low:
             return max(parameter, 0.1 * low) * math.log(high / low) / 10.0
         return (high - low) / 10.0
@@ -89,6 +87,15 @@ class AlongParameter:
         if self._motions is None or not _alike(problem, self._motions[0]):
             self._motions = problem, small_motions(problem)
         return self._motions[1]
+
+    def _at(self, parameter: float) -> tuple[RelativeProblem, float]:
+        """Return the problem at any value, and the frequency."""
+        if parameter not in self._past:
+            while len(self._past) >= PAST:
+                self._past.pop(next(iter(self._past)))
+            whole = self._whole(parameter)
+            self._past[parameter] = whole.restricted(self._kept, self._odd)
+        return self._past[parameter], self._frequency
 
     def _whole(self, parameter: float) -> RelativeProblem:
         """Return the problem at one value, in all relative coordinates."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,7 +10,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.errors import ContinuationError
+from hbm.errors import ContinuationError, hertz
 from hbm.fourier import FourierBasis, to_complex
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response, periodic_response
@@ -101,9 +102,9 @@ def one_harmonic_response(
     if frequency is not None:
         start, end = _towards(frequency, limits), frequency
     options = CurveOptions(start, end, harmonics=1, samples=SAMPLES, stability=False)
-    curve = list(frequency_response(problem, rest, options))
+    curve = frequency_response(problem, rest, options)
     if frequency is not None:
-        return curve[-1]
+        return _met(curve, frequency)
     return max(curve, key=lambda each: float(amplitudes(problem, each).max()))
 
 
@@ -139,7 +140,9 @@ def one_harmonic_error(
             start, response.frequency, harmonics=DETOUR, stability=False
         )
         try:
-            *_, better = frequency_response(problem, rest, options)
+            better = _met(
+                frequency_response(problem, rest, options), response.frequency
+            )
         except ContinuationError:
             return float("nan")
     return _distance(problem, response, better)
@@ -219,6 +222,28 @@ def _solved_again(
         if _distance(problem, before, response) <= tolerance:
             break
     return response
+
+
+def _met(curve: Iterable[PeriodicResponse], frequency: float) -> PeriodicResponse:
+    """Return the last response of a curve at a frequency, wherever the curve ends.
+
+    Raises
+    ------
+    ContinuationError
+        If the curve does not get there.
+    """
+    found: PeriodicResponse | None = None
+    try:
+        for each in curve:
+            found = each if each.frequency == frequency else found
+    except ContinuationError:
+        if found is None:
+            raise
+    if found is None:
+        raise ContinuationError(
+            f"the curve does not pass {hertz(frequency)}: begin it nearer to there"
+        )
+    return found
 
 
 def _distance(

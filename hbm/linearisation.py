@@ -63,6 +63,14 @@ class Linearisation:
         places, last = self._places[:-1], int(self._places[-1])
         return Linearisation(lambda: (self.jacobian, slope[places]), places, last + 1)
 
+    def continued(self, image: Linearisation) -> Linearisation:
+        """Return that of 2 R(border) − R(image), this one being at the border."""
+
+        def made() -> tuple[Array, Array]:
+            return 2.0 * self.jacobian - image.jacobian, image.slope
+
+        return Linearisation(made, self._places[:-1], int(self._places[-1]) + 1)
+
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian slope; normal] d = right.
 
@@ -77,20 +85,26 @@ class Linearisation:
         border = normal[self._places]
         if self._border is None:
             self._factors, self._border = self._factored(border), border
-        found = self._solved(right[self._places])
-        if not np.array_equal(border, self._border):
-            found = self._turned(border, found, right[-1])
+        wanted = right[self._places]
+        if np.array_equal(border, self._border):
+            found = self._solved(wanted)
+        else:
+            found = self._turned(border, wanted)
         if not np.all(np.isfinite(found)):
             raise SingularError
         solution = np.zeros_like(right)
         solution[self._places] = found
         return solution
 
-    def _turned(self, border: Array, found: Array, last: Array) -> Array:
+    def _turned(self, border: Array, right: Array) -> Array:
         """Return the solution with another border, by a step along the tangent.
 
-        ``last`` is what the border is to make of it.
+        It begins where the factored border makes zero of it, so that the step is not
+        lost to rounding if the other border is far larger.
         """
+        last, right = right[-1].copy(), right.copy()
+        right[-1] = 0.0
+        found = self._solved(right)
         unit = np.zeros(border.size)
         unit[-1] = 1.0
         along = self._solved(unit)

@@ -15,12 +15,16 @@ from microslip_mechanics.arrays import Array
 
 DIFFERENCE = 1e-6
 """of the parameter, over its unit, for the derivative by it"""
-PAST = 4
+PAST = 6
 """parameters that are remembered"""
 
 
 class ParametricBalance:
-    """Residual with a parameter of the problem as the last component of a point."""
+    """Residual with a parameter of the problem as the last component of a point.
+
+    Beyond the limits of the parameter, where there need be no problem, the residual
+    goes on as it does before them: R(λ) = 2 R(limit) − R(2 limit − λ).
+    """
 
     def __init__(
         self,
@@ -28,28 +32,58 @@ class ParametricBalance:
         fourier: FourierBasis,
         active: NDArray[np.bool_],
         unit: Callable[[float], float],
+        limits: tuple[float, float],
     ) -> None:
         """Plan for problems and frequencies that depend on a parameter.
 
-        ``unit`` is the change of the parameter that counts.
+        ``unit`` is the change of the parameter that counts; ``limits`` are the least
+        and the largest value of the residual's problems.
         """
         self._problem_at, self.fourier, self._active = problem_at, fourier, active
-        self._unit = unit
+        self._unit, self._limits = unit, limits
         self._balance: HarmonicBalance | None = None
         self._past: dict[float, HarmonicBalance] = {}
 
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
         """Return the residual [N], (size − 1,), and what solves with its Jacobian."""
+        here, mirrored = self._reflected(point)
+        if mirrored is None:
+            return self._inside(here)
+        before, falling = self._inside(mirrored)
+        residual, linearised = self._inside(here)
+        return 2.0 * residual - before, linearised.continued(falling)
+
+    def residual(self, point: Array) -> tuple[Array, Array]:
+        """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
+        here, mirrored = self._reflected(point)
+        if mirrored is None:
+            return self._residual(here)
+        before, earlier = self._residual(mirrored)
+        residual, by_frequency = self._residual(here)
+        return 2.0 * residual - before, 2.0 * by_frequency - earlier
+
+    def _reflected(self, point: Array) -> tuple[Array, Array | None]:
+        """Return a point, or where it leaves the limits and its mirror image there."""
+        parameter = float(point[-1])
+        border = float(np.clip(parameter, *self._limits))
+        if border == parameter:
+            return point, None
+        image = float(np.clip(2.0 * border - parameter, *self._limits))
+        return np.append(point[:-1], border), np.append(point[:-1], image)
+
+    def _inside(self, point: Array) -> tuple[Array, Linearisation]:
+        """Return residual and what solves, with a difference that stays inside."""
         difference = DIFFERENCE * self._unit(float(point[-1]))
+        if point[-1] + difference > self._limits[1]:
+            difference = -difference
         ahead = point.copy()
         ahead[-1] += difference
-        later, _ = self.residual(ahead)
+        later, _ = self._residual(ahead)
         balance, inner = self.at_frequency(point)
         residual, linearised = balance(inner)
         return residual, linearised.along((later - residual) / difference)
 
-    def residual(self, point: Array) -> tuple[Array, Array]:
-        """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
+    def _residual(self, point: Array) -> tuple[Array, Array]:
         balance, inner = self.at_frequency(point)
         return balance.residual(inner)
 

@@ -37,8 +37,9 @@ FIRST = (0.0, 1e-2)
 class Pieces:
     """The corrections along a curve from ``start`` to ``end``, in order.
 
-    A curve that folds back and returns to ``start``, or that stops, is followed from
-    ``end`` as well.
+    A curve that folds back and returns to ``start``, that stops, or that does not
+    begin, is followed from ``end`` as well; in the last case if Newton's iteration
+    from rest begins it there.
     """
 
     path: Path
@@ -57,22 +58,26 @@ class Pieces:
             for last in self._from(self.start, self.end):
                 yield last
         except ContinuationError as error:
-            if last is None:
-                raise
             stopped = error
         if stopped is None and (last is None or last.point[-1] == self.end):
             return
+        again = FIRST if last is not None else ()
         try:
-            for last in self._from(self.end, self.start):
+            for last in self._from(self.end, self.start, again):
                 yield last
         except ContinuationError as error:
             raise stopped or error from None
         if stopped is not None and last is not None and last.point[-1] != self.start:
             raise stopped
 
-    def _from(self, begin: float, end: float) -> Iterator[Correction]:
-        """Yield corrections from one end of the range, past what resists."""
-        guess, heading, leaps = self._still(begin), end, iter(FIRST)
+    def _from(
+        self, begin: float, end: float, first: tuple[float, ...] = FIRST
+    ) -> Iterator[Correction]:
+        """Yield corrections from one end of the range, past what resists.
+
+        ``first`` are the leaps by which a first point is sought if there is none.
+        """
+        guess, heading, leaps = self._still(begin), end, iter(first)
         for attempt in range(RESTARTS + 1):
             last: Correction | None = None
             try:
@@ -191,9 +196,13 @@ class Pieces:
         return None
 
     def _settled(self, coefficients: Array, parameter: float) -> Array | None:
-        """Return the point near a coarse response; None if it does not converge."""
+        """Return the point near a coarse response; None if it does not converge.
+
+        Harmonics for which a point has no room are left out.
+        """
         guess = self._still(parameter)
-        guess[: coefficients.size] = coefficients.ravel()
+        kept = coefficients.ravel()[: guess.size - 1]
+        guess[: kept.size] = kept
         self.system.restart(coefficients.shape[0] // 2)
         try:
             found = correct_at(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 
@@ -97,7 +98,8 @@ class Resolution(ABC):
         )  # fmt: skip
         size = float(before.max(initial=0.0)) or 1.0
         truncation = made.beyond * _largest(last - resampled)
-        truncation += made.left * _largest(last - after)
+        lost = math.isinf(made.left)
+        truncation += math.inf if lost else made.left * _largest(last - after)
         return Estimate(
             _largest(last - before) / size,
             truncation / size,

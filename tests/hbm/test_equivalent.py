@@ -12,8 +12,11 @@ from hbm.equivalent import (
     one_harmonic_response,
     stuck_structure,
 )
+from hbm.errors import ContinuationError
 from hbm.poles import damping_ratios, frequencies, poles
 from honesty import falling
+from microslip.rigs import problem_of
+from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -249,3 +252,47 @@ def test_the_response_is_that_of_largest_amplitude() -> None:
         assert size(beside) < size(best)
     assert best.harmonics == 1
     assert best.event == "peak"
+
+
+DUFFING = (TURN * 5.9, TURN * 9.5)
+"""frequencies of which the curve is traced downwards only"""
+
+
+def test_the_response_lies_where_it_is_wanted_if_the_curve_ends_elsewhere() -> None:
+    problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
+
+    found = one_harmonic_response(
+        problem, static_equilibrium(problem), DUFFING, TURN * 9.0
+    )
+
+    assert found.frequency == TURN * 9.0
+
+
+def test_the_error_is_told_at_the_frequency_of_the_response(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
+    rest = static_equilibrium(problem)
+    limits = (TURN * 5.8, TURN * 9.0)
+    found = one_harmonic_response(problem, rest, DUFFING, TURN * 9.0)
+    expected = one_harmonic_error(problem, rest, found, limits, 1e-3)
+
+    def lost(*_: object, **__: object) -> PeriodicResponse:
+        raise ContinuationError("no response is found")
+
+    monkeypatch.setattr("hbm.equivalent.periodic_response", lost)
+    error = one_harmonic_error(problem, rest, found, limits, 1e-3)
+
+    assert expected < 1e-3
+    assert error == pytest.approx(expected, rel=1e-2, abs=1e-6)
+
+
+def test_a_curve_that_does_not_pass_a_frequency_is_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
+    elsewhere = iter([swinging(1.0, TURN * 8.0, 64)])
+    monkeypatch.setattr("hbm.equivalent.frequency_response", lambda *_: elsewhere)
+
+    with pytest.raises(ContinuationError, match="does not pass 9 Hz"):
+        one_harmonic_response(problem, static_equilibrium(problem), DUFFING, TURN * 9.0)

@@ -34,6 +34,23 @@ def test_solutions_are_those_of_the_bordered_matrix(several: tuple[int, ...]) ->
     np.testing.assert_array_equal(jacobian, before)
 
 
+@pytest.mark.parametrize("size", [1.0, 3e17, 3e-17])
+def test_another_border_may_be_of_any_size(size: float) -> None:
+    jacobian, slope, normal = drawn()
+    linearised = Linearisation(lambda: (jacobian, slope), PLACES, SIZE)
+    right = np.zeros(SIZE)
+    right[-1] = 1.0
+    linearised.solve(normal, right)
+    other = np.random.default_rng(3).normal(size=SIZE)
+
+    found = linearised.solve(size * other, right)
+
+    expected = Linearisation(lambda: (jacobian, slope), PLACES, SIZE).solve(
+        other, right
+    )
+    np.testing.assert_allclose(size * found, expected, rtol=1e-10)
+
+
 def test_a_border_across_a_fold_has_a_solution() -> None:
     jacobian, slope, _ = drawn()
     jacobian[3] = jacobian[2]

@@ -12,10 +12,14 @@ from hbm.effort import Effort
 from hbm.errors import ContinuationError
 from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
+from hbm.path import along_frequency
 from hbm.pieces import Pieces
 from hbm.settler import Unsettled
 from hbm.solve import frequency_response
 from hbm.step_control import StepControl
+from hbm.tracer import Tracer
+from microslip.rigs import problem_of
+from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
@@ -131,6 +135,56 @@ def test_a_curve_that_stops_from_both_ends_says_where_it_did_first(
 
     assert [place for _, place in begun] == pytest.approx([0.0, RESISTS - 0.1])
     assert len(kept) == 2
+
+
+def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.pieces)["trace"]
+
+    def trace(
+        system: Any, start: Array, end: float, **options: Any
+    ) -> Iterator[Correction]:
+        if start[-1] == 0.0:
+            raise ContinuationError("no response is found at 0")
+        return traced(system, start, end, **options)
+
+    monkeypatch.setattr("hbm.pieces.trace", trace)
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+
+    points = [each.point for each in pieces(0.0, 1.0)]
+
+    assert begun == [pytest.approx((0.9, 1.0))]
+    assert [place for _, place in points] == [0.0]
+
+
+def test_a_duffing_curve_without_a_first_point_is_traced_from_its_end() -> None:
+    problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
+    options = CurveOptions(TURN * 5.8, TURN * 9.0, stability=False)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    assert curve[0].frequency == TURN * 9.0
+    assert curve[-1].frequency == TURN * 5.8
+    assert "restart" not in [each.event for each in curve]
+
+
+@pytest.mark.parametrize("limit", [{"harmonics": 1}, {"most_harmonics": 1}])
+@pytest.mark.parametrize("harmonics", [3, 7, 15])
+def test_a_curve_of_few_harmonics_goes_on_from_a_response_of_more(
+    harmonics: int, limit: dict[str, Any]
+) -> None:
+    problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
+    start, end = TURN * 6.8, TURN * 9.0
+    path = along_frequency(problem, static_equilibrium(problem), start, end)
+    tracer = Tracer(problem, path, CurveOptions(start, end, stability=False, **limit))
+
+    found = tracer.pieces._settled(np.zeros((2 * harmonics + 1, 1)), start)
+
+    assert found is not None
+    assert found[-1] == start
+    assert np.abs(found[1:3]).max() > 1e-4
+    np.testing.assert_array_equal(found[3:-1], 0.0)
 
 
 def test_a_rig_whose_coarse_responses_differ_has_a_first_point() -> None:

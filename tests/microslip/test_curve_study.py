@@ -63,6 +63,32 @@ def test_upward_sweep_jumps_over_a_second_fold_too(small_curve: ResponseCurve) -
     assert followed.tolist() == [0, 1, 4, 7]
 
 
+def test_upward_sweep_jumps_to_a_piece_that_was_traced_from_the_other_end(
+    small_curve: ResponseCurve,
+) -> None:
+    # from 6 Hz to the fold at 8 Hz and back; from 9 Hz to 6 Hz
+    hertz = [6.0, 7.0, 8.0, 7.0, 6.0, 9.0, 8.5, 8.0, 7.0, 6.0]
+    events = tuple("restart" if place == 5 else "" for place in range(10))
+    folded = curve_with(small_curve, hertz, [5.0] * 5 + [1.0] * 5)
+    pieces = dataclasses.replace(folded, event=events)
+
+    followed = followed_upwards(pieces)
+    energy = quasi_static_energy(pieces, rate=0.5)
+
+    assert followed.tolist() == [0, 1, 2, 7, 6, 5]
+    assert energy == pytest.approx((5.0 * 2.0 + 1.0 * 1.0) / 0.5, rel=1e-12)
+
+
+def test_upward_sweep_passes_a_curve_that_was_traced_downwards_in_two_pieces(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz = [9.0, 8.0, 8.5, 7.5, 7.4, 6.0]
+    down = curve_with(small_curve, hertz, np.zeros(6))
+    pieces = dataclasses.replace(down, event=("", "", "", "", "restart", ""))
+
+    assert followed_upwards(pieces).tolist() == [5, 4, 3, 2, 0]
+
+
 def test_energy_of_a_slow_sweep_is_the_integral_along_the_upward_branch(
     small_curve: ResponseCurve,
 ) -> None:

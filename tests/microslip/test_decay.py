@@ -13,14 +13,19 @@ from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
 from microslip.experiments import March
 from microslip.quantity import SceneError
 from microslip.result_file import load
+from microslip.rigs import problem_of
+from microslip.scene_file import load_scene
 from microslip.studies.decay import liveliest, measured, released
+from microslip.studies.dwell import dwelling
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.ring_down import RingDown
+from microslip_mechanics.sine_test import SineTest, Tone
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.time_history import TimeHistory, joined
+from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from rigs import rig_problem
 from small_problems import oscillator, sliding_block
-from timedomain.start import Start
+from timedomain.integrate import MarchOptions, integrate
+from timedomain.start import Start, at_end
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 
@@ -85,6 +90,42 @@ def test_decay_of_a_sliding_rig_is_that_of_its_mode() -> None:
     fallen = np.ptp(hertz)
     assert fallen > 2.0
     np.testing.assert_allclose(decay.frequency, hertz, rtol=0.0, atol=0.1 * fallen)
+
+
+@pytest.mark.parametrize("drive", ["0.05 N", "2 N"])
+def test_sliders_are_let_go_with_the_forces_that_they_hold(drive: str) -> None:
+    # stuck, and sliding
+    problem, frequency = problem_of(load_scene("jenkins", [f"drive.x={drive}"])), 107.0
+    march = March(1e-4, 5)
+    end = None
+    for period in dwelling(problem, frequency, march, tolerance=1e-3, most=8):
+        end = period.history.checkpoint
+    assert isinstance(end, Checkpoint)
+    held = at_end(problem, end)
+
+    found = joined(
+        list(released(problem, end, march, frequency=frequency, periods=2)), ""
+    )
+    hertz = frequency / (2.0 * np.pi)
+    silence = SineTest(0.0, 0.0, (Tone(hertz, hertz, 2.0 / hertz, 0.0),), 0.0)
+    blocks = integrate(problem, silence, MarchOptions(1e-4, 5), start=held)
+    expected = joined(list(blocks), "").displacement
+
+    swing = float(np.ptp(expected))
+    np.testing.assert_allclose(found.displacement, expected, rtol=0, atol=1e-9 * swing)
+
+
+def test_the_state_of_other_contacts_is_refused() -> None:
+    problem = problem_of(load_scene("jenkins", []))
+    still = np.zeros(problem.structure.dofs)
+
+    with pytest.raises(SceneError, match="give the scene of its file"):
+        next(
+            released(
+                problem, Checkpoint(still, still, np.zeros(3)), March(1e-4, 10),
+                frequency=107.0, periods=1,
+            )
+        )  # fmt: skip
 
 
 def test_the_probe_that_moves_most_is_no_slip(small_history: TimeHistory) -> None:

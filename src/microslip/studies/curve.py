@@ -170,7 +170,7 @@ def quasi_static_energy(curve: ResponseCurve, rate: float) -> float:
     Parameters
     ----------
     curve
-        Traced upwards.
+        From one end of the range to the other.
     rate
         Logarithmic sweep rate k [1/s].
 
@@ -184,6 +184,19 @@ def quasi_static_energy(curve: ResponseCurve, rate: float) -> float:
 
 
 def followed_upwards(curve: ResponseCurve) -> np.ndarray:
-    """Return the points that a slow upward sweep passes: it jumps at a fold."""
-    highest = np.maximum.accumulate(curve.frequency)
-    return np.flatnonzero(curve.frequency >= highest)
+    """Return the points that a slow upward sweep passes: it jumps at a fold.
+
+    A piece that was traced downwards is passed the other way; of pieces that begin at
+    one frequency, the sweep begins on the first.
+    """
+    frequency = curve.frequency
+    begins = [place for place, name in enumerate(curve.event) if name == "restart"]
+    pieces = [
+        piece if frequency[piece[0]] <= frequency[piece[-1]] else piece[::-1]
+        for piece in np.split(np.arange(frequency.size), begins)
+        if piece.size
+    ]
+    order = np.concatenate(sorted(pieces, key=lambda piece: frequency[piece[0]]))
+    passed = frequency[order]
+    followed: np.ndarray = order[passed >= np.maximum.accumulate(passed)]
+    return followed

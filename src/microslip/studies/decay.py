@@ -16,7 +16,7 @@ from microslip_mechanics.sine_test import SineTest, Tone
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.start import Start, at_end
 
 ROWS = 60
 """per period at least, if the steps are not longer"""
@@ -44,7 +44,7 @@ def released(
     Raises
     ------
     SceneError
-        If the state is that of another structure.
+        If the state is that of another structure, or of other contacts.
     """
     dofs = problem.structure.dofs
     if state.displacement.size != dofs:
@@ -56,10 +56,21 @@ def released(
     loads = SineTest(0.0, 0.0, (Tone(hertz, hertz, periods / hertz, 0.0),), 0.0)
     stride = max(1, int(1.0 / (ROWS * hertz * march.time_step)))
     options = MarchOptions(march.time_step, min(stride, march.store_every))
-    start = Start(state.displacement, state.velocity)
+    start = state if isinstance(state, Start) else _let_go(problem, state)
     for block in integrate(problem, loads, options, start=start):
         still = np.zeros(len(block.time))
         yield replace(block, frequency=still + frequency, level=still)
+
+
+def _let_go(problem: Problem, state: Checkpoint) -> Start:
+    """Return the motion at the end of a march, with what contacts remember."""
+    try:
+        return at_end(problem, state)
+    except ValueError:
+        raise SceneError(
+            "the motion does not tell what the contacts of the scene remember: give "
+            "the scene of its file"
+        ) from None
 
 
 def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:

@@ -1,0 +1,58 @@
+"""A curve along a parameter does not leave the parameter's range."""
+
+import math
+
+import numpy as np
+import pytest
+
+from hbm.along_parameter import AlongParameter
+from hbm.fourier import FourierBasis
+from hbm.options import CurveOptions
+from hbm.solve import parameter_response
+from microslip.quantity import SceneError
+from microslip.studies.parameter import parameter
+from microslip_mechanics.problem import Problem
+
+SLIDER = "element.slider.limit"
+FREQUENCY = math.tau * 17.0
+
+
+def limited(value: float) -> Problem:
+    """Return the system whose slider has a limit [N] of 0 to 1."""
+    if not 0.0 <= value <= 1.0:
+        raise SceneError(f"{value}")
+    return parameter("jenkins", (), SLIDER, "1", "0").problem_at(value)
+
+
+@pytest.mark.parametrize(("start", "end"), [(1.0, 0.0), (0.0, 1.0)])
+def test_a_curve_ends_where_there_is_no_problem_any_more(
+    start: float, end: float
+) -> None:
+    options = CurveOptions(start, end, harmonics=7, stability=False)
+
+    curve = list(parameter_response(limited, FREQUENCY, options))
+
+    assert curve[0].parameter == start
+    assert curve[-1].parameter == end
+
+
+@pytest.mark.parametrize("value", [-0.02, 0.0, 0.3, 1.0, 1.02])
+def test_the_derivatives_are_those_of_the_residual_beyond_the_range_too(
+    value: float,
+) -> None:
+    path = AlongParameter(limited, FREQUENCY, 1.0, 0.0)
+    fourier = FourierBasis(5, 256)
+    balance = path.balance(fourier)
+    shape = (fourier.coefficients, path.rank)
+    draw = np.random.default_rng(4)
+    point = np.append(1e-3 * draw.normal(size=shape).ravel(), value)
+
+    _, linearised = balance(point)
+    step = draw.normal(size=point.size) * np.append(np.full(point.size - 1, 1e-3), 1.0)
+    ahead, behind = (point + sign * 1e-5 * step for sign in (1.0, -1.0))
+    change = (balance.residual(ahead)[0] - balance.residual(behind)[0]) / 2e-5
+
+    unknowns = np.flatnonzero(path.mask(fourier.harmonics))
+    found = linearised.jacobian @ step[unknowns] + linearised.slope * step[-1]
+    scale = np.abs(found).max()
+    np.testing.assert_allclose(found, change[unknowns], rtol=0.0, atol=2e-3 * scale)

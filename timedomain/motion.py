@@ -92,6 +92,6 @@ class Trial(NamedTuple):
     load: Array
     """modal forces of the loads at the begin, shape (modes,)"""
     bulge: Array
-    """by which their mean over the step exceeds that of begin and end, shape (modes,)"""
+    """by which their mean over the step exceeds that of both ends, shape (modes,)"""
     begins: Array
     """penetrations at the begin, shape (points,)"""

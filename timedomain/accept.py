@@ -124,11 +124,10 @@ def _renew_energies(
 def _couple(modes: Modes, motion: Motion, trial: Trial, length: float) -> None:
     """Renew the damping force of the other modes, and its rate."""
     fresh = trial.contact
-    fresh[:] = 0.0
     for i in range(fresh.size):
-        v = motion.velocity[i]
+        fresh[i] = 0.0
         for j in range(modes.reach[i, 0], modes.reach[i, 1]):
-            fresh[j] += modes.coupling[i, j] * v
+            fresh[i] += modes.coupling[i, j] * motion.velocity[j]
     for j in range(fresh.size):
         motion.coupled[1, j] = (fresh[j] - motion.coupled[0, j]) / length
         motion.coupled[0, j] = fresh[j]

@@ -37,8 +37,9 @@ from timedomain.tables import LEVELS, empty_tables, fill
 
 NUMBERS = 4
 """that a row holds behind the energies"""
-PER_CYCLE = 12
-"""least number of steps in a cycle of the load"""
+PER_CYCLE, CYCLED = 12, 3e-4
+"""least number of steps in a cycle of the load, and the error that they make; it falls
+with their fourth power"""
 RESIDUAL = 1e-2
 """of contact forces, over the tolerance of one step"""
 HOLD = 0.5
@@ -166,7 +167,8 @@ class FastMarch:
         lowest = min(LEVELS - 1, options.divisions)
         if options.tolerance is not None:
             row = self._step * stride
-            wanted = min(self._cycle() / PER_CYCLE, row)
+            steps = PER_CYCLE * max(1.0, CYCLED / options.tolerance) ** 0.25
+            wanted = min(self._cycle() / steps, row)
             stride = 2 ** max(0, math.ceil(math.log2(row / wanted) - 1e-9))
             longest, tolerance = row / stride, SAFETY * options.tolerance
             lowest = LEVELS - 1
@@ -278,6 +280,7 @@ def _trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
         np.zeros((points, 3)),
         np.zeros(rank),
         np.zeros(3),
+        np.zeros(count),
         np.zeros(count),
         np.zeros(points),
     )

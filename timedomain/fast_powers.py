@@ -75,7 +75,7 @@ def _input_power(modes: Modes, trial: Trial, velocity: Array, stage: int) -> Non
 
 @bare_kernel
 def _mean_input(modes: Modes, motion: Motion, trial: Trial, length: float) -> None:
-    """Write the mean power of loads that are linear over the step.
+    """Write the mean power of loads that are linear over the step but for their mean.
 
     With a cubic between the modal motions of its ends it is p̄ Δq/h + Δp Δq̇/12.
     """
@@ -85,5 +85,6 @@ def _mean_input(modes: Modes, motion: Motion, trial: Trial, length: float) -> No
         end = pull(modes, trial, j)
         moved = trial.displacement[j] - motion.displacement[j]
         faster = trial.velocity[j] - motion.velocity[j]
-        power += 0.5 * (begin + end) * moved / length + (end - begin) * faster / 12.0
+        mean = 0.5 * (begin + end) + trial.bulge[j]
+        power += mean * moved / length + (end - begin) * faster / 12.0
     trial.powers[1, 0] = power

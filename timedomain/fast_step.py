@@ -34,9 +34,13 @@ def attempt(
     length = control.longest / 2.0**level
     _begin(modes, tables, segments, motion, trial, begin + SOONEST * length)
     iterations = 0
+    if tables.mean > 0.0:
+        _middle(modes, segments, motion, trial, begin + 0.5 * length)
     for stage in range(1, tables.times.size):
         part = tables.times[stage] * length
         _load(modes, segments, motion, trial, stage, begin + part * EARLIER, part)
+        if tables.mean > 0.0:
+            _bulge(modes, trial)
         _predict(modes, tables, motion, trial, level, stage)
         if tables.mean > 0.0:
             _average(contacts, motion, trial, length)
@@ -134,6 +138,26 @@ def _load(
     for j in range(force.size):
         force[j] = pull(modes, trial, j)
         force[j] -= motion.coupled[0, j] + part * motion.coupled[1, j]
+
+
+@bare_kernel
+def _middle(
+    modes: Modes, segments: Segments, motion: Motion, trial: Trial, time: float
+) -> None:
+    """Write the modal forces of the loads at the middle of a step."""
+    load_factors(segments, time, motion.counts[HINT], trial.factors)
+    for j in range(trial.bulge.size):
+        trial.bulge[j] = pull(modes, trial, j)
+
+
+@bare_kernel
+def _bulge(modes: Modes, trial: Trial) -> None:
+    """Add to both ends what the mean load, by Simpson's rule, exceeds their mean by."""
+    for j in range(trial.bulge.size):
+        ends = 0.5 * (trial.load[j] + pull(modes, trial, j))
+        trial.bulge[j] = 2.0 * (trial.bulge[j] - ends) / 3.0
+        trial.force[0, j] += trial.bulge[j]
+        trial.force[1, j] += trial.bulge[j]
 
 
 @bare_kernel

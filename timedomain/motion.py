@@ -91,5 +91,7 @@ class Trial(NamedTuple):
     of a step with mean force; shape (3,)"""
     load: Array
     """modal forces of the loads at the begin, shape (modes,)"""
+    bulge: Array
+    """by which their mean over the step exceeds that of both ends, shape (modes,)"""
     begins: Array
     """penetrations at the begin, shape (points,)"""

@@ -74,10 +74,14 @@ def test_both_methods_converge_with_second_order_to_the_same_motion(name: str) -
         for method in ("fast", "reference")
     }
 
-    exact = (4.0 * ends["fast"][-1] + ends["reference"][-1]) / 5.0
-    for found in ends.values():
+    exact = ends["fast"][-1]
+    for method, found in ends.items():
         np.testing.assert_allclose(found[-1], exact, rtol=3e-7, atol=1e-8)
         errors = np.abs(found[:-1] - exact).max(axis=1)
+        if (method, name) == ("fast", "sliding"):
+            # constant friction and a sine are all that acts
+            assert errors.max() < 1e-10
+            continue
         order = observed_order([1.0 / each for each in STEPS], errors)
         # transitions fall anywhere in a step, which makes the error uneven
         assert order == pytest.approx(2.0, abs=0.15 if "and" not in name else 0.4)

@@ -1,0 +1,81 @@
+"""The fast march of structures without contacts against closed forms."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.system import system
+from microslip_mechanics.time_history import joined
+from timedomain.integrate import MarchOptions, integrate
+
+HERTZ, DRIVES = 5.3, np.array([1.0, 0.7])
+
+
+def pair(gyroscopic: float) -> Problem:
+    """Return two masses that move independently but for forces across velocities."""
+    made = system(
+        mass=np.eye(2).tolist(),
+        stiffness=np.diag([1000.0, 1600.0]).tolist(),
+        damping_ratio=0.03,
+        drive={"x1": DRIVES[0], "x2": DRIVES[1]},
+    )
+    across = gyroscopic * np.array([[0.0, -1.0], [1.0, 0.0]])
+    damping = made.structure.damping + across
+    structure = replace(made.structure, damping=damping, gyroscopic=gyroscopic != 0.0)
+    return replace(made, structure=structure)
+
+
+def marched(problem: Problem, steps: int, tolerance: float | None) -> ComplexArray:
+    """Return the phasors of the steady motion at so many steps a period."""
+    options = MarchOptions(1.0 / HERTZ / steps, 1, method="fast", tolerance=tolerance)
+    load = Dwell(2.0 * np.pi * HERTZ, 120.0 / HERTZ)
+    history = joined(list(integrate(problem, load, options)), "complete")
+    turn = np.exp(-2j * np.pi * HERTZ * history.time[-steps:])
+    phasors: ComplexArray = 2j * np.mean(
+        history.displacement[-steps:] * turn[:, None], axis=0
+    )
+    return phasors
+
+
+def exact(problem: Problem) -> ComplexArray:
+    turn, structure = 2.0 * np.pi * HERTZ, problem.structure
+    stiffness = structure.stiffness - turn**2 * structure.mass
+    found: ComplexArray = np.linalg.solve(
+        stiffness + 1j * turn * structure.damping, DRIVES
+    )
+    return found
+
+
+@pytest.mark.parametrize("gyroscopic", [6.0, -6.0])
+def test_gyroscopic_forces_have_the_sense_of_the_rotation(gyroscopic: float) -> None:
+    problem = pair(gyroscopic)
+
+    found = marched(problem, 2000, None)
+
+    np.testing.assert_allclose(np.abs(found), np.abs(exact(problem)), rtol=2e-3)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6])
+def test_a_sine_is_met_within_the_tolerance(tolerance: float) -> None:
+    problem = pair(0.0)
+
+    found = marched(problem, 12, tolerance)
+
+    np.testing.assert_allclose(np.abs(found), np.abs(exact(problem)), rtol=tolerance)
+
+
+def test_the_error_of_loads_falls_with_the_fourth_power_of_the_step() -> None:
+    problem = pair(0.0)
+    known = np.abs(exact(problem))
+
+    errors = [
+        np.abs(np.abs(marched(problem, steps, None)) / known - 1.0).max()
+        for steps in (12, 24, 48)
+    ]
+
+    assert errors[0] < 3e-4
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(4.0, abs=0.1)

@@ -68,7 +68,8 @@ def modal_coordinates(problem: Problem) -> Coordinates:
     structure = problem.structure.dense
     squares, shapes = scipy.linalg.eigh(structure.stiffness, structure.mass)
     # a free motion has no stiffness but that of rounding
-    squares[np.abs(squares) < 1e-12 * np.abs(squares).max(initial=0.0)] = 0.0
+    rounding = 4.0 * np.finfo(float).eps * len(squares)
+    squares[np.abs(squares) < rounding * np.abs(squares).max(initial=0.0)] = 0.0
     damping = shapes.T @ structure.damping @ shapes
     floor = 1e-12 * np.abs(damping).max(initial=0.0)
     _, families = connected_components(np.abs(damping) > floor)

@@ -85,7 +85,8 @@ def linearise(
     if points.friction[point] == FRICTIONLESS or load <= 0.0:
         load = 0.0
     drag = 0.0
-    if points.friction[point] == GENERAL_KINETIC and load > 0.0:
+    rubs = points.constant_load[point] or load > 0.0
+    if points.friction[point] == GENERAL_KINETIC and rubs:
         drag = points.viscous[point]
     first, second = slips[point, 1], slips[point, 2]
     one, two, d11, d12, d21, d22, per_one, per_two = _friction(

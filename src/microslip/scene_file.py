@@ -24,6 +24,8 @@ BUILT_IN = ("two-blades", "bladed-disk", *SYSTEMS)
 """names of built-in scenes"""
 NESTED = (["element"], ["drive"], ["structure"])
 """tables of a system with tables in them"""
+AMPLITUDE = "amplitude"
+"""what a bare number changes of a force whose table has it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +121,9 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
         place = _inner(place, table, override)
         if not isinstance(place, dict):
             raise SceneError(f"--set {override}: {table} is a value, not a table")
+    held = place.get(key) if tables == ["drive"] else None
+    if isinstance(held, dict) and AMPLITUDE in held and not isinstance(value, dict):
+        value = {**held, AMPLITUDE: value}
     place[key] = value
 
 

@@ -77,6 +77,28 @@ def test_motions_in_the_plane_of_symmetry_and_across_it_stay_apart() -> None:
     assert (in_plane.sum(), out_of_plane.sum()) == (6, 6)
 
 
+@pytest.mark.parametrize("factor", [1.0, 5e-6, 1e-8])
+def test_columns_with_small_factors_are_tied_all_the_same(factor: float) -> None:
+    rows = np.zeros((6, 3))
+    rows[0, 0], rows[3, 1], rows[3, 2] = 1.0, factor, -factor
+    interface = Interface(contact_points(2), rows, ("a", "b"))
+
+    basis, selection = interface.relative_motion()
+
+    assert basis.shape == (6, 2)
+    check(interface, basis, selection)
+
+
+def test_columns_of_rounding_tie_nothing() -> None:
+    rows = np.zeros((6, 4))
+    rows[0, :2], rows[3, 1:3] = (1.0, 6e-17), (6e-17, 1.0)
+    interface = Interface(contact_points(2), rows, ("a", "b"))
+
+    _, selection = interface.relative_motion()
+
+    assert np.count_nonzero(np.abs(selection) > 1e-15) == 2
+
+
 def test_work_of_contact_forces_is_the_same_in_both_coordinates() -> None:
     interface = rig_problem().interface
     random = np.random.default_rng(4)

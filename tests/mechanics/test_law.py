@@ -22,7 +22,9 @@ from contact_tables import (
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.hunt_crossley import spring_force
 from microslip_mechanics.contact.law import (
+    BRISTLE,
     COULOMB,
+    ELASTIC,
     FRICTIONLESS,
     GENERAL_KINETIC,
     ContactPoints,
@@ -224,6 +226,26 @@ def test_general_kinetic_friction_is_stribecks_coefficient_times_load(
     np.testing.assert_allclose(
         force[:, 1:], factor[:, None] * motion[1][:, 1:], rtol=1e-13, atol=1e-15
     )
+
+
+@pytest.mark.parametrize("friction", [ELASTIC, BRISTLE])
+@pytest.mark.parametrize("region", REGIONS)
+def test_what_remembers_is_dragged_only_while_it_is_pressed(
+    region: Region, friction: int
+) -> None:
+    points = every_combination(friction)
+    motion = region(points, np.random.default_rng(16))
+
+    force, by_displacement, by_velocity = written(points, motion)
+
+    drag = 0.04 * (points.constant_load | (force[:, 0] > 0.0))
+    expected = drag[:, None] * motion[1][:, 1:]
+    np.testing.assert_allclose(force[:, 1:], expected, rtol=1e-14, atol=0.0)
+    np.testing.assert_array_equal(by_displacement[:, 1:], 0.0)
+    np.testing.assert_array_equal(
+        by_velocity[:, 1:, 1:], drag[:, None, None] * np.eye(2)
+    )
+    np.testing.assert_array_equal(by_velocity[:, 1:, 0], 0.0)
 
 
 @pytest.mark.parametrize("region", [sticking, slipping])

@@ -9,6 +9,7 @@ import scipy.linalg
 import scipy.sparse
 
 import microslip
+from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scenes.systems.build import reduction
@@ -208,6 +209,39 @@ def test_a_rig_that_turns_presses_its_element_by_its_own_weight() -> None:
     assert turning.structure.gyroscopic
     gaps = turning.interface.displacement @ static_equilibrium(turning).displacement
     assert gaps[::3].max() > 0.0
+
+
+@pytest.mark.parametrize(
+    "turn",
+    [
+        ["axis=[0, 0, 1]", "centre=[-0.5, 0, 0]"],
+        ["axis=[0, 1, 0]", "centre=[-0.5, 0, 0]"],
+        ["axis=[0, 0, 1]", "centre=[-0.5, 0.1, 0]"],
+    ],
+)
+def test_constant_load_of_a_rig_that_turns_is_that_of_its_static_equilibrium(
+    turn: list[str],
+) -> None:
+    loose = ["model=A", "preload.force=3", "contact.angle_excited=20 deg"]
+    turning = [f"rotation.{each}" for each in ("speed=20 Hz", *turn)]
+
+    problem = problem_of(load_scene("two-blades", [*loose, *turning]))
+
+    still = problem_of(load_scene("two-blades", loose))
+    load = problem.interface.points.load
+    assert np.all(load > 1.5 * still.interface.points.load)
+    # the element yields 2 mm outwards, where its load is larger
+    assert static_equilibrium(problem).normal_force == pytest.approx(load, rel=6e-3)
+
+
+def test_model_a_refuses_a_rotation_that_lifts_a_face() -> None:
+    turn = ["speed=50 Hz", "axis=[0, 0, 1]", "centre=[0.5, 0, 0]"]
+    scene = load_scene("two-blades", ["model=A", *(f"rotation.{e}" for e in turn)])
+
+    with pytest.raises(
+        SceneError, match=r"^\[rotation\] lifts face B .*model B or full$"
+    ):
+        problem_of(scene)
 
 
 LATTICE = 400

@@ -299,6 +299,18 @@ def test_degrees_of_freedom_with_dots_can_be_overridden_and_followed(name: str) 
     assert changed[1] == pytest.approx(changed[0] + 2.0)
 
 
+def test_a_number_for_a_force_keeps_its_phase(tmp_path: Path) -> None:
+    path = written(tmp_path, BEGIN + PAIR)
+
+    bare = made(tmp_path, PAIR, "drive.b=3 kN")
+    whole = made(tmp_path, PAIR, "drive.b={amplitude=3}")
+    followed = parameter(path, [], "drive.b", "3", "4").problem_at(4.0)
+
+    np.testing.assert_allclose(bare.drive, [2.0, 3000.0j], atol=1e-12)
+    np.testing.assert_allclose(whole.drive, [2.0, 3.0])
+    np.testing.assert_allclose(followed.drive, [2.0, 4.0j], atol=1e-15)
+
+
 def test_phase_of_a_force_with_dots_can_be_overridden() -> None:
     scene = load_scene("tip-damper", ['drive.tip.uz={amplitude=2, phase="0 deg"}'])
     turned = load_scene(

@@ -7,6 +7,7 @@ from contact_tables import contact_points
 from convergence import observed_order
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.system import system
 from small_problems import (
     NORMAL,
     cantilever,
@@ -16,6 +17,7 @@ from small_problems import (
     mass_on_contact,
     oscillator,
 )
+from timedomain.coordinates import modal_coordinates
 from timedomain.start import Start
 
 
@@ -116,3 +118,25 @@ def test_a_mass_pressed_on_a_linear_contact_settles_on_its_transfer_function() -
 
     order = observed_order([0.01, 0.005, 0.0025], errors)
     assert order == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.kernels
+def test_a_soft_mass_beside_a_stiff_one_keeps_its_spring() -> None:
+    stiff = np.array([(2.0 * np.pi) ** 2, 4e13])
+
+    modes = modal_coordinates(system(mass=[1.0, 1.0], stiffness=stiff)).modes
+
+    np.testing.assert_allclose(np.sort(modes.stiffness), stiff, rtol=1e-12)
+
+
+@pytest.mark.kernels
+def test_a_chain_that_nothing_holds_moves_freely() -> None:
+    count = 30
+    chain = 2.0 * np.eye(count) - np.eye(count, k=1) - np.eye(count, k=-1)
+    chain[0, 0] = chain[-1, -1] = 1.0
+    mass = np.random.default_rng(1).uniform(0.1, 10.0, count)
+
+    problem = system(mass=mass, stiffness=1e6 * chain, probes=["x1"])
+    modes = modal_coordinates(problem).modes
+
+    assert np.count_nonzero(modes.stiffness == 0.0) == 1

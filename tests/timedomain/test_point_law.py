@@ -59,6 +59,19 @@ def test_at_its_solution_it_is_the_law_with_the_same_tangents(
         np.testing.assert_allclose(each, other, rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.parametrize("speed", [0.03, 0.7])
+def test_a_constant_load_of_zero_leaves_the_viscous_drag(speed: float) -> None:
+    points = contact_points(friction=FRICTION_LAWS["gkf"], constant_load=True, load=0.0)
+    gap, slip = np.array([-0.4, 0.0, 0.0]), np.array([0.2, 0.6 * speed, 0.8 * speed])
+    expected = law(points, gap, slip)
+
+    found = lines(points, gap, slip, expected[0], 3.0)
+
+    assert expected[0][1] > 0.0
+    for each, other in zip(found, expected, strict=True):
+        np.testing.assert_allclose(each, other, rtol=1e-12, atol=1e-12)
+
+
 @pytest.mark.parametrize("friction", ["coulomb", "gkf"])
 @pytest.mark.parametrize("speed", [0.03, 0.7])
 def test_what_is_no_solution_stays_none(friction: str, speed: float) -> None:

@@ -10,6 +10,9 @@ from scipy.sparse.csgraph import connected_components
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints
 
+ROUNDING = 1e-14
+"""columns of this size beside the largest are those of rounding"""
+
 
 @dataclass(frozen=True, slots=True)
 class Interface:
@@ -61,9 +64,10 @@ class Interface:
         rows = self.displacement
         if rows.shape[0] == 0:
             return np.zeros((0, 0)), rows
-        touched = rows[:, rows.any(axis=0)]
-        gram = np.abs(touched.T @ touched)
-        _, family = connected_components(gram > 1e-10 * gram.max())
+        sizes = np.linalg.norm(rows, axis=0)
+        seen = sizes > ROUNDING * sizes.max(initial=0.0)
+        touched, units = rows[:, seen], rows[:, seen] / sizes[seen]
+        _, family = connected_components(np.abs(units.T @ units) > 1e-10)
         floor = 1e-9 * float(np.linalg.norm(touched, 2))
         spans = [_span(touched[:, family == each], floor) for each in np.unique(family)]
         basis = np.hstack(spans)

@@ -151,16 +151,16 @@ def contact_force(
     force[0], by_displacement[0, 0], by_velocity[0, 0] = normal, stiff, viscous
     if points.friction[point] == FRICTIONLESS:
         return
-    if points.friction[point] >= ELASTIC:
-        for axis in range(1, 3):
-            force[axis] = points.viscous[point] * velocity[axis]
-            by_velocity[axis, axis] = points.viscous[point]
-        return
     load = points.load[point]
     if not points.constant_load[point]:
         if normal <= 0.0:
             return
         load = normal
+    if points.friction[point] >= ELASTIC:
+        for axis in range(1, 3):
+            force[axis] = points.viscous[point] * velocity[axis]
+            by_velocity[axis, axis] = points.viscous[point]
+        return
     first, second, d11, d12, d22 = _friction(points, point, velocity[1], velocity[2])
     drag = 0.0
     if points.friction[point] == GENERAL_KINETIC:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from microslip.quantity import SceneError
 from microslip.scenes.two_blades import layout
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.arrays import Array
@@ -43,22 +44,27 @@ class Face:
     """normal force at rest, without friction [N]"""
 
 
-def interface(rig: TwoBlades, frame: Frame) -> Interface:
-    """Return the contact points of both faces."""
-    return _seen(rig, frame, [(face, _needed(rig, face)) for face in faces(rig)])
+def interface(rig: TwoBlades, frame: Frame, push: Array) -> Interface:
+    """Return the contact points of both faces.
+
+    ``push`` is the static force on the friction element [N], shape ``(3,)``.
+    """
+    made = faces(rig, push)
+    return _seen(rig, frame, [(face, _needed(rig, face)) for face in made])
 
 
-def unpruned_interface(rig: TwoBlades, frame: Frame) -> Interface:
+def unpruned_interface(rig: TwoBlades, frame: Frame, push: Array) -> Interface:
     """Return contact points as many as those of the full model, which act the same.
 
     Where one point of a face is enough, three of its corners stand beside it, whose
     normal force and friction are computed as all others are, and are zero.
     """
-    return _seen(rig, frame, [(face, _all(rig, face)) for face in faces(rig)])
+    made = faces(rig, push)
+    return _seen(rig, frame, [(face, _all(rig, face)) for face in made])
 
 
-def faces(rig: TwoBlades) -> tuple[Face, Face]:
-    """Return face B (excited blade) and face A (follower)."""
+def faces(rig: TwoBlades, push: Array) -> tuple[Face, Face]:
+    """Return face B (excited blade) and face A (follower) under a static force."""
     element, angles = rig.friction_element, (
         rig.contact.angle_excited,
         rig.contact.angle_follower,
@@ -74,7 +80,8 @@ def faces(rig: TwoBlades) -> tuple[Face, Face]:
         centre = layout.element_centre(rig) + np.array(
             [0.0, side * element.width / 2.0, 0.0]
         )
-        load = rig.preload.force * math.cos(other) / wedge if wedge else math.inf
+        across = push[0] * math.cos(other) + side * push[1] * math.sin(other)
+        load = across / wedge if wedge else math.inf
         made.append(
             Face(
                 name, blade, centre, axes, element.height / cosine, element.depth, load
@@ -136,6 +143,19 @@ def _points(face: Face, count: int) -> list[Array]:
     ]
 
 
+def _constant_load(rig: TwoBlades, face: Face) -> float:
+    """Return the load of a face's friction in model A; zero in the others."""
+    if rig.model != "A":
+        return 0.0
+    if face.static_load < 0.0:
+        raise SceneError(
+            f"[rotation] lifts face {face.name} at rest ({face.static_load:.3g} N), "
+            'but model = "A" keeps it pressed: give more preload.force, or model B or '
+            "full"
+        )
+    return face.static_load
+
+
 def _law(rig: TwoBlades, face: Face, count: int) -> PointLaw:
     """Return the law of one of ``count`` points of a face."""
     contact, friction = rig.contact, rig.friction
@@ -156,5 +176,5 @@ def _law(rig: TwoBlades, face: Face, count: int) -> PointLaw:
         viscous=friction.viscous,
         threshold=friction.threshold_velocity,
         constant_load=rig.model == "A",
-        load=face.static_load / count if rig.model == "A" else 0.0,
+        load=_constant_load(rig, face) / count,
     )

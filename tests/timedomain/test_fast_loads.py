@@ -56,7 +56,7 @@ def test_gyroscopic_forces_have_the_sense_of_the_rotation(gyroscopic: float) -> 
 
     found = marched(problem, 2000, None)
 
-    np.testing.assert_allclose(np.abs(found), np.abs(exact(problem)), rtol=2e-3)
+    np.testing.assert_allclose(np.abs(found), np.abs(exact(problem)), rtol=1e-5)
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6])

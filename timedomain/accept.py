@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from microslip_mechanics.jit import bare_kernel
-from timedomain.coordinates import Contacts, Modes
+from timedomain.coordinates import Contacts
+from timedomain.coupling import accept_coupling
 from timedomain.dense import copy, copy_rows
 from timedomain.motion import (
     DRIFT,
@@ -18,7 +19,6 @@ from timedomain.tables import Tables
 
 @bare_kernel
 def accept(
-    modes: Modes,
     contacts: Contacts,
     tables: Tables,
     motion: Motion,
@@ -38,7 +38,7 @@ def accept(
     motion.numbers[DRIFT] += trial.numbers[1]
     drift = abs(motion.numbers[DRIFT])
     motion.numbers[LARGEST_DRIFT] = max(motion.numbers[LARGEST_DRIFT], drift)
-    _couple(modes, motion, trial, length)
+    accept_coupling(motion, trial, length)
 
 
 @bare_kernel
@@ -118,16 +118,3 @@ def _renew_energies(
         motion.powers[flow] = trial.powers[stages - 1, flow]
     if tables.mean > 0.0:
         motion.powers[3] = trial.numbers[2]
-
-
-@bare_kernel
-def _couple(modes: Modes, motion: Motion, trial: Trial, length: float) -> None:
-    """Renew the damping force of the other modes, and its rate."""
-    fresh = trial.contact
-    for i in range(fresh.size):
-        fresh[i] = 0.0
-        for j in range(modes.reach[i, 0], modes.reach[i, 1]):
-            fresh[i] += modes.coupling[i, j] * motion.velocity[j]
-    for j in range(fresh.size):
-        motion.coupled[1, j] = (fresh[j] - motion.coupled[0, j]) / length
-        motion.coupled[0, j] = fresh[j]

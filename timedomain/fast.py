@@ -78,12 +78,7 @@ class FastMarch:
         self._motion = Motion(
             inverse @ state.displacement,
             inverse @ state.velocity,
-            np.stack(
-                [
-                    modes.coupling @ inverse @ state.velocity,
-                    modes.coupling @ inverse @ state.acceleration,
-                ]
-            ),
+            _coupled(modes, inverse, state),
             state.gaps,
             state.slips,
             state.forces,
@@ -247,6 +242,14 @@ class FastMarch:
         )
 
 
+def _coupled(modes: Modes, inverse: Array, state: State) -> Array:
+    """Return what the modes' damping couples, and its rate."""
+    if not modes.coupling.any():
+        return np.zeros((3, 0))
+    motion = np.stack([state.velocity, state.acceleration, 0.0 * state.velocity])
+    return np.ascontiguousarray(motion @ inverse.T @ modes.coupling.T)
+
+
 def _relative(modes: Modes, inverse: Array, state: State) -> Array:
     """Return y and ẏ, shape (2, rank)."""
     motion = np.stack([state.displacement, state.velocity], axis=1)
@@ -283,4 +286,5 @@ def _trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
         np.zeros(count),
         np.zeros(count),
         np.zeros(points),
+        np.zeros((3, count if modes.coupling.any() else 0)),
     )

@@ -6,6 +6,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_power
 from microslip_mechanics.jit import bare_kernel
 from timedomain.coordinates import Contacts, Modes
+from timedomain.coupling import coupled_force
 from timedomain.motion import Motion, Trial
 from timedomain.point_law import between
 from timedomain.tables import Tables
@@ -47,7 +48,7 @@ def stage_powers(
     for j in range(trial.velocity.size):
         v = trial.velocity[j]
         lost += v * (modes.damping[j] * v)
-        lost += v * (motion.coupled[0, j] + part * motion.coupled[1, j])
+        lost += v * coupled_force(trial, j, tables.times[stage], False)
     trial.powers[stage, 1], trial.powers[stage, 2] = friction, damping
     trial.powers[stage, 3] = lost
     if tables.mean > 0.0:

@@ -7,6 +7,11 @@ from microslip_mechanics.jit import bare_kernel
 from microslip_mechanics.segments import Segments, load_factors
 from timedomain.contact_newton import Answer, solve_contact
 from timedomain.coordinates import Contacts, Modes
+from timedomain.coupling import (
+    coupled_force,
+    extrapolate_coupling,
+    renew_coupling,
+)
 from timedomain.dense import copy, copy_rows
 from timedomain.fast_powers import pull, stage_powers
 from timedomain.motion import HINT, ITERATIONS, LENGTH, Control, Motion, Trial
@@ -14,6 +19,8 @@ from timedomain.tables import Tables
 
 SOONEST = 1e-8
 """of a step: how far behind a kink it begins"""
+COUPLINGS = 12
+"""tries of a step until the coupling forces at its end are those of its motion"""
 EARLIER = 1.0 - SOONEST
 """loads at the end of a step are those before a jump at that time"""
 
@@ -31,6 +38,35 @@ def attempt(
     begin: float,
 ) -> int:
     """Try a step from the time ``begin``; return Newton's iterations, or −1."""
+    length, iterations = control.longest / 2.0**level, 0
+    extrapolate_coupling(motion, trial, length)
+    for _ in range(COUPLINGS):
+        taken = _stages(
+            control, modes, contacts, tables, segments, motion, trial, level, begin
+        )
+        if taken < 0:
+            return -1
+        iterations += taken
+        if renew_coupling(modes, motion, trial, length) <= control.newton:
+            motion.counts[ITERATIONS] += iterations
+            trial.numbers[0] = _stiffness(tables, trial, level)
+            return max(1, iterations)
+    return -1
+
+
+@bare_kernel
+def _stages(
+    control: Control,
+    modes: Modes,
+    contacts: Contacts,
+    tables: Tables,
+    segments: Segments,
+    motion: Motion,
+    trial: Trial,
+    level: int,
+    begin: float,
+) -> int:
+    """Try a step with the coupling forces that are guessed."""
     length = control.longest / 2.0**level
     _begin(modes, tables, segments, motion, trial, begin + SOONEST * length)
     iterations = 0
@@ -38,7 +74,8 @@ def attempt(
         _middle(modes, segments, motion, trial, begin + 0.5 * length)
     for stage in range(1, tables.times.size):
         part = tables.times[stage] * length
-        _load(modes, segments, motion, trial, stage, begin + part * EARLIER, part)
+        time = begin + part * EARLIER
+        _load(modes, tables, segments, motion, trial, stage, time)
         if tables.mean > 0.0:
             _bulge(modes, trial)
         _predict(modes, tables, motion, trial, level, stage)
@@ -62,9 +99,7 @@ def attempt(
         iterations += taken
         _complete(modes, tables, trial, level, stage)
         stage_powers(modes, contacts, tables, motion, trial, stage, part)
-    motion.counts[ITERATIONS] += iterations
-    trial.numbers[0] = _stiffness(tables, trial, level)
-    return max(1, iterations)
+    return iterations
 
 
 @bare_kernel
@@ -79,7 +114,7 @@ def _begin(
     """Write forces and powers at the begin of a step."""
     copy(motion.reaction[0], trial.local.reaction)
     copy_rows(motion.forces, trial.local.forces)
-    _load(modes, segments, motion, trial, 0, time, 0.0)
+    _load(modes, tables, segments, motion, trial, 0, time)
     if tables.mean == 0.0:
         _contact_force(modes, trial)
         for j in range(trial.contact.size):
@@ -125,19 +160,19 @@ def _stiffness(tables: Tables, trial: Trial, level: int) -> float:
 @bare_kernel
 def _load(
     modes: Modes,
+    tables: Tables,
     segments: Segments,
     motion: Motion,
     trial: Trial,
     stage: int,
     time: float,
-    part: float,
 ) -> None:
     """Write the modal force of a stage but for contact."""
     load_factors(segments, time, motion.counts[HINT], trial.factors)
     force = trial.force[stage]
     for j in range(force.size):
         force[j] = pull(modes, trial, j)
-        force[j] -= motion.coupled[0, j] + part * motion.coupled[1, j]
+        force[j] -= coupled_force(trial, j, tables.times[stage], tables.mean > 0.0)
 
 
 @bare_kernel

@@ -102,7 +102,7 @@ def _step(
         error = step_error(control, modes, table, motion, trial, level, safe)
     if not error <= 1.0:  # nor where it is not a number
         return _reject(control, motion, level, error <= SHARE and not stiff)
-    accept(modes, contacts, table, motion, trial, level, length)
+    accept(contacts, table, motion, trial, level, length)
     counts[TICK] += TICKS >> level
     counts[STEPS] += 1
     if safe:

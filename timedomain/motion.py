@@ -41,7 +41,8 @@ class Motion(NamedTuple):
     velocity: Array
     """shape (modes,)"""
     coupled: Array
-    """damping force of the other modes, and its rate, shape (2, modes)"""
+    """damping force of the other modes, its rate and, over h², by how much its mean in
+    the last step exceeds that of both ends; shape (3, modes), or (3, 0) without any"""
     gaps: Array
     """of the points [m], shape (points, 3)"""
     slips: Array
@@ -95,3 +96,6 @@ class Trial(NamedTuple):
     """by which their mean over the step exceeds that of both ends, shape (modes,)"""
     begins: Array
     """penetrations at the begin, shape (points,)"""
+    coupled: Array
+    """damping force of the other modes at the begin, its change, and by how much its
+    mean exceeds that of both ends; shape (3, modes), or (3, 0) without any"""

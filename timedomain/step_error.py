@@ -6,6 +6,7 @@ import numpy as np
 
 from microslip_mechanics.jit import bare_kernel
 from timedomain.coordinates import Modes
+from timedomain.coupling import coupling_error
 from timedomain.motion import LENGTH, REFERENCE, Control, Motion, Trial
 from timedomain.tables import Tables
 
@@ -34,6 +35,7 @@ def step_error(
         energy = _curvature(modes, motion, trial, length)
     if control.tolerance == 0.0:
         return 0.0
+    energy += coupling_error(modes, motion, trial, length)
     return float(np.sqrt(energy / reference) / control.tolerance)
 
 

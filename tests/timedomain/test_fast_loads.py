@@ -15,8 +15,11 @@ from timedomain.integrate import MarchOptions, integrate
 HERTZ, DRIVES = 5.3, np.array([1.0, 0.7])
 
 
-def pair(gyroscopic: float) -> Problem:
-    """Return two masses that move independently but for forces across velocities."""
+def pair(gyroscopic: float, dashpot: float = 0.0) -> Problem:
+    """Return two masses that move independently but for forces across velocities.
+
+    The dashpot between them is one of the damping matrix.
+    """
     made = system(
         mass=np.eye(2).tolist(),
         stiffness=np.diag([1000.0, 1600.0]).tolist(),
@@ -24,7 +27,8 @@ def pair(gyroscopic: float) -> Problem:
         drive={"x1": DRIVES[0], "x2": DRIVES[1]},
     )
     across = gyroscopic * np.array([[0.0, -1.0], [1.0, 0.0]])
-    damping = made.structure.damping + across
+    between = dashpot * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    damping = made.structure.damping + across + between
     structure = replace(made.structure, damping=damping, gyroscopic=gyroscopic != 0.0)
     return replace(made, structure=structure)
 
@@ -79,3 +83,17 @@ def test_the_error_of_loads_falls_with_the_fourth_power_of_the_step() -> None:
 
     assert errors[0] < 3e-4
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(4.0, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("gyroscopic", "dashpot"), [(6.0, 0.0), (20.0, 0.0), (0.0, 5.0), (0.0, 50.0)]
+)
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+def test_coupled_damping_is_met_within_the_tolerance(
+    gyroscopic: float, dashpot: float, tolerance: float
+) -> None:
+    problem = pair(gyroscopic, dashpot)
+
+    found = marched(problem, 12, tolerance)
+
+    np.testing.assert_allclose(np.abs(found), np.abs(exact(problem)), rtol=tolerance)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hbm.symmetry import Symmetry
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints, contact_force
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 
 GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
@@ -38,7 +38,7 @@ class Work(NamedTuple):
     by_velocity: Array
 
 
-@kernel
+@bare_kernel
 def refine(
     points: ContactPoints,
     point: int,
@@ -92,7 +92,7 @@ def refine(
         )  # fmt: skip
 
 
-@kernel
+@bare_kernel
 def _deposit(
     point: int,
     work: Work,

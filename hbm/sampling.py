@@ -18,7 +18,7 @@ from hbm.symmetry import Symmetry, mirror
 from hbm.transitions import EVENTS, faded, locate, passes
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints, contact_force, edge, rubs
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel, kernel
 
 
 class Forces(NamedTuple):
@@ -70,18 +70,18 @@ def sample(
     bounds = np.searchsorted(
         entries[:, 0], 3 * np.arange(points.load.size + 1, dtype=np.int64)
     )
+    work = Work(
+        np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
+    )
     for point in range(points.load.size):
         _regular(
-            points, point, displacement, velocity, entries, bounds[point],
+            points, point, displacement, velocity, work, entries, bounds[point],
             bounds[point + 1], seen, regular.force, regular.change, tangents,
         )  # fmt: skip
     made = Samples(extra.force, extra.change, tangents, entries)
     extra.force[:, :seen] = 0.0
     extra.change[:, :seen] = 0.0
     eventful = False
-    work = Work(
-        np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
-    )
     events = np.zeros(EVENTS + 2)
     for point in range(points.load.size):
         row, threshold = 3 * point, points.threshold[point]
@@ -127,12 +127,13 @@ def hat(harmonics: int, samples: int) -> Array:
     return factor
 
 
-@kernel
+@bare_kernel
 def _regular(
     points: ContactPoints,
     point: int,
     displacement: Array,
     velocity: Array,
+    work: Work,
     entries: NDArray[np.int64],
     first: int,
     last: int,
@@ -142,8 +143,8 @@ def _regular(
     tangents: Array,
 ) -> None:
     """Write force and tangents of one point at each sample."""
-    moved, moving, force = np.zeros(3), np.zeros(3), np.zeros(3)
-    stiff, slope = np.zeros((3, 3)), np.zeros((3, 3))
+    moved, moving, force = work.moved, work.moving, work.force
+    stiff, slope = work.by_displacement, work.by_velocity
     row = 3 * point
     for place in range(seen):
         for axis in range(3):

@@ -16,7 +16,7 @@ from microslip_mechanics.contact.law import (
     edge,
     rubs,
 )
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel, kernel
 
 EVENTS = 10
 """most within a cell: two crossings of each of four speeds, one turn, one touch"""
@@ -24,7 +24,7 @@ FADING = 3.0
 """Stribeck speeds past the threshold at which an event is placed as well"""
 
 
-@kernel
+@bare_kernel
 def faded(points: ContactPoints, point: int) -> float:
     """Return the speed at which friction has fallen, the threshold if it does not."""
     speed: float = points.threshold[point]
@@ -33,7 +33,7 @@ def faded(points: ContactPoints, point: int) -> float:
     return speed
 
 
-@kernel
+@bare_kernel
 def passes(
     displacement: Array,
     velocity: Array,
@@ -107,7 +107,7 @@ def locate(
     return found
 
 
-@kernel
+@bare_kernel
 def _slow(
     one: float,
     two: float,
@@ -139,7 +139,7 @@ def _slow(
     return found
 
 
-@kernel
+@bare_kernel
 def _crossings(
     one: float,
     two: float,

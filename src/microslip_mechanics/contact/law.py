@@ -24,7 +24,7 @@ from microslip_mechanics.contact.power_spring import (
     power_force,
 )
 from microslip_mechanics.contact.tanh_coulomb import tanh_coefficients
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import bare_kernel
 
 ONE_SIDED, TWO_SIDED = 0, 1
 """kinds of normal law: Hunt and Crossley's, and a spring that also pulls"""
@@ -113,7 +113,7 @@ def repeated_points(points: ContactPoints, times: int) -> ContactPoints:
     return ContactPoints(*(np.tile(column, times) for column in tuple(points)))
 
 
-@kernel
+@bare_kernel
 def contact_force(
     points: ContactPoints,
     point: int,
@@ -266,7 +266,7 @@ def normal_law(points: ContactPoints, point: int) -> HuntCrossley:
     )
 
 
-@kernel
+@bare_kernel
 def _friction(
     points: ContactPoints, point: int, first: float, second: float
 ) -> tuple[float, float, float, float, float]:

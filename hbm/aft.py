@@ -3,41 +3,24 @@
 from __future__ import annotations
 
 import copy
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.fourier import FourierBasis, Transform, derivative
+from hbm.contact_cycle import ContactCycle, contact_cycle
+from hbm.fourier import FourierBasis, Transform
 from hbm.memory import FrictionMemory, marched
-from hbm.sampling import Forces, hat, sample
+from hbm.sampling import sample
 from hbm.symmetry import Symmetry, holds, symmetry
+from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
-    PUSHED,
     RIGID,
     ContactPoints,
-    contact_force,
-    contact_power,
     tangent_pattern,
 )
 from microslip_mechanics.errors import MicroslipError
-from microslip_mechanics.jit import kernel
-
-
-@dataclass(frozen=True, slots=True)
-class ContactCycle:
-    """What one period of the contacts shows in time."""
-
-    normal_smallest: Array
-    """[N], shape (points,)"""
-    normal_largest: Array
-    """[N], shape (points,)"""
-    friction: float
-    """energy that friction takes out per period [J]"""
-    normal_damping: float
-    """energy that normal damping takes out per period [J]"""
 
 
 class Call(NamedTuple):
@@ -102,9 +85,8 @@ class AlternatingFrequencyTime:
                 "frequency or a parameter; give coulomb with a small "
                 "threshold_velocity here"
             )
-        rows, rank = basis.shape
+        rows = len(basis)
         self._points, self._basis, self._fourier = points, basis, fourier
-        self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
         self._offset = np.zeros(rows) if offset is None else offset
         self._entries = _entries(points, pruned)
         recalls = bool(marched(points).any())
@@ -119,15 +101,8 @@ class AlternatingFrequencyTime:
             None if recalls or samples % 2 else odd,
         )
         self._seen = samples // 2 + 1 if self._symmetry.signs.size else samples
-        self._displacement = Transform(rank, samples)
-        self._velocity = Transform(rank, samples)
-        self._force = Transform(rank, samples)
+        self._traces = Traces(basis, fourier)
         self._spectrum = Transform(len(self._entries), samples)
-        self._regular, self._extra = (
-            Forces(np.zeros((rows, samples)), np.zeros((rows, samples)))
-            for _ in range(2)
-        )
-        self._hat = hat(fourier.harmonics, samples)[:, None]
         self._mixing = _mixing(basis, self._entries)
         self._calls = [0]
         self._last: Call | None = None
@@ -189,31 +164,23 @@ class AlternatingFrequencyTime:
     ) -> tuple[Array, Array]:
         """Return force and its derivative by ω, and fill the buffers."""
         self._calls[0] += 1
-        displacement, velocity = self._motion(coefficients, frequency, decay)
-        self._moved = displacement, velocity
-        eventful = sample(
+        traces = self._traces
+        displacement, velocity = traces.motion(
+            coefficients, frequency, decay, self._seen
+        )
+        self._moved = displacement + self._offset[:, None], velocity
+        sample(
             self._points,
-            displacement,
-            velocity,
+            *self._moved,
             self._entries,
             self._symmetry,
-            self._regular,
-            self._extra,
+            traces.regular,
+            traces.extra,
             self.tangents,
         )
         if self._memory is not None:
-            self._memory.add(
-                self._points,
-                self._moved,
-                frequency,
-                self._regular.force,
-                self._regular.change,
-            )
-        force = self._analysed(self._regular.force)
-        change = self._analysed(self._regular.change)
-        if eventful:
-            force += self._analysed(self._extra.force) / self._hat
-            change += self._analysed(self._extra.change) / self._hat
+            self._memory.add(self._points, self._moved, frequency, *traces.regular)
+        force, change = traces.forces()
         return force, change / frequency
 
     @property
@@ -279,52 +246,18 @@ class AlternatingFrequencyTime:
         They are forces integrated over the phase. Orders up to ``above`` are left out,
         ``most`` is the highest one.
         """
-        force = self._analysed(self._regular.force, most)
-        extra = self._analysed(self._extra.force, most)
-        force += extra / hat(most, self._fourier.samples)[:, None]
+        force, _ = self._traces.forces(most)
         orders = (np.arange(2 * above + 1, 2 * most + 1) + 1) // 2
         return float(np.linalg.norm(force[2 * above + 1 :] / orders[:, None]))
 
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
         """Return normal forces and energies over one period."""
         self(coefficients, frequency)
-        displacement, velocity = self._moved
         half = self._symmetry.signs.size > 0
         seen = self._fourier.samples // (2 if half else 1)
-        forces = self._regular.force + self._extra.force
-        smallest, largest, powers = _cycle(
-            self._points, displacement, velocity, forces, seen
-        )
+        forces = self._traces.regular.force + self._traces.extra.force
         period = 2.0 * np.pi / frequency
-        return ContactCycle(smallest, largest, *(float(p) * period for p in powers))
-
-    def _motion(
-        self, coefficients: Array, frequency: float, decay: float = 0.0
-    ) -> tuple[Array, Array]:
-        rates = frequency * derivative(coefficients)
-        rates[1:] -= decay * coefficients[1:]
-        displacement, velocity = self._synthesis(coefficients, rates)
-        return displacement + self._offset[:, None], velocity
-
-    def _synthesis(self, coefficients: Array, rates: Array) -> tuple[Array, Array]:
-        """Return displacement and velocity of the points at the samples needed."""
-        displacement = self._displacement.synthesis(coefficients)
-        velocity = self._velocity.synthesis(rates)
-        if self._direct:
-            return displacement, velocity
-        seen = self._seen
-        return (
-            np.dot(self._basis, displacement[:, :seen]),
-            np.dot(self._basis, velocity[:, :seen]),
-        )
-
-    def _analysed(self, rows: Array, harmonics: int | None = None) -> Array:
-        """Return the coefficients of samples at the points, brought to y."""
-        if self._direct:
-            self._force.samples[:] = rows
-        else:
-            np.dot(self._basis.T, rows, out=self._force.samples)
-        return self._force.analysis(harmonics or self._fourier.harmonics)
+        return contact_cycle(self._points, self._moved, forces, seen, period)
 
 
 def _kinds(points: ContactPoints) -> Array:
@@ -352,32 +285,3 @@ def _mixing(basis: Array, entries: NDArray[np.int64]) -> Array:
     for place, (row, column, kind) in enumerate(entries):
         mixing[kind, :, :, place] = np.outer(basis[row], basis[column])
     return mixing.reshape(2 * rank**2, len(entries))
-
-
-@kernel
-def _cycle(
-    points: ContactPoints,
-    displacement: Array,
-    velocity: Array,
-    forces: Array,
-    seen: int,
-) -> tuple[Array, Array, Array]:
-    """Return smallest and largest normal forces and mean dissipated powers."""
-    count = points.load.size
-    smallest, largest = np.full(count, np.inf), np.full(count, -np.inf)
-    powers, unused = np.zeros(2), np.zeros((2, 3, 3))
-    force = np.zeros(3)
-    for point in range(count):
-        place = slice(3 * point, 3 * point + 3)
-        for moment in range(seen):
-            moved, moving = displacement[place, moment], velocity[place, moment]
-            contact_force(points, point, moved, moving, force, unused[0], unused[1])
-            smallest[point] = min(smallest[point], force[0])
-            largest[point] = max(largest[point], force[0])
-            force[1:] = forces[place, moment][1:]
-            if points.friction[point] == PUSHED:
-                force[1:] = 0.0  # its displacement is a push
-            slid, damped = contact_power(points, point, moved, moving, force)
-            powers[0] += slid / seen
-            powers[1] += damped / seen
-    return smallest, largest, powers

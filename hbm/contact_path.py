@@ -14,7 +14,7 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.symmetry import mirror
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints, edge, normal_response, rubs
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel, kernel
 
 HALVINGS = 40
 """of a cell between two samples in which an event lies"""
@@ -51,7 +51,7 @@ def last_path(
     return Path(rows[0], rows[1], 2.0 * np.pi / frequency / samples)
 
 
-@kernel
+@bare_kernel
 def place(path: Path, point: int, at: float, moved: Array, moving: Array) -> None:
     """Write displacement and velocity of a point ``at`` samples after the first."""
     cell = min(int(at), path.displacement.shape[1] - 2)
@@ -106,7 +106,7 @@ def events(points: ContactPoints, path: Path) -> Array:
     return found[:count]
 
 
-@kernel
+@bare_kernel
 def _regime(
     points: ContactPoints, point: int, path: Path, at: float, work: Array
 ) -> int:
@@ -125,7 +125,7 @@ def _regime(
     return regime
 
 
-@kernel
+@bare_kernel
 def _slowest(path: Path, point: int, cell: int, work: Array) -> float:
     """Return the share of a cell at which sliding turns, 0 if it does not."""
     velocity, row = path.velocity, 3 * point
@@ -147,7 +147,7 @@ def _slowest(path: Path, point: int, cell: int, work: Array) -> float:
     return high
 
 
-@kernel
+@bare_kernel
 def _changes(
     points: ContactPoints,
     point: int,

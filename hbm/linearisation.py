@@ -117,20 +117,20 @@ class Linearisation:
 
     def _solved(self, right: Array) -> Array:
         """Return the solution with the factors that there are."""
-        found, failed = lapack.dgetrs(*self._factors, right)
+        found, failed = lapack.dgetrs(*self._factors, right, trans=1)
         if failed != 0:
             raise SingularError
         solution: Array = found
         return solution
 
     def _factored(self, border: Array) -> tuple[Array, Array]:
-        """Return the factors of the bordered matrix."""
+        """Return the factors of the bordered matrix, transposed: it lies by rows."""
         count = self.slope.size
-        matrix = np.empty((count + 1, count + 1), order="F")
+        matrix = np.empty((count + 1, count + 1))
         matrix[:count, :count] = self.jacobian
         matrix[:count, count] = self.slope
         matrix[count] = border
-        factors, pivots, failed = lapack.dgetrf(matrix, overwrite_a=True)
+        factors, pivots, failed = lapack.dgetrf(matrix.T, overwrite_a=True)
         if failed != 0:
             raise SingularError
         return factors, pivots

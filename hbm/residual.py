@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.aft import ContactCycle
+from hbm.contact_cycle import ContactCycle
 from hbm.fourier import FourierBasis, to_complex, to_real
 from hbm.jacobian import assemble, terms
 from hbm.linearisation import Linearisation

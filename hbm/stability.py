@@ -22,7 +22,7 @@ from hbm.stuck_poles import split
 from hbm.tangents import StepTangents, step_tangents
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.memory import remembers
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel, kernel
 from microslip_mechanics.problem import Problem
 
 SMALLEST = 0.004
@@ -281,7 +281,7 @@ def _loads(
             result[row, column] = share * moved[row, column] - inertia
 
 
-@kernel
+@bare_kernel
 def _advance(
     moved: Array,
     moving: Array,

@@ -21,7 +21,7 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.contact_path import Path, events, last_path, place
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints, contact_force
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel, kernel
 
 COARSE, FINE = 48, 96
 """intervals of a period at least: coarse where …"""
@@ -213,7 +213,7 @@ def _moments(
                         moments[point, 2, kind, row, column] += BEND[node] * size
 
 
-@kernel
+@bare_kernel
 def _change(moments: Array, inertia: Array, length: float) -> float:
     """Return by how much the tangents of a point change, beside what holds it."""
     largest = 0.0
@@ -231,7 +231,7 @@ def _change(moments: Array, inertia: Array, length: float) -> float:
     return largest
 
 
-@kernel
+@bare_kernel
 def _catches(
     moments: Array,
     inertia: Array,
@@ -250,7 +250,7 @@ def _catches(
     return begins
 
 
-@kernel
+@bare_kernel
 def _add_steps(
     moments: Array, basis: Array, elastic: Array, viscous: Array, step: int
 ) -> None:
@@ -265,7 +265,7 @@ def _add_steps(
             _add(viscous[step + part], rows, mean[1], tilt[1], factor * sign)
 
 
-@kernel
+@bare_kernel
 def _factor(mean: Array, tilt: Array) -> float:
     """Return the factor of the tilt: 4, or less where damping would be negative."""
     factor = 4.0
@@ -276,7 +276,7 @@ def _factor(mean: Array, tilt: Array) -> float:
     return factor
 
 
-@kernel
+@bare_kernel
 def _add(result: Array, rows: Array, mean: Array, tilt: Array, factor: float) -> None:
     """Add rowsᵀ (mean + factor tilt) rows."""
     for row in range(3):

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from contact_tables import contact_points
-from hbm.aft import AlternatingFrequencyTime, ContactCycle
+from hbm.aft import AlternatingFrequencyTime
+from hbm.contact_cycle import ContactCycle
 from hbm.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from hbm.aft import AlternatingFrequencyTime, ContactCycle
+from hbm.aft import AlternatingFrequencyTime
+from hbm.contact_cycle import ContactCycle
 from hbm.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_table

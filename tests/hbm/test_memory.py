@@ -78,7 +78,7 @@ def test_separated_contact_has_no_traction_and_sticks_when_it_closes() -> None:
     coefficients[1, 1] = 1.0
     points(coefficients, FREQUENCY)
     points.cycle(coefficients, FREQUENCY)
-    traction = points._regular.force[1]
+    traction = points._traces.regular.force[1]
     phase = 2.0 * np.pi * np.arange(1024) / 1024
     closed = STIFFNESS * (np.cos(phase) - np.cos(phase[1]))
     assert traction[512:] == pytest.approx(np.zeros(512), abs=1e-12)

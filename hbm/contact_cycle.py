@@ -1,0 +1,85 @@
+"""Normal forces and energies of the contacts over one period (theory §6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import (
+    PUSHED,
+    ContactPoints,
+    contact_force,
+    contact_power,
+)
+from microslip_mechanics.jit import kernel
+
+
+@dataclass(frozen=True, slots=True)
+class ContactCycle:
+    """What one period of the contacts shows in time."""
+
+    normal_smallest: Array
+    """[N], shape (points,)"""
+    normal_largest: Array
+    """[N], shape (points,)"""
+    friction: float
+    """energy that friction takes out per period [J]"""
+    normal_damping: float
+    """energy that normal damping takes out per period [J]"""
+
+
+def contact_cycle(
+    points: ContactPoints,
+    moved: tuple[Array, Array],
+    forces: Array,
+    seen: int,
+    period: float,
+) -> ContactCycle:
+    """Return normal forces and energies over one period.
+
+    Parameters
+    ----------
+    points
+        Contact table.
+    moved
+        Displacement and velocity of the points, shape ``(3 points, samples)`` each.
+    forces
+        Of the points [N], the same shape.
+    seen
+        Number of samples that tell all.
+    period
+        [s].
+    """
+    smallest, largest, powers = _seen(points, *moved, forces, seen)
+    return ContactCycle(smallest, largest, *(float(p) * period for p in powers))
+
+
+@kernel
+def _seen(
+    points: ContactPoints,
+    displacement: Array,
+    velocity: Array,
+    forces: Array,
+    seen: int,
+) -> tuple[Array, Array, Array]:
+    """Return smallest and largest normal forces and mean dissipated powers."""
+    count = points.load.size
+    smallest, largest = np.full(count, np.inf), np.full(count, -np.inf)
+    powers, unused = np.zeros(2), np.zeros((2, 3, 3))
+    force = np.zeros(3)
+    for point in range(count):
+        place = slice(3 * point, 3 * point + 3)
+        for moment in range(seen):
+            moved, moving = displacement[place, moment], velocity[place, moment]
+            contact_force(points, point, moved, moving, force, unused[0], unused[1])
+            smallest[point] = min(smallest[point], force[0])
+            largest[point] = max(largest[point], force[0])
+            force[1:] = forces[place, moment][1:]
+            if points.friction[point] == PUSHED:
+                force[1:] = 0.0  # its displacement is a push
+            slid, damped = contact_power(points, point, moved, moving, force)
+            powers[0] += slid / seen
+            powers[1] += damped / seen
+    return smallest, largest, powers

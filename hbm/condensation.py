@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ WIDE = 12
 """coordinates from which matrix products are faster than loops that use symmetry"""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CondensedStructure:
     """Dynamic stiffness seen by the relative coordinates y, and the way back to u.
 
@@ -113,13 +114,21 @@ class CondensedStructure:
             self.damping,
             self.mass,
             self.poles[self.coupled],
-            self.viscous[self.coupled].T.copy(),
-            self.inertial[self.coupled].T.copy(),
-            self.viscous_back[:, self.coupled],
-            self.inertial_back[:, self.coupled],
+            *self._driven,
             variable,
             wanted,
             self.gyroscopic,
+        )
+
+    @cached_property
+    def _driven(self) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
+        """How the poles that y excites are coupled with it, by rows of y."""
+        used = self.coupled
+        return (
+            self.viscous[used].T.copy(),
+            self.inertial[used].T.copy(),
+            self.viscous_back[:, used].copy(),
+            self.inertial_back[:, used].copy(),
         )
 
     def _whole(self, s: complex) -> tuple[ComplexArray, ComplexArray]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeAlias
@@ -202,7 +203,7 @@ def _within(
     step: Array, point: Array, size: float, small: Small | None, times: float
 ) -> bool:
     """Return whether a step changes nothing that matters, or rounding only."""
-    if float(np.linalg.norm(step)) <= ROUNDING * float(np.linalg.norm(point[:-1])):
+    if _merit(step) <= ROUNDING * _merit(point[:-1]):
         return True
     return _negligible(step, point, size, small, times)
 
@@ -216,13 +217,12 @@ def _negligible(
     """
     if small is None or size > small.residual:
         return False
-    return float(np.linalg.norm(step / small.changes(point))) <= times
+    return _merit(step / small.changes(point)) <= times
 
 
-def _merit(residual: Array) -> float:
-    """Return what a step must lower; infinite where its square overflows."""
-    with np.errstate(over="ignore"):
-        return float(np.linalg.norm(residual))
+def _merit(values: Array) -> float:
+    """Return the Euclidean norm, which a step must lower; infinite if it overflows."""
+    return math.sqrt(float(values @ values))
 
 
 def _size(residual: Array) -> float:

@@ -19,6 +19,7 @@ class Predictor:
         """Begin without a past."""
         self._points: list[Array] = []
         self._places: list[float] = []
+        self._bends: list[Array] = []
         self._tangent: Array = np.empty(0)
         self._scale: Array = np.empty(0)
         self.order = 1
@@ -40,7 +41,21 @@ class Predictor:
         self._points = [point, *self._points][: MOST + 1]
         self._places = [0.0, *(place - step for place in self._places)][: MOST + 1]
         self._tangent, self._scale = tangent, scale
+        self._bends = self._differences()
         return min(missed, default=0.0)
+
+    def _differences(self) -> list[Array]:
+        """Return the divided differences of (x(s) − x(0) − s x'(0))/s²."""
+        start, places = self._points[0], self._places[1:]
+        bends: list[Array] = [
+            (point - start - place * self._tangent) / place**2
+            for point, place in zip(self._points[1:], places, strict=True)
+        ]
+        for width in range(1, len(bends)):
+            for i in range(len(bends) - 1, width - 1, -1):
+                apart = places[i] - places[i - width]
+                bends[i] = (bends[i] - bends[i - 1]) / apart
+        return bends
 
     def predict(self, step: float) -> Array:
         """Return the point expected ``step`` further on.
@@ -61,19 +76,9 @@ class Predictor:
 
         Order 1 is the tangent; each further order takes one more earlier point.
         """
-        start = self._points[0]
-        line: Array = start + step * self._tangent
-        if order == 1:
-            return line
-        places = np.array(self._places[1:order])
-        bends = [
-            (point - start - place * self._tangent) / place**2
-            for point, place in zip(self._points[1:order], places, strict=True)
-        ]
-        weights = [
-            np.prod((step - np.delete(places, i)) / (place - np.delete(places, i)))
-            for i, place in enumerate(places)
-        ]
-        bend = sum(weight * each for weight, each in zip(weights, bends, strict=True))
-        curved: Array = line + step**2 * bend
-        return curved
+        reached: Array = self._points[0] + step * self._tangent
+        weight = step**2
+        for bend, place in zip(self._bends, self._places[1:order], strict=False):
+            reached += weight * bend
+            weight *= step - place
+        return reached

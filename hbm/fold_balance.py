@@ -153,6 +153,20 @@ class FoldBalance:
         ) / difference
 
 
+def beyond(here: Inner, image: Inner) -> Inner:
+    """Return the balance beyond the range, where there need be no problem.
+
+    It goes on as it does before the border: R(λ) = 2 R(border) − R(2 border − λ).
+    """
+
+    def continued(point: Array) -> tuple[Array, Linearisation]:
+        residual, linearised = here(point)
+        before, falling = image(point)
+        return 2.0 * residual - before, linearised.beyond(falling)
+
+    return continued
+
+
 def _bordered(jacobian: Array, borders: Borders) -> tuple[Array, Array, float]:
     """Return v, w and g with J v + b g = 0, cᵀ v = 1; Jᵀ w + c g = 0, bᵀ w = 1.
 

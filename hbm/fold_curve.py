@@ -11,7 +11,7 @@ import numpy as np
 from hbm.along_parameter import AlongParameter
 from hbm.continuation import trace
 from hbm.curve import response
-from hbm.fold_balance import FoldBalance
+from hbm.fold_balance import FoldBalance, Inner, beyond
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, SingularError
 from hbm.options import CurveOptions
@@ -153,9 +153,15 @@ class FoldCurve:
         """Return the extended system at one resolution, and what it extends."""
         balance = self._path.balance(fourier)
         places = np.flatnonzero(self._path.mask(fourier.harmonics))
+        limits = sorted((self._options.start, self._options.end))
 
-        def at(parameter: float) -> HarmonicBalance:
-            return self._inner(balance, parameter)[0]
+        def at(parameter: float) -> Inner:
+            border = min(max(parameter, limits[0]), limits[1])
+            here, _ = self._inner(balance, border)
+            if border == parameter:
+                return here
+            image = min(max(2.0 * border - parameter, limits[0]), limits[1])
+            return beyond(here, self._inner(balance, image)[0])
 
         return FoldBalance(at, self._path.unit, places, self._path.rank), balance
 

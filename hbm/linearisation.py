@@ -71,6 +71,17 @@ class Linearisation:
 
         return Linearisation(made, self._places[:-1], int(self._places[-1]) + 1)
 
+    def beyond(self, image: Linearisation) -> Linearisation:
+        """Return that of 2 R(this) − R(image) at one point."""
+
+        def made() -> tuple[Array, Array]:
+            return (
+                2.0 * self.jacobian - image.jacobian,
+                2.0 * self.slope - image.slope,
+            )
+
+        return Linearisation(made, self._places[:-1], int(self._places[-1]) + 1)
+
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian slope; normal] d = right.
 

@@ -74,6 +74,22 @@ def test_the_folds_of_the_cubic_spring_are_those_of_the_amplitude_equation() -> 
         assert min(misses) < 1e-7 * found.parameter
 
 
+def test_a_fold_ends_at_the_range_where_there_is_no_problem_beyond() -> None:
+    def damped(damping: float) -> Problem:
+        assert 0.0 <= damping <= DAMPING
+        return cubic_oscillator(damping=damping, drive=1.0)
+
+    lower = located(damped(DAMPING), 0.5, 3.0, 1, 1024)[1]
+    options = CurveOptions(DAMPING, 0.0, harmonics=1, samples=1024)
+    points = [point.response for point in fold_curve(damped, lower, options)]
+
+    # undamped, ω² = 1 + ¾A² + F/A is least at A³ = 2F/3
+    amplitude = (2.0 / 3.0) ** (1.0 / 3.0)
+    fold = math.sqrt(1.0 + 0.75 * amplitude**2 + 1.0 / amplitude)
+    assert points[-1].parameter == 0.0
+    assert points[-1].frequency == pytest.approx(fold, rel=1e-7)
+
+
 def test_both_folds_of_the_cubic_spring_meet_at_its_cusp() -> None:
     meetings = [point.response for point in tracked() if point.response.event]
 

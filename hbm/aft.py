@@ -13,13 +13,10 @@ from hbm.fourier import FourierBasis, Transform
 from hbm.memory import FrictionMemory, marched
 from hbm.sampling import sample
 from hbm.symmetry import Symmetry, holds, symmetry
+from hbm.tangent_entries import kinds, mixing, tangent_entries
 from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
-    RIGID,
-    ContactPoints,
-    tangent_pattern,
-)
+from microslip_mechanics.contact.law import RIGID, ContactPoints
 from microslip_mechanics.errors import MicroslipError
 
 
@@ -88,7 +85,7 @@ class AlternatingFrequencyTime:
         rows = len(basis)
         self._points, self._basis, self._fourier = points, basis, fourier
         self._offset = np.zeros(rows) if offset is None else offset
-        self._entries = _entries(points, pruned)
+        self._entries = tangent_entries(points, pruned)
         recalls = bool(marched(points).any())
         self._memory = FrictionMemory(basis, fourier) if recalls else None
         samples = fourier.samples
@@ -103,7 +100,7 @@ class AlternatingFrequencyTime:
         self._seen = samples // 2 + 1 if self._symmetry.signs.size else samples
         self._traces = Traces(basis, fourier)
         self._spectrum = Transform(len(self._entries), samples)
-        self._mixing = _mixing(basis, self._entries)
+        self._mixing = mixing(basis, self._entries)
         self._calls = [0]
         self._last: Call | None = None
         self._moved: tuple[Array, Array] = (
@@ -119,7 +116,7 @@ class AlternatingFrequencyTime:
         Both share buffers, unless other tangents are needed or a symmetry is lost.
         """
         alike = not self._symmetry.signs.size or holds(self._symmetry, points, offset)
-        if not (alike and np.array_equal(_kinds(points), _kinds(self._points))):
+        if not (alike and np.array_equal(kinds(points), kinds(self._points))):
             return AlternatingFrequencyTime(
                 points,
                 self._basis,
@@ -258,30 +255,3 @@ class AlternatingFrequencyTime:
         forces = self._traces.regular.force + self._traces.extra.force
         period = 2.0 * np.pi / frequency
         return contact_cycle(self._points, self._moved, forces, seen, period)
-
-
-def _kinds(points: ContactPoints) -> Array:
-    """Return all that says which tangents points have, shape (kinds, points)."""
-    acting = (
-        each != 0.0 for each in (points.stiffness, points.damping, points.viscous)
-    )
-    return np.array([points.normal, points.friction, points.constant_load, *acting])
-
-
-def _entries(points: ContactPoints, pruned: bool) -> NDArray[np.int64]:
-    """Return (row, column, by velocity) of the tangents: those that can be, or all."""
-    rows = []
-    for point in range(len(points.load)):
-        for kind, pattern in enumerate(tangent_pattern(points, point)):
-            for row, column in np.argwhere(pattern | (not pruned)):
-                rows.append((3 * point + row, 3 * point + column, kind))
-    return np.array(rows, dtype=np.int64).reshape(-1, 3)
-
-
-def _mixing(basis: Array, entries: NDArray[np.int64]) -> Array:
-    """Return the map from tangents of the points to those of y, (2 rank², entries)."""
-    rank = basis.shape[1]
-    mixing = np.zeros((2, rank, rank, len(entries)))
-    for place, (row, column, kind) in enumerate(entries):
-        mixing[kind, :, :, place] = np.outer(basis[row], basis[column])
-    return mixing.reshape(2 * rank**2, len(entries))

@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
+from hbm.arc_step import Metric, lost, neglected, next_point, tangent
 from hbm.errors import PLACE, ContinuationError
-from hbm.newton import (
-    Correction,
-    Linearised,
-    Outcome,
-    SingularError,
-    Small,
-    System,
-    correct,
-)
+from hbm.newton import Correction, Outcome, SingularError, System, correct
 from hbm.predictor import Predictor
 from hbm.settler import UNSETTLED, Settler
 from hbm.step_control import StepControl
@@ -27,9 +20,6 @@ FEWEST = 4
 """steps of a closed curve"""
 ASIDE = 0.1
 """length of a step from which it may pass a point, over its own"""
-
-Metric = Callable[[Array], Array]
-"""point (n + 1,) ↦ the change of each component that counts as one unit of arc"""
 
 
 def trace(
@@ -88,7 +78,9 @@ def trace(
         missed = past.append(accepted.point, direction, scale, went)
         if went > 0.0:
             step = control.after(went, missed, past.order, accepted.iterations)
-        candidate, went = _next(system, past, direction, scale, step, control, settler)
+        candidate, went = next_point(
+            system, past, direction, scale, step, control, settler
+        )
         if not low < candidate.point[-1] < high:
             limits = (low, high)
             yield _border(system, accepted, candidate, limits, control, settler, metric)
@@ -126,7 +118,7 @@ def correct_at(
     """
     normal = np.zeros_like(guess)
     normal[-1] = 1.0
-    small = _small(control, metric)
+    small = neglected(control, metric)
     found = correct(
         system,
         guess,
@@ -139,15 +131,8 @@ def correct_at(
         found = settler.settle(found, normal, control.tolerance, small)
         settler.keep()
     if found.outcome is not Outcome.CONVERGED:
-        raise _lost("no response is found", float(guess[-1]), found, control)
+        raise lost("no response is found", float(guess[-1]), found, control)
     return found
-
-
-def _small(control: StepControl, metric: Metric | None) -> Small | None:
-    """Return what a step of Newton's iteration may neglect, if it may."""
-    if metric is None or control.negligible == 0.0:
-        return None
-    return Small(lambda point: control.negligible * metric(point), control.loose)
 
 
 def _begun(first: Correction, direction: Array, scale: Array) -> Array:
@@ -181,105 +166,6 @@ def _passes(
     return 0.0 < share <= 1.0 and aside < ASIDE * length and same
 
 
-def tangent(linearised: Linearised, direction: Array, scale: Array) -> Array:
-    """Return the unit tangent (in the metric) that goes on along ``direction``.
-
-    Raises
-    ------
-    SingularError
-        If the curve does not go on along it.
-    """
-    right = np.zeros(direction.size)
-    right[-1] = 1.0
-    along = linearised.solve(direction / scale**2, right)
-    unit: Array = along / float(np.linalg.norm(along / scale))
-    return unit
-
-
-def _next(
-    system: System,
-    past: Predictor,
-    direction: Array,
-    scale: Array,
-    step: float,
-    control: StepControl,
-    settler: Settler,
-) -> tuple[Correction, float]:
-    """Return the next point and the step that led to it."""
-    normal = direction / scale**2
-    normal /= np.abs(normal).max()
-    failures = 0
-    while True:
-        predicted = past.predict(step)
-        candidate, close = _settled(
-            system, predicted, normal, scale, step, control, settler
-        )
-        candidate = _directed(candidate, direction, scale)
-        if candidate.outcome is Outcome.CONVERGED:
-            cosine = float((candidate.along / scale) @ (direction / scale))
-            if (close and cosine > control.sharpest_turn) or step <= control.smallest:
-                settler.keep()
-                return candidate, step
-        elif step <= control.smallest:
-            where = float(past.predict(0.0)[-1])
-            raise _lost("the curve does not go on", where, candidate, control)
-        else:
-            failures += 1
-        settler.retreat(failures)
-        if step < 0.1 * control.largest:
-            past.order = 1
-        step = max(step * 0.5, control.smallest)
-
-
-def _settled(
-    system: System,
-    predicted: Array,
-    normal: Array,
-    scale: Array,
-    step: float,
-    control: StepControl,
-    settler: Settler,
-) -> tuple[Correction, bool]:
-    """Return a point across a prediction, settled if it is close to it, and whether.
-
-    If settling moves it far away, to another branch perhaps, and the system that this
-    has made finer has a point close to the prediction, that one is taken.
-    """
-    small = _small(control, lambda _: scale)
-
-    def found() -> tuple[Correction, bool]:
-        candidate = correct(
-            system, predicted, normal, tolerance=control.tolerance, small=small
-        )
-        slack = control.shift if settler.changed else control.slack
-        near = away(candidate) <= max(0.5 * step, slack)
-        return candidate, near and candidate.outcome is Outcome.CONVERGED
-
-    def away(candidate: Correction) -> float:
-        return float(np.linalg.norm((candidate.point - predicted) / scale))
-
-    candidate, close = found()
-    if not close:
-        return candidate, False
-    settled = settler.settle(candidate, normal, control.tolerance, small)
-    if away(settled) > max(0.5 * step, control.shift):
-        again, close = found()
-        if close:
-            settled = settler.settle(again, normal, control.tolerance, small)
-    return settled, True
-
-
-def _directed(candidate: Correction, direction: Array, scale: Array) -> Correction:
-    """Return a converged point with its tangent; failed, if it has none."""
-    if candidate.outcome is not Outcome.CONVERGED:
-        return candidate
-    try:
-        turned = tangent(candidate.linearised, direction, scale)
-    except SingularError:
-        return replace(candidate, outcome=Outcome.SINGULAR)
-    return replace(candidate, tangent=turned)
-
-
 def _border(
     system: System,
     accepted: Correction,
@@ -297,15 +183,3 @@ def _border(
     guess[-1] = limit
     found = correct_at(system, guess, control, settler, metric)
     return replace(found, tangent=candidate.tangent)
-
-
-def _lost(
-    what: str, where: float, failed: Correction, control: StepControl
-) -> ContinuationError:
-    return ContinuationError(
-        f"{what} at {PLACE}: {failed.outcome.value} "
-        f"(residual {failed.residuals[-1]:.1e} after {failed.iterations} iterations, "
-        f"tolerance {control.tolerance:.1e}); more harmonics, more samples or a larger "
-        "threshold velocity make it smoother",
-        where,
-    )

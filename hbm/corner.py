@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hbm.continuation import tangent
+from hbm.arc_step import tangent
 from hbm.newton import Correction, Outcome, SingularError, System, correct
 from microslip_mechanics.arrays import Array
 

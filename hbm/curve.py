@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
-from hbm.continuation import Metric
+from hbm.arc_step import Metric
 from hbm.errors import ContinuationError
 from hbm.events import Events, Settled
 from hbm.fourier import FourierBasis

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
-from hbm.continuation import Metric
+from hbm.arc_step import Metric
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome

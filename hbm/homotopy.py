@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.continuation import Metric, correct_at
+from hbm.arc_step import Metric
+from hbm.continuation import correct_at
 from hbm.effort import Effort
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.continuation import Metric, trace
+from hbm.arc_step import Metric
+from hbm.continuation import trace
 from hbm.errors import PLACE, ContinuationError
 from hbm.newton import Correction, Outcome, System, correct
 from hbm.settler import Settler

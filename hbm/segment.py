@@ -14,7 +14,7 @@ import numpy as np
 import scipy.optimize
 from scipy.interpolate import BarycentricInterpolator
 
-from hbm.continuation import tangent
+from hbm.arc_step import tangent
 from hbm.newton import Correction, Outcome, SingularError, Small, System, correct
 from microslip_mechanics.arrays import Array
 

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from hbm.continuation import correct_at, tangent, trace
+from hbm.arc_step import tangent
+from hbm.continuation import correct_at, trace
 from hbm.errors import ContinuationError
 from hbm.newton import Correction, Outcome, Small, System
 from hbm.step_control import StepControl

@@ -15,6 +15,7 @@ from hbm.fold_balance import FoldBalance, Inner, beyond
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, SingularError
 from hbm.options import CurveOptions
+from hbm.parametric import mirrored
 from hbm.residual import Balance, HarmonicBalance
 from hbm.segment import Segment, folds
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -153,14 +154,14 @@ class FoldCurve:
         """Return the extended system at one resolution, and what it extends."""
         balance = self._path.balance(fourier)
         places = np.flatnonzero(self._path.mask(fourier.harmonics))
-        limits = sorted((self._options.start, self._options.end))
+        start, end = self._options.start, self._options.end
+        limits = min(start, end), max(start, end)
 
         def at(parameter: float) -> Inner:
-            border = min(max(parameter, limits[0]), limits[1])
+            border, image = mirrored(parameter, limits)
             here, _ = self._inner(balance, border)
             if border == parameter:
                 return here
-            image = min(max(2.0 * border - parameter, limits[0]), limits[1])
             return beyond(here, self._inner(balance, image)[0])
 
         return FoldBalance(at, self._path.unit, places, self._path.rank), balance

@@ -222,7 +222,8 @@ def _negligible(
 
 def _merit(values: Array) -> float:
     """Return the Euclidean norm, which a step must lower; infinite if it overflows."""
-    return math.sqrt(float(values @ values))
+    with np.errstate(over="ignore"):
+        return math.sqrt(float(values @ values))
 
 
 def _size(residual: Array) -> float:

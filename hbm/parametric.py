@@ -64,11 +64,9 @@ class ParametricBalance:
 
     def _reflected(self, point: Array) -> tuple[Array, Array | None]:
         """Return a point, or where it leaves the limits and its mirror image there."""
-        parameter = float(point[-1])
-        border = float(np.clip(parameter, *self._limits))
-        if border == parameter:
+        border, image = mirrored(float(point[-1]), self._limits)
+        if border == point[-1]:
             return point, None
-        image = float(np.clip(2.0 * border - parameter, *self._limits))
         return np.append(point[:-1], border), np.append(point[:-1], image)
 
     def _inside(self, point: Array) -> tuple[Array, Linearisation]:
@@ -109,3 +107,12 @@ class ParametricBalance:
         inner = point.copy()
         inner[-1] = frequency
         return self._balance, inner
+
+
+def mirrored(parameter: float, limits: tuple[float, float]) -> tuple[float, float]:
+    """Return the limit beyond which a parameter is, or itself; its image before that.
+
+    ``limits`` are the least and the largest value.
+    """
+    border = float(np.clip(parameter, *limits))
+    return border, float(np.clip(2.0 * border - parameter, *limits))

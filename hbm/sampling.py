@@ -40,7 +40,7 @@ def sample(
     regular: Forces,
     extra: Forces,
     tangents: Array,
-) -> bool:
+) -> None:
     """Write forces, (∂force/∂velocity) velocity, and chosen tangents at all samples.
 
     Parameters
@@ -60,10 +60,6 @@ def sample(
         Written: what cells with events add to it, for :func:`hat`.
     tangents
         Written, both together.
-
-    Returns
-    -------
-    Whether there is an event.
     """
     samples = tangents.shape[1]
     seen = samples // 2 if symmetry.signs.size else samples
@@ -81,7 +77,6 @@ def sample(
     made = Samples(extra.force, extra.change, tangents, entries)
     extra.force[:, :seen] = 0.0
     extra.change[:, :seen] = 0.0
-    eventful = False
     events = np.zeros(EVENTS + 2)
     for point in range(points.load.size):
         row, threshold = 3 * point, points.threshold[point]
@@ -103,7 +98,6 @@ def sample(
                 continue
             found = locate(points, point, displacement, velocity, place, after, events)
             if found > 0:
-                eventful = True
                 refine(
                     points, point, displacement, velocity, work, made, bounds[point],
                     bounds[point + 1], place, after, events[: found + 2], symmetry,
@@ -112,7 +106,6 @@ def sample(
         mirror(forces.force, symmetry.partners, symmetry.signs)
         mirror(forces.change, symmetry.partners, symmetry.signs)
     mirror(tangents, symmetry.entry_partners, symmetry.entry_signs)
-    return eventful
 
 
 def hat(harmonics: int, samples: int) -> Array:

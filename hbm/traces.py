@@ -40,10 +40,11 @@ class Traces:
     def motion(
         self, coefficients: Array, frequency: float, decay: float, seen: int
     ) -> tuple[Array, Array]:
-        """Return displacement and velocity of the points at the first samples.
+        """Return displacement and velocity of the points at the samples.
 
         A motion that dies away at the rate ``decay`` is slower by as much of what moves
-        about the mean. ``seen`` is the number of samples that are needed.
+        about the mean. ``seen`` is the number of samples that are needed, from the
+        first on; there may be more.
         """
         rank, series = self._basis.shape[1], self._series
         turning = frequency * self._orders

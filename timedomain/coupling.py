@@ -2,7 +2,8 @@
 
 Modes are marched exactly one by one; what couples them through their velocities is a
 force ``p`` on each. It is linear over a step but for its mean, C Δq/h, which the motion
-itself tells; its value at the end is found by trying the step again.
+itself tells; its value at the end is found by trying the step again. What the mean is
+more is shared out evenly, or as a parabola in a step of several stages.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ def renew_coupling(modes: Modes, motion: Motion, trial: Trial, length: float) ->
     coupled, change, size = trial.coupled, 0.0, 0.0
     for i in range(trial.coupled.shape[1]):
         q, v = trial.displacement[i], trial.velocity[i]
-        size += v**2 + modes.stiffness[i] * q**2
+        size += v**2 + abs(modes.stiffness[i]) * q**2
         end, mean = 0.0, 0.0
         for j in range(modes.reach[i, 0], modes.reach[i, 1]):
             moved = trial.displacement[j] - motion.displacement[j]
@@ -70,15 +71,21 @@ def coupled_force(trial: Trial, mode: int, place: float, mean: bool) -> float:
 
 @bare_kernel
 def coupling_error(modes: Modes, motion: Motion, trial: Trial, length: float) -> float:
-    """Return twice the energy of what a step leaves out of the coupling forces."""
+    """Return twice the energy of what a step leaves out of the coupling forces.
+
+    That is a displacement; it counts by the stiffness of its mode, or by the speed that
+    it gives to the others.
+    """
     energy = 0.0
     for j in range(trial.coupled.shape[1]):
         bent = trial.coupled[BULGE, j] - length**2 * motion.coupled[2, j]
-        stiffness = modes.stiffness[j]
+        across, stiffness = 0.0, abs(modes.stiffness[j])
+        for i in range(modes.reach[j, 0], modes.reach[j, 1]):
+            across += modes.coupling[i, j] ** 2
         flexibility = length**2 / SMOOTHEST
         if stiffness * flexibility > 1.0:
             flexibility = 1.0 / stiffness
-        energy += stiffness * (flexibility * bent) ** 2
+        energy += max(stiffness, across) * (flexibility * bent) ** 2
     return energy
 
 

@@ -194,7 +194,8 @@ class FastMarch:
         return IntegrationError(
             f"the step at t = {self._control.longest * tick / TICKS:.6g} s does not "
             f"converge, even in {2**self._control.lowest} parts: "
-            "give a shorter time step, a larger threshold velocity or a softer contact"
+            "give a shorter time step, a larger threshold velocity, a softer contact "
+            "or less damping between modes"
         )
 
     def _table(
@@ -243,11 +244,11 @@ class FastMarch:
 
 
 def _coupled(modes: Modes, inverse: Array, state: State) -> Array:
-    """Return what the modes' damping couples, and its rate."""
+    """Return the damping force of the other modes, its rate and 0, (3, modes)."""
     if not modes.coupling.any():
         return np.zeros((3, 0))
-    motion = np.stack([state.velocity, state.acceleration, 0.0 * state.velocity])
-    return np.ascontiguousarray(motion @ inverse.T @ modes.coupling.T)
+    motion = np.stack([state.velocity, state.acceleration])
+    return np.pad(motion @ inverse.T @ modes.coupling.T, ((0, 1), (0, 0)))
 
 
 def _relative(modes: Modes, inverse: Array, state: State) -> Array:

@@ -37,7 +37,11 @@ def attempt(
     level: int,
     begin: float,
 ) -> int:
-    """Try a step from the time ``begin``; return Newton's iterations, or −1."""
+    """Try a step from the time ``begin``; return Newton's iterations.
+
+    They are −1 where Newton's method does not converge, and 0 where damping between
+    modes is too strong for so long a step.
+    """
     length, iterations = control.longest / 2.0**level, 0
     extrapolate_coupling(motion, trial, length)
     for _ in range(COUPLINGS):
@@ -51,7 +55,7 @@ def attempt(
             motion.counts[ITERATIONS] += iterations
             trial.numbers[0] = _stiffness(tables, trial, level)
             return max(1, iterations)
-    return -1
+    return 0
 
 
 @bare_kernel

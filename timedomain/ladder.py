@@ -101,7 +101,8 @@ def _step(
     if taken > 0 and (control.tolerance > 0.0 or not stiff):
         error = step_error(control, modes, table, motion, trial, level, safe)
     if not error <= 1.0:  # nor where it is not a number
-        return _reject(control, motion, level, error <= SHARE and not stiff)
+        nearly = taken == 0 or (error <= SHARE and not stiff)
+        return _reject(control, motion, level, nearly)
     accept(contacts, table, motion, trial, level, length)
     counts[TICK] += TICKS >> level
     counts[STEPS] += 1

@@ -166,6 +166,16 @@ def test_a_residual_that_is_not_finite_ends_a_correction() -> None:
     assert correction.residuals == (np.inf,)
 
 
+def test_a_residual_whose_square_overflows_is_lowered_without_a_warning() -> None:
+    def system(point: Array) -> tuple[Array, Dense]:
+        return np.array([1e200 * (point[0] - 1.0)]), Dense([[1e200, 0.0]])
+
+    start, normal = np.array([3.0, 0.0]), np.array([0.0, 1.0])
+    found = correct(system, start, normal, tolerance=1e-9)
+
+    assert found.outcome is Outcome.CONVERGED
+
+
 def test_a_system_without_unknowns_is_solved_where_it_stands() -> None:
     def nothing(_: Array) -> tuple[Array, Dense]:
         return np.zeros(0), Dense(np.zeros((0, 1)))

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.integrate
 
-from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.system import system
@@ -97,3 +98,49 @@ def test_coupled_damping_is_met_within_the_tolerance(
     found = marched(problem, 12, tolerance)
 
     np.testing.assert_allclose(np.abs(found), np.abs(exact(problem)), rtol=tolerance)
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "damping", "hertz", "duration", "tolerance"),
+    [
+        ([0.0, 0.0], [[0.2, -5.0], [5.0, 0.2]], 0.2, 20.0, 1e-5),
+        ([0.0, 0.0], [[0.2, -10.0], [10.0, 0.2]], 0.2, 20.0, 1e-6),
+        ([-10.0, 1000.0], [[5.0, -5.0], [-5.0, 5.0]], 1.0, 3.0, 1e-2),
+    ],
+)
+def test_coupling_of_free_and_of_unstable_modes_is_met_within_the_tolerance(
+    stiffness: list[float],
+    damping: list[list[float]],
+    hertz: float,
+    duration: float,
+    tolerance: float,
+) -> None:
+    whole = pair(0.0)
+    structure = replace(
+        whole.structure,
+        stiffness=np.diag(stiffness),
+        damping=np.array(damping),
+        gyroscopic=True,
+    )
+    problem = replace(whole, structure=structure)
+    load = Dwell(2.0 * np.pi * hertz, duration)
+    options = MarchOptions(0.1, 1, method="fast", tolerance=tolerance)
+
+    found = joined(list(integrate(problem, load, options)), "complete")
+
+    def rates(time: float, state: Array) -> Array:
+        drive = DRIVES * np.sin(2.0 * np.pi * hertz * time)
+        force = drive - np.array(stiffness) * state[:2] - np.array(damping) @ state[2:]
+        return np.append(state[2:], force)
+
+    known = scipy.integrate.solve_ivp(
+        rates,
+        (0.0, duration),
+        np.zeros(4),
+        method="DOP853",
+        t_eval=found.time,
+        rtol=1e-10,
+        atol=1e-13,
+    ).y[:2]
+    away = np.abs(found.displacement.T - known).max() / np.abs(known).max()
+    assert away < tolerance

@@ -29,6 +29,7 @@ from microslip.commands import (
     track,
     verify,
 )
+from microslip.interruption import unmasked
 from microslip.quantity import SceneError
 from microslip_mechanics.errors import MicroslipError
 
@@ -47,7 +48,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = _parser().parse_args(words)
     options.command = shlex.join(["microslip", *words])
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), unmasked():
             # an overflow ends the command instead of running on with nonsense
             warnings.simplefilter("error", RuntimeWarning)
             return int(options.run(options))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeAlias, TypeVar
 
+from microslip.interruption import unmasked
+
 Item = TypeVar("Item")
 Watch: TypeAlias = Callable[[Iterable[Any]], Iterator[Any]]
 """what a command puts around a generator to show its progress"""
@@ -28,7 +30,8 @@ def shown(
         "{desc}: {percentage:3.0f}%|{bar}| {n:.4g}/{total:.4g} {unit} "
         "[{elapsed}<{remaining}]"
     )
-    with tqdm(total=total, desc=name, unit=unit, disable=None, bar_format=form) as bar:
+    bar = tqdm(total=total, desc=name, unit=unit, disable=None, bar_format=form)
+    with unmasked(), bar:
         for item in items:
             bar.update(max(0.0, min(done(item), total) - bar.n))
             yield item

@@ -1,5 +1,7 @@
 """What was computed is kept: interrupted, stuck, and stopped before the first point."""
 
+import _thread
+import contextlib
 import itertools
 import os
 import pty
@@ -8,9 +10,11 @@ import signal
 import subprocess
 import sys
 import termios
+from collections import deque
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
+from threading import Timer
 from typing import TypeAlias
 
 import numpy as np
@@ -18,7 +22,12 @@ import pytest
 
 from hbm.errors import ContinuationError
 from hbm.solve import frequency_response
+from microslip.interruption import unmasked
+from microslip.progress import shown
 from microslip.result_file import load
+from microslip.studies.curve import gathered
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.jit import kernel
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate
@@ -221,3 +230,54 @@ def test_interrupt_from_the_keyboard_keeps_what_was_computed(
     assert result.name in output.decode()
     assert load(result).result.ending == "interrupted"
     assert result.with_suffix(".png").is_file()
+
+
+@kernel
+def lasting(steps: int) -> tuple[Array, Array]:
+    """Return arrays after a while: numba runs a Python function to make each."""
+    total = np.zeros(1)
+    for step in range(steps):
+        total[0] += np.sin(total[0] + step)
+    return total, total
+
+
+def forever() -> Iterator[int]:
+    """Work in kernels, between which a signal hardly ever comes."""
+    lasting(1)
+    yield 0
+    Timer(0.05, _thread.interrupt_main).start()
+    while True:
+        lasting(10_000_000)
+
+
+def looped(items: Iterator[int]) -> None:
+    with unmasked():
+        deque(items, maxlen=0)
+
+
+@pytest.mark.parametrize(
+    "taking",
+    [
+        looped,
+        gathered,
+        lambda items: deque(
+            shown(items, total=1.0, done=float, unit="s", name="test"), maxlen=0
+        ),
+    ],
+    ids=["within", "gathered", "shown"],
+)
+def test_an_interruption_within_a_kernel_remains_one(
+    taking: Callable[[Iterator[int]], object],
+) -> None:
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    try:
+        with contextlib.suppress(KeyboardInterrupt):
+            assert taking(forever()) == ([0], "interrupted")
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_another_error_of_a_kernels_call_is_not_taken_for_an_interruption() -> None:
+    with pytest.raises(SystemError, match="a defect"), unmasked():
+        raise SystemError("a defect")

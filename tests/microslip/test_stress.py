@@ -23,7 +23,7 @@ from microslip.studies.stress import tried
 from microslip.studies.stress_bad_values import BAD, bad_values
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_cases import cases
-from microslip.studies.stress_clock import Clock, OutOfTimeError, heeded, limited
+from microslip.studies.stress_clock import Clock, OutOfTimeError, limited
 from microslip.studies.stress_finding import Finding, Outcome, Tried
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
@@ -187,30 +187,6 @@ def test_what_a_part_leaves_of_its_time_is_for_those_after_it() -> None:
         use_processor(until=began + 5.0)
 
     assert time.process_time() - began < 0.1
-
-
-def kernel_call(until: float) -> Iterator[None]:
-    """Make of an interruption what the call of a kernel makes of it."""
-    yield
-    try:
-        use_processor(until)
-    except OutOfTimeError as error:
-        raise SystemError("returned a result with an exception set") from error
-    raise SystemError("a defect")
-
-
-@pytest.mark.parametrize(
-    ("seconds", "error"), [(0.1, OutOfTimeError), (60.0, SystemError)]
-)
-def test_an_interruption_within_a_kernels_call_is_told_from_a_defect(
-    seconds: float, error: type[BaseException]
-) -> None:
-    items = heeded(kernel_call(time.process_time() + 0.5))
-
-    with limited(seconds):
-        next(items)
-        with pytest.raises(error):
-            next(items)
 
 
 def test_a_curve_out_of_time_keeps_its_points(compiled: None) -> None:  # noqa: ARG001

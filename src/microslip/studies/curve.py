@@ -12,6 +12,7 @@ from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import branches, frequency_response
 from microslip.experiments import Curve
+from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.quantity import SceneError
 from microslip.studies.detached import Searched, search
@@ -148,8 +149,9 @@ def gathered(
     """
     found: list[PeriodicResponse] = []
     try:
-        for response in responses:
-            found.append(response)  # noqa: PERF402  (what is there must be kept)
+        with unmasked():
+            for response in responses:
+                found.append(response)  # noqa: PERF402  (what is there must be kept)
     except (ContinuationError, KeyboardInterrupt) as cause:
         if not found:
             raise

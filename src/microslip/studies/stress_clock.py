@@ -6,11 +6,11 @@ import contextlib
 import math
 import signal
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TypeVar
 
-Item = TypeVar("Item")
+from microslip.interruption import unmasked
+
 LEAST = 1e-3
 """seconds for a part whose time is over before it begins"""
 LATE = "out of time"
@@ -64,31 +64,8 @@ def limited(seconds: float) -> Iterator[None]:
     before = signal.signal(signal.SIGPROF, stop)
     signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
-        yield
-    except SystemError as error:
-        _check(error)
-        raise
+        with unmasked():
+            yield
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0.0)
         signal.signal(signal.SIGPROF, before)
-
-
-def heeded(items: Iterable[Item]) -> Iterator[Item]:
-    """Pass items through; what is interrupted within a kernel's call ends like them.
-
-    Raises
-    ------
-    OutOfTimeError
-        When the time of :func:`limited` is over.
-    """
-    try:
-        yield from items
-    except SystemError as error:
-        _check(error)
-        raise
-
-
-def _check(error: SystemError) -> None:
-    """Raise the interruption of which a kernel's call has made an error."""
-    if signal.getitimer(signal.ITIMER_PROF)[0] == 0.0:
-        raise OutOfTimeError(LATE) from error

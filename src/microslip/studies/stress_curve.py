@@ -12,7 +12,7 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.experiments import Curve
 from microslip.studies.curve import Traced, curve_options, trace_curve, traced_of
-from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError, heeded
+from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 
@@ -48,7 +48,7 @@ def drawn(problem: Problem, curve: Curve, clock: Clock) -> Drawn:
     """
     traced: Traced | None = None
     with contextlib.suppress(OutOfTimeError), clock.until(TRACING):
-        traced = trace_curve(problem, curve, heeded, stability=False)
+        traced = trace_curve(problem, curve, stability=False)
     late = traced is None or traced.curve.ending == LATE
     if late and curve.harmonics is None:
         coarse = _coarse(problem, replace(curve, harmonics=FEW), clock)
@@ -67,7 +67,7 @@ def _coarse(problem: Problem, curve: Curve, clock: Clock) -> Traced | None:
     unsure = (replace(each, error=math.inf) for each in responses)
     try:
         with clock.until(COARSE):
-            traced = traced_of(problem, rest, unsure, heeded)
+            traced = traced_of(problem, rest, unsure, iter)
     except (ContinuationError, OutOfTimeError):
         return None
     return traced if traced.curve.ending == "complete" else None

@@ -12,7 +12,7 @@ from microslip.rigs import problem_of
 from microslip.scene_file import Scene, load_scene
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_case import Case
-from microslip.studies.stress_clock import OutOfTimeError, heeded, limited
+from microslip.studies.stress_clock import OutOfTimeError, limited
 from microslip.studies.stress_finding import EXPECTED, Finding, Outcome, line
 
 SECONDS = 1.0
@@ -45,5 +45,5 @@ def _finite(loaded: Scene) -> bool:
     """Return whether the curve of a scene is finite as far as it goes."""
     curve = replace(loaded.curve, harmonics=3, samples=64)
     with limited(SECONDS):
-        traced = trace_curve(problem_of(loaded), curve, heeded)
+        traced = trace_curve(problem_of(loaded), curve)
     return bool(np.isfinite(traced.curve.amplitude).all())

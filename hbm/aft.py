@@ -243,7 +243,7 @@ class AlternatingFrequencyTime:
         They are forces integrated over the phase. Orders up to ``above`` are left out,
         ``most`` is the highest one.
         """
-        force, _ = self._traces.forces(most)
+        force = self._traces.force(most)
         orders = (np.arange(2 * above + 1, 2 * most + 1) + 1) // 2
         return float(np.linalg.norm(force[2 * above + 1 :] / orders[:, None]))
 

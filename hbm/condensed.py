@@ -44,4 +44,7 @@ class Condensed(Protocol):
     def motion(
         self, variable: ComplexArray, relative: ComplexArray, force: ComplexArray
     ) -> ComplexArray:
-        """Return u from y and the loads, shape (orders, dofs)."""
+        """Return u from y and the loads, shape (orders, dofs).
+
+        Also of several y under one load, if each has the same variable.
+        """

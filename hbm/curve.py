@@ -48,6 +48,8 @@ class Curve:
         for correction in corrections:
             mark = beginning if before is None else "restart"
             made, after = self._made(correction, "" if correction.joined else mark)
+            if self.events:
+                after = after._replace(growth=self.events.growth(correction))
             if self.events and before is not None and correction.joined:
                 for located, name in self.events.between(before, after, metric):
                     yield self._made(located, name)[0]

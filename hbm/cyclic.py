@@ -148,17 +148,18 @@ class CyclicStructure:
         self, variable: ComplexArray, relative: ComplexArray, force: ComplexArray
     ) -> ComplexArray:
         """Return the motion of the sector from y and the loads, (orders, dofs)."""
-        rows = []
-        for order, wave in enumerate(self._orders(variable)):
-            s = variable[order]
+        rows, loads = [], np.broadcast_to(force, (variable.size, force.shape[1]))
+        for place, wave in enumerate(self._orders(variable)):
+            s = variable[place]
             into, _, _, _ = wave.ways(s)
-            rows.append(into @ relative[order, wave.sees] + wave.stuck(s, force[order]))
+            rows.append(into @ relative[place, wave.sees] + wave.stuck(s, loads[place]))
         return np.array(rows)
 
     def _orders(self, variable: ComplexArray) -> list[_Wave]:
-        """Return the wave of each order; the first is 0 if s is 0 there, else 1."""
-        first = 0 if variable[0] == 0.0 else 1
-        return [self._wave(order + first) for order in range(variable.size)]
+        """Return the wave of each variable; the smallest but zero is of order 1."""
+        sizes = np.abs(variable)
+        orders = sizes / sizes[sizes > 0.0].min(initial=np.inf)
+        return [self._wave(order) for order in np.rint(orders).astype(int).tolist()]
 
     def _wave(self, order: int) -> _Wave:
         """Return the sector for the wave of one order."""

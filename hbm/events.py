@@ -5,6 +5,7 @@ Each is located on the curve, and settled as accurately as its points (theory §
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
@@ -49,6 +50,8 @@ class Settled(NamedTuple):
     """the resolution that they ask for"""
     asks: bool
     """whether that is more than the reported orbit has"""
+    growth: float = math.nan
+    """of the largest amplitude along the curve, where events are sought"""
 
 
 class Found(NamedTuple):
@@ -83,7 +86,8 @@ class Events:
         loose = self.control.loose if self.control.negligible else 0.0
         ends = before.correction, after.correction
         segment = Segment(self.system, *ends, scale, tolerance, loose)
-        found = [*self._turns(segment), *self._changes(segment, before, after)]
+        growth = before.growth, after.growth
+        found = [*self._turns(segment, growth), *self._changes(segment, before, after)]
         for _, name, located in _told(found, segment):
             normal = located.along / metric(located.point) ** 2
             normal /= np.abs(normal).max()
@@ -97,9 +101,10 @@ class Events:
                 yield settled, name
         self.system.fourier = fourier
 
-    def _turns(self, segment: Segment) -> Iterator[Found]:
+    def _turns(self, segment: Segment, growth: tuple[float, float]) -> Iterator[Found]:
         """Yield where the curve folds and where its amplitude is largest."""
-        fold, peak = segment.locate(folds), segment.locate(self._slope, falling=True)
+        fold = segment.locate(folds)
+        peak = segment.locate(self.growth, growth, falling=True)
         for name, located in (("fold", fold), ("peak", peak)):
             if located is not None:
                 yield Found(segment.place(located.point), name, located)
@@ -162,7 +167,7 @@ class Events:
         used = finer if finer.harmonics > own.harmonics else None
         return used, ROUGHER if before.asks or after.asks else ROUGH
 
-    def _slope(self, correction: Correction) -> float:
+    def growth(self, correction: Correction) -> float:
         """Return the change of the largest amplitude along the curve."""
         point, along = correction.point, correction.along
         # Without contact the frequency is all that changes.
@@ -172,7 +177,7 @@ class Events:
         small = 1e-6 * size / float(np.linalg.norm(along[moved]))
         beside = point + np.outer((-small, small), along)
         beside[:, -1] = beside[:, -1].clip(*self.limits)
-        sizes = [self.resolution.amplitudes(each) for each in beside]
+        sizes = self.resolution.amplitudes(beside)
         place = int(sizes[0].argmax())
         return float(sizes[1][place] - sizes[0][place]) / small
 

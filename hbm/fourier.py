@@ -82,16 +82,19 @@ class Transform:
         """Where samples for :meth:`analysis` are written, ``(signals, samples)``."""
         return self._time
 
-    def analysis(self, harmonics: int) -> Array:
-        """Return coefficients of :attr:`samples`, ``(2 harmonics + 1, signals)``."""
+    def analysis(self, harmonics: int, signals: int | None = None) -> Array:
+        """Return coefficients of :attr:`samples`, ``(2 harmonics + 1, signals)``.
+
+        Of the first ``signals``, or of all.
+        """
         samples = self._time.shape[1]
         if (2 * harmonics + 1) * samples <= PRODUCT:
             _, back = _small_waves(harmonics, samples)
-            coefficients: Array = np.dot(back, self._time.T)
+            coefficients: Array = np.dot(back, self._time[:signals].T)
             return coefficients
         spectrum, forward, _ = self._planned
         forward.execute()
-        kept = spectrum[:, : harmonics + 1].T / samples
+        kept = spectrum[:signals, : harmonics + 1].T / samples
         kept[1:] *= 2.0
         return to_real(kept)
 

@@ -49,10 +49,10 @@ class ModalResolution(Resolution):
             )
         return self._balances[fourier]
 
-    def amplitudes(self, point: Array) -> Array:
+    def amplitudes(self, points: Array) -> Array:
         """Return the decay rate [1/s], and the least by which its error is measured."""
-        pole = self._coarsest.parts(point).pole
-        return np.array([-pole.real, FAINTEST * self._linear.frequency])
+        rates = [-self._coarsest.parts(point).pole.real for point in points]
+        return np.array([(rate, FAINTEST * self._linear.frequency) for rate in rates])
 
     def metric(self, point: Array) -> Array:
         """Return the change of each component that counts as one unit of arc."""

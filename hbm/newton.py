@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
+from scipy.linalg import blas
 
 from microslip_mechanics.arrays import Array
 
@@ -222,8 +223,7 @@ def _negligible(
 
 def _merit(values: Array) -> float:
     """Return the Euclidean norm, which a step must lower; infinite if it overflows."""
-    with np.errstate(over="ignore"):
-        return math.sqrt(float(values @ values))
+    return math.sqrt(blas.ddot(values, values)) if values.size else 0.0
 
 
 def _size(residual: Array) -> float:

@@ -73,12 +73,12 @@ class RelativeProblem:
     ) -> ComplexArray:
         """Return order 1 of linear forms of the motion [m].
 
-        ``relative`` is order 1 of y, ``rows`` has shape ``(forms, dofs)``.
+        ``relative`` is order 1 of y in several motions, shape ``(motions, rank)``;
+        ``rows`` has shape ``(forms, dofs)``, the result ``(motions, forms)``.
         """
-        motion = self.condensed.motion(
-            np.array([1j * frequency]), relative[None], self.force[1:]
-        )
-        seen: ComplexArray = rows @ motion[0]
+        variable = np.full(len(relative), 1j * frequency)
+        motion = self.condensed.motion(variable, relative, self.force[1:])
+        seen: ComplexArray = motion @ rows.T
         return seen
 
     def map_from(self, displacement: Array) -> Array:

@@ -61,12 +61,15 @@ class Resolution(ABC):
         """Return the system at one resolution."""
 
     @abstractmethod
-    def amplitudes(self, point: Array) -> Array:
-        """Return the values by whose change an error is measured."""
+    def amplitudes(self, points: Array) -> Array:
+        """Return the values by whose change an error is measured, ``(points, values)``.
 
-    def phasors(self, point: Array) -> ComplexArray:
+        ``points`` has shape ``(points, components)``.
+        """
+
+    def phasors(self, points: Array) -> ComplexArray:
         """Return what these are the moduli of."""
-        return self.amplitudes(point).astype(complex)
+        return self.amplitudes(points).astype(complex)
 
     def estimate(
         self, correction: Correction, fourier: FourierBasis, normal: Array
@@ -89,13 +92,10 @@ class Resolution(ABC):
         rights[:-1, 0] = -correction.residual
         rights[:-1, 1] = correction.residual - low
         newton, sampled = correction.linearised.solve(normal, rights).T
-        before, solved, resampled, after, last = (
-            self.amplitudes(each)
-            for each in (
-                point, point + newton, point + newton + sampled, made.before,
-                made.corrected,
-            )
-        )  # fmt: skip
+        solved = point + newton
+        before, solved, resampled, after, last = self.amplitudes(
+            np.array((point, solved, solved + sampled, made.before, made.corrected))
+        )
         size = float(before.max(initial=0.0)) or 1.0
         truncation = made.beyond * _largest(last - resampled)
         lost = math.isinf(made.left)
@@ -116,7 +116,8 @@ class Resolution(ABC):
         if fourier.threshold == 0.0:
             return 0.0
         change = self._resolved(correction, fourier, normal)
-        sharp, smooth = map(self.phasors, (correction.point + change, correction.point))
+        smooth = correction.point
+        sharp, smooth = self.phasors(np.array((smooth + change, smooth)))
         moved = _largest(np.abs(sharp) - np.abs(smooth))
         return max(moved, TURNING * _largest(np.abs(sharp - smooth)))
 
@@ -152,13 +153,15 @@ class PathResolution(Resolution):
             self._made[fourier] = self._path.balance(fourier)
         return self._made[fourier]
 
-    def amplitudes(self, point: Array) -> Array:
-        """Return the first-harmonic amplitude of each probe [m]."""
-        return np.abs(self.phasors(point))
+    def amplitudes(self, points: Array) -> Array:
+        """Return the first-harmonic amplitude of each probe [m], (points, probes)."""
+        return np.abs(self.phasors(points))
 
-    def phasors(self, point: Array) -> ComplexArray:
-        """Return the first harmonic of each probe [m]."""
-        rank = self.rank
-        first = point[rank : 2 * rank] - 1j * point[2 * rank : 3 * rank]
-        problem, frequency = self._path.at(float(point[-1]))
-        return problem.first_harmonic(first, frequency, self._probes)
+    def phasors(self, points: Array) -> ComplexArray:
+        """Return the first harmonic of each probe [m], (points, probes)."""
+        rank, places = self.rank, points[:, -1].tolist()
+        first = points[:, rank : 2 * rank] - 1j * points[:, 2 * rank : 3 * rank]
+        if places.count(places[0]) == len(places):
+            problem, frequency = self._path.at(places[0])
+            return problem.first_harmonic(first, frequency, self._probes)
+        return np.vstack([self.phasors(point[None]) for point in points])

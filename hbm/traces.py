@@ -26,15 +26,15 @@ class Traces:
         self._series = np.zeros((fourier.coefficients, 2 * rank))
         self._motion = Transform(2 * rank, samples)
         self._force = Transform(4 * rank, samples)
-        self._hat = hat(fourier.harmonics, samples)[:, None]
+        self._hat = hat(fourier.harmonics, samples)[:, None, None]
         room = self._force.samples.reshape(4, rank, samples)
         self._seen = room
         if not self._direct:
             room = np.zeros((4, rows, samples))
         self._acting = room
-        self.regular = Forces(room[0], room[1])
+        self.regular = Forces(room[0], room[2])
         """what the samples see"""
-        self.extra = Forces(room[2], room[3])
+        self.extra = Forces(room[1], room[3])
         """what transitions between them add"""
 
     def motion(
@@ -61,17 +61,30 @@ class Traces:
             np.dot(self._basis, moved[rank:, :seen]),
         )
 
-    def forces(self, harmonics: int | None = None) -> tuple[Array, Array]:
-        """Return the series of force and change on y, ``(2 harmonics + 1, rank)`` each.
+    def forces(self) -> tuple[Array, Array]:
+        """Return the series of force and change on y, ``(2H + 1, rank)`` each.
 
-        Transitions are part of them. The harmonics are those of the basis, if left out.
+        Transitions are part of them.
         """
         if not self._direct:
             np.matmul(self._basis.T, self._acting, out=self._seen)
-        rank, most = self._basis.shape[1], harmonics or self._fourier.harmonics
-        series = self._force.analysis(most)
-        fading = self._hat
-        if most != self._fourier.harmonics:
-            fading = hat(most, self._fourier.samples)[:, None]
-        whole = series[:, : 2 * rank] + series[:, 2 * rank :] / fading
-        return whole[:, :rank], whole[:, rank:]
+        force, change = self._analysed(self._fourier.harmonics, 2).swapaxes(0, 1)
+        return force, change
+
+    def force(self, harmonics: int) -> Array:
+        """Return the same series of the force at another order, of the last call."""
+        force: Array = self._analysed(harmonics, 1)[:, 0]
+        return force
+
+    def _analysed(self, harmonics: int, kinds: int) -> Array:
+        """Return the series of the force, and of its change if two kinds are wanted.
+
+        The shape is ``(2 harmonics + 1, kinds, rank)``.
+        """
+        rank, fading = self._basis.shape[1], self._hat
+        if harmonics != self._fourier.harmonics:
+            fading = hat(harmonics, self._fourier.samples)[:, None, None]
+        series = self._force.analysis(harmonics, 2 * kinds * rank)
+        parts = series.reshape(-1, kinds, 2, rank)
+        whole: Array = parts[:, :, 0] + parts[:, :, 1] / fading
+        return whole

@@ -93,7 +93,7 @@ def _load(problem: RelativeProblem, frequency: float) -> ComplexArray:
 def _stuck(problem: RelativeProblem, frequency: float) -> float:
     """Return the amplitude of the linear response about rest [m]."""
     variable = np.array([1j * frequency])
-    stiffness, _ = problem.condensed.dynamic_stiffness(variable)
+    stiffness = problem.condensed.dynamic_stiffness(variable)
     contact = problem.contact(PROBE)
     contact(np.vstack([problem.rest, np.zeros((10, problem.rank))]), frequency)
     elastic, viscous = (part[:, :, 0] for part in contact.spectra(0))
@@ -120,7 +120,7 @@ def _paired(active: NDArray[np.bool_]) -> NDArray[np.bool_]:
 def _coupling(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
     """Return which coordinates the structure couples, order by order from 0."""
     orders = np.arange(PROBE.harmonics + 1)
-    stiffness, _ = problem.condensed.dynamic_stiffness(1j * frequency * orders)
+    stiffness = problem.condensed.dynamic_stiffness(1j * frequency * orders)
     size = np.abs(stiffness)
     coupled: NDArray[np.bool_] = size > 1e-10 * size.max(
         (1, 2), keepdims=True, initial=0.0

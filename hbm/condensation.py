@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.dynamic_stiffness import dynamic_stiffness
+from hbm.dynamic_stiffness import dynamic_stiffness, returned_load, stiffness_slope
 from hbm.stuck_poles import split, stuck_poles
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
@@ -89,8 +89,8 @@ class CondensedStructure:
 
     def dynamic_stiffness(
         self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return S(s) and dS/ds.
+    ) -> ComplexArray:
+        """Return S(s), shape ``(orders, rank, rank)`` (theory, eqs. 15–16).
 
         Parameters
         ----------
@@ -99,16 +99,11 @@ class CondensedStructure:
         wanted
             Which coordinates move at each order, shape ``(orders, rank)``; the rest of
             the result is zero. All of them if left out.
-
-        Returns
-        -------
-        Shape ``(orders, rank, rank)`` (theory, eqs. 15–16).
         """
         if wanted is None:
             wanted = np.ones((variable.size, len(self.stiffness)), dtype=bool)
         if len(self.stiffness) >= WIDE and wanted.all() and not self.gyroscopic:
-            parts = [self._whole(s) for s in variable]
-            return np.array([one for one, _ in parts]), np.array([d for _, d in parts])
+            return np.array([self._whole(s) for s in variable])
         return dynamic_stiffness(
             self.stiffness,
             self.damping,
@@ -118,6 +113,17 @@ class CondensedStructure:
             variable,
             wanted,
             self.gyroscopic,
+        )
+
+    def slope(self, variable: ComplexArray, relative: ComplexArray) -> ComplexArray:
+        """Return (dS/ds) y, shape ``(orders, rank)`` as ``relative`` is."""
+        return stiffness_slope(
+            self.damping,
+            self.mass,
+            self.poles[self.coupled],
+            *self._driven,
+            variable,
+            relative,
         )
 
     @cached_property
@@ -131,24 +137,21 @@ class CondensedStructure:
             self.inertial_back[:, used].copy(),
         )
 
-    def _whole(self, s: complex) -> tuple[ComplexArray, ComplexArray]:
-        """Return S(s) and dS/ds of all coordinates, both symmetric, by one product.
+    @cached_property
+    def _back(self) -> tuple[ComplexArray, ComplexArray]:
+        """How y is coupled with all poles, by rows."""
+        return self.viscous_back.copy(), self.inertial_back.copy()
 
-        With B D A, the sum over the poles, dA/ds = I and dD/ds = −D², symmetry makes
-        d(B D A)/ds = X + Xᵀ of X = B (D I − D² A/2).
-        """
-        rank, used = len(self.stiffness), self.coupled
-        pole = (1.0 / (s - self.poles[used]))[:, None]
-        inertial = self.inertial[used]
-        into = (self.viscous[used] + s * inertial) * pole
-        turn = (inertial - 0.5 * into) * pole
+    def _whole(self, s: complex) -> ComplexArray:
+        """Return S(s) of all coordinates by one product."""
+        used = self.coupled
+        pole = (s * s / (s - self.poles[used]))[:, None]
+        into = (self.viscous[used] + s * self.inertial[used]) * pole
         back = self.viscous_back[:, used] + s * self.inertial_back[:, used]
-        product = back @ np.hstack([into, turn])
-        held, half = product[:, :rank], product[:, rank:]
-        value = self.stiffness + s * (self.damping + s * (self.mass - held))
-        slope = half + half.T
-        change = self.damping + 2.0 * s * (self.mass - held) - s * s * slope
-        return value, change
+        value: ComplexArray = (
+            self.stiffness + s * (self.damping + s * self.mass) - back @ into
+        )
+        return value
 
     def load(
         self, variable: ComplexArray, force: ComplexArray
@@ -157,18 +160,9 @@ class CondensedStructure:
 
         ``force`` [N] has shape ``(orders, dofs)``; the results ``(orders, rank)``.
         """
-        s = variable[:, None]
-        pole = 1.0 / (s - self.poles)
         modal = force @ self.participation.T
-        direct = force @ self.static
-        one, two = (
-            modal * pole @ self.viscous_back.T,
-            modal * pole @ self.inertial_back.T,
-        )
-        old_one = modal * pole**2 @ self.viscous_back.T
-        old_two = modal * pole**2 @ self.inertial_back.T
-        change = one + 2.0 * s * two - s * old_one - s**2 * old_two
-        return direct - s * one - s**2 * two, -change
+        returned, change = returned_load(self.poles, *self._back, variable, modal)
+        return force @ self.static + returned, change
 
     def motion(
         self, variable: ComplexArray, relative: ComplexArray, force: ComplexArray

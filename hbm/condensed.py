@@ -33,8 +33,11 @@ class Condensed(Protocol):
 
     def dynamic_stiffness(
         self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return S(s) and dS/ds, each (orders, rank, rank)."""
+    ) -> ComplexArray:
+        """Return S(s), shape (orders, rank, rank)."""
+
+    def slope(self, variable: ComplexArray, relative: ComplexArray) -> ComplexArray:
+        """Return (dS/ds) y of each order, (orders, rank)."""
 
     def load(
         self, variable: ComplexArray, force: ComplexArray

@@ -48,7 +48,7 @@ class Curve:
         for correction in corrections:
             mark = beginning if before is None else "restart"
             made, after = self._made(correction, "" if correction.joined else mark)
-            if self.events:
+            if self.events and correction.tangent is not None:
                 after = after._replace(growth=self.events.growth(correction))
             if self.events and before is not None and correction.joined:
                 for located, name in self.events.between(before, after, metric):

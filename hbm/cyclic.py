@@ -119,18 +119,24 @@ class CyclicStructure:
 
     def dynamic_stiffness(
         self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return S(s) and dS/ds for s = ikω, k = 0, 1, …, each (orders, rank, rank)."""
+    ) -> ComplexArray:
+        """Return S(s) for s = ikω, k = 0, 1, …, shape (orders, rank, rank)."""
         del wanted  # a wave is solved as a whole
         rank = len(self._own)
-        value, change = np.zeros((2, variable.size, rank, rank), complex)
+        value = np.zeros((variable.size, rank, rank), complex)
         for order, wave in enumerate(self._orders(variable)):
-            s = variable[order]
-            into, out, whole, slope = wave.ways(s)
-            inside = np.ix_(wave.sees, wave.sees)
-            value[order][inside] = out @ whole @ wave.static
-            change[order][inside] = out @ slope @ into
-        return value, change
+            _, out, whole, _ = wave.ways(variable[order])
+            value[order][np.ix_(wave.sees, wave.sees)] = out @ whole @ wave.static
+        return value
+
+    def slope(self, variable: ComplexArray, relative: ComplexArray) -> ComplexArray:
+        """Return (dS/ds) y of each order, shape (orders, rank)."""
+        change = np.zeros((variable.size, len(self._own)), complex)
+        for order, wave in enumerate(self._orders(variable)):
+            into, out, _, slope = wave.ways(variable[order])
+            moved = into @ relative[order, wave.sees]
+            change[order, wave.sees] = out @ (slope @ moved)
+        return change
 
     def load(
         self, variable: ComplexArray, force: ComplexArray

@@ -68,9 +68,8 @@ class FreeMotion:
         and s, shape ``(rank + count, rank + count + 1)`` (theory, eq. 29).
         """
         near, rank, size = self.near, relative.size, relative.size + self.count
-        stiffness, change = (
-            part[0] for part in self.far.dynamic_stiffness(np.array([pole]))
-        )
+        at = np.array([pole])
+        stiffness = self.far.dynamic_stiffness(at)[0]
         back, into = _coupling(near.viscous_back, near.inertial_back, pole)
         right, turn = _coupling(near.viscous, near.inertial, pole)
         matrix = np.zeros((size, size + 1), complex)
@@ -78,7 +77,7 @@ class FreeMotion:
         matrix[rank:, :rank] = right
         matrix[rank:, rank:size] = np.diag(pole - near.poles)
         left = matrix[:, :size] @ np.concatenate([relative, modal])
-        matrix[:rank, -1] = change @ relative + into @ modal
+        matrix[:rank, -1] = self.far.slope(at, relative[None])[0] + into @ modal
         matrix[rank:, -1] = modal + turn @ relative
         return left, matrix
 

@@ -135,13 +135,12 @@ class ModalBalance:
         parts = self.parts(point)
         amplitudes = to_complex(parts.shape)
         first = self._first(parts.pole, amplitudes[1], parts.modal)
-        stiffness, change = self.problem.condensed.dynamic_stiffness(
-            self._others(parts.pole), self._wanted
-        )
+        condensed, variable = self.problem.condensed, self._others(parts.pole)
+        stiffness = condensed.dynamic_stiffness(variable, self._wanted)
         stiffness[0] += self.problem.gauge
         stiffness[1] = first.stiffness
         left = (stiffness @ amplitudes[..., None])[..., 0]
-        by_pole = (change @ amplitudes[..., None])[..., 0]
+        by_pole = condensed.slope(variable, amplitudes)
         left[1], by_pole[0], by_pole[1] = first.left, 0.0, first.by_pole
         # A trial may go so far that forces overflow: the corrector turns back then.
         with np.errstate(over="ignore", invalid="ignore"):

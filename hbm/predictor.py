@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import islice
+
 import numpy as np
 
 from microslip_mechanics.arrays import Array
@@ -33,8 +36,8 @@ class Predictor:
         How far the best extrapolation missed the point, in units of ``scale``.
         """
         missed = [
-            float(np.linalg.norm((self._extrapolated(step, order) - point) / scale))
-            for order in range(1, len(self._points) + 1)
+            float(np.linalg.norm((each - point) / scale))
+            for each in self._extrapolated(step)
         ]
         if missed:
             self.order = 1 + int(np.argmin(missed))
@@ -63,22 +66,24 @@ class Predictor:
         An extrapolation that leaves the tangent by much is not trusted: rounding and
         the corrector's tolerance grow with its order.
         """
-        line = self._extrapolated(step, 1)
-        for order in range(min(self.order, len(self._points)), 1, -1):
-            expected = self._extrapolated(step, order)
+        line, *others = islice(self._extrapolated(step), self.order)
+        for expected in reversed(others):
             bend = float(np.linalg.norm((expected - line) / self._scale))
             if bend <= STEEPEST * step:
                 return expected
         return line
 
-    def _extrapolated(self, step: float, order: int) -> Array:
-        """Return x(step) of the polynomial of an order with x(0), x'(0) as known.
+    def _extrapolated(self, step: float) -> Iterator[Array]:
+        """Yield x(step) of the polynomials of order 1, 2, … with x(0), x'(0) as known.
 
         Order 1 is the tangent; each further order takes one more earlier point.
         """
-        reached: Array = self._points[0] + step * self._tangent
+        if not self._points:
+            return
+        reached = self._points[0] + step * self._tangent
+        yield reached
         weight = step**2
-        for bend, place in zip(self._bends, self._places[1:order], strict=False):
-            reached += weight * bend
+        for bend, place in zip(self._bends, self._places[1:], strict=True):
+            reached = reached + weight * bend
+            yield reached
             weight *= step - place
-        return reached

@@ -106,11 +106,10 @@ class HarmonicBalance:
     def _derivatives(self, point: Array, by_frequency: Array) -> tuple[Array, Array]:
         """Return ∂R/∂y and ∂R/∂ω of the unknowns where the contacts were called."""
         coefficients, frequency = self.split(point)
-        stiffness, stiffness_change, _, load_change = self._linear(frequency)
-        amplitudes = to_complex(coefficients)[..., None]
-        change = self._orders[:, None] * (
-            (stiffness_change @ amplitudes)[..., 0] - load_change
-        )
+        stiffness, _, load_change = self._linear(frequency)
+        variable, amplitudes = self._orders * frequency, to_complex(coefficients)
+        turned = self.problem.condensed.slope(variable, amplitudes) - load_change
+        change = self._orders[:, None] * turned
         elastic, viscous = stiffness.real.copy(), stiffness.imag.copy()
         elastic[0] += self.problem.gauge
         jacobian = assemble(
@@ -127,7 +126,7 @@ class HarmonicBalance:
     def residual(self, point: Array) -> tuple[Array, Array]:
         """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
         coefficients, frequency = self.split(point)
-        stiffness, _, load, _ = self._linear(frequency)
+        stiffness, load, _ = self._linear(frequency)
         amplitudes = to_complex(coefficients)[..., None]
         force, by_frequency = self.contact(coefficients, frequency)
         residual = to_real((stiffness @ amplitudes)[..., 0] - load) + force
@@ -188,7 +187,7 @@ class HarmonicBalance:
         return float(np.abs(self.problem.gauge @ coefficients[0]).max(initial=0.0))
 
     def _linear(self, frequency: float) -> tuple[ComplexArray, ...]:
-        """Return dynamic stiffness and load with their derivatives by s, cached."""
+        """Return dynamic stiffness, load and its derivative by s, cached."""
         if frequency != self._at:
             variable = self._orders * frequency
             condensed, shape = self.problem.condensed, (variable.size, self.rank)
@@ -196,6 +195,6 @@ class HarmonicBalance:
             loads = np.zeros((2, *shape), complex)
             loads[:, :2] = condensed.load(variable[:2], self._force[:2])
             stiffness = condensed.dynamic_stiffness(variable, self._wanted)
-            self._structure = (*stiffness, *loads)
+            self._structure = (stiffness, *loads)
             self._at = frequency
         return self._structure

@@ -86,7 +86,7 @@ def _tractions(problem: RelativeProblem, frequency: float, weight: float) -> Tra
 def _masses(problem: RelativeProblem, rows: Array, frequency: float) -> Array:
     """Return what a force along each row accelerates at once [kg]."""
     variable = np.array([1j * HIGH * frequency])
-    stiffness, _ = problem.condensed.dynamic_stiffness(variable)
+    stiffness = problem.condensed.dynamic_stiffness(variable)
     compliance = rows @ np.linalg.pinv(stiffness[0]) @ rows.T
     masses: Array = 1.0 / ((HIGH * frequency) ** 2 * np.abs(np.diagonal(compliance)))
     return masses

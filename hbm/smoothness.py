@@ -54,7 +54,7 @@ def _rubbing(problem: RelativeProblem) -> Array:
 def _free_speeds(problem: RelativeProblem, frequency: float) -> Array:
     """Return how fast each point slides without contact [m/s], shape (points,)."""
     variable = np.array([1j * frequency])
-    stiffness, _ = problem.condensed.dynamic_stiffness(variable)
+    stiffness = problem.condensed.dynamic_stiffness(variable)
     load, _ = problem.condensed.load(variable, problem.force[1:])
     moved = np.linalg.lstsq(stiffness[0], load[0], rcond=None)[0]
     moving = np.abs(frequency * (problem.basis @ moved)).reshape(-1, 3)

@@ -85,6 +85,6 @@ class Traces:
         if harmonics != self._fourier.harmonics:
             fading = hat(harmonics, self._fourier.samples)[:, None, None]
         series = self._force.analysis(harmonics, 2 * kinds * rank)
-        parts = series.reshape(-1, kinds, 2, rank)
+        parts = series.reshape(len(series), kinds, 2, rank)
         whole: Array = parts[:, :, 0] + parts[:, :, 1] / fading
         return whole

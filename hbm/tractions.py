@@ -67,7 +67,7 @@ class PushedStructure:
     @property
     def stiffness(self) -> Array:
         """Static stiffness of mean motions [N/m]."""
-        still: Array = self.dynamic_stiffness(np.zeros(1, complex))[0][0].real
+        still: Array = self.dynamic_stiffness(np.zeros(1, complex))[0].real
         return still
 
     @property
@@ -99,24 +99,38 @@ class PushedStructure:
 
     def dynamic_stiffness(
         self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return S(s) and dS/ds of (y, g/κ), each (orders, rank + count, …)."""
+    ) -> ComplexArray:
+        """Return S(s) of (y, g/κ), shape (orders, rank + count, rank + count)."""
         rows, scale = self.tractions.rows, self.tractions.scale
         count, rank = rows.shape
-        constant, inertial = np.zeros((2, rank + count, rank + count))
+        constant = np.zeros((rank + count, rank + count))
         constant[:rank, rank:] = rows.T * scale
         constant[rank:, rank:] = (1.0 + LOOSE) * np.diag(scale)
+        s = variable[:, None, None]
+        value: ComplexArray = constant + s * (s + self.tractions.rate) * self._inertial
+        seen = None if wanted is None else wanted[:, :rank]
+        value[:, :rank, :rank] += self.inner.dynamic_stiffness(variable, seen)
+        return value
+
+    def slope(self, variable: ComplexArray, relative: ComplexArray) -> ComplexArray:
+        """Return (dS/ds) (y, g/κ), shape (orders, rank + count)."""
+        rank = self.tractions.rows.shape[1]
+        turning = (2.0 * variable + self.tractions.rate)[:, None]
+        own = self.inner.slope(variable, relative[:, :rank])
+        pushed = np.zeros((len(variable), len(self.tractions.rows)))
+        slope: ComplexArray = np.hstack([own, pushed])
+        return slope + turning * (relative @ self._inertial.T)
+
+    @property
+    def _inertial(self) -> ComplexArray:
+        """What goes with s (s + rate), shape (rank + count, rank + count)."""
+        rows = self.tractions.rows
+        count, rank = rows.shape
         felt = self.tractions.mass[:, None] * rows
+        inertial = np.zeros((rank + count, rank + count), complex)
         inertial[:rank, :rank] = -rows.T @ felt
         inertial[rank:, :rank] = -(1.0 + LOOSE) * felt
-        s, rate = variable[:, None, None], self.tractions.rate
-        value = constant + s * (s + rate) * inertial
-        change = (2.0 * s + rate) * inertial
-        seen = None if wanted is None else wanted[:, :rank]
-        own, own_change = self.inner.dynamic_stiffness(variable, seen)
-        value[:, :rank, :rank] += own
-        change[:, :rank, :rank] += own_change
-        return value, change
+        return inertial
 
     def load(
         self, variable: ComplexArray, force: ComplexArray

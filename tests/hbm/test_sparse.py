@@ -88,7 +88,7 @@ def whole_stiffness(
     basis, selection = problem.interface.relative_motion()
     condensed = condense(problem, selection)
     force = np.tile(problem.drive.astype(complex), (variable.size, 1))
-    stiffness, _ = condensed.dynamic_stiffness(variable)
+    stiffness = condensed.dynamic_stiffness(variable)
     load, _ = condensed.load(variable, force)
     return basis @ stiffness @ basis.T, load @ basis.T
 

@@ -158,8 +158,10 @@ def _passes(
 ) -> bool:
     """Return whether a step passes the first point in its direction."""
     step = (after.point - before.point) / scale
-    away = (first.point - before.point) / scale
     length = float(np.linalg.norm(step))
+    if abs(first.point[-1] - before.point[-1]) > 2.0 * length * scale[-1]:
+        return False
+    away = (first.point - before.point) / scale
     share = float(step @ away) / length**2
     aside = float(np.linalg.norm(away - share * step))
     same = float((first.along / scale) @ step) > 0.5 * length

@@ -177,7 +177,7 @@ class Events:
         small = 1e-6 * size / float(np.linalg.norm(along[moved]))
         beside = point + np.outer((-small, small), along)
         beside[:, -1] = beside[:, -1].clip(*self.limits)
-        sizes = self.resolution.amplitudes(beside)
+        sizes = self.resolution.amplitudes(list(beside))
         place = int(sizes[0].argmax())
         return float(sizes[1][place] - sizes[0][place]) / small
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,7 +50,7 @@ class ModalResolution(Resolution):
             )
         return self._balances[fourier]
 
-    def amplitudes(self, points: Array) -> Array:
+    def amplitudes(self, points: Sequence[Array]) -> Array:
         """Return the decay rate [1/s], and the least by which its error is measured."""
         rates = [-self._coarsest.parts(point).pole.real for point in points]
         return np.array([(rate, FAINTEST * self._linear.frequency) for rate in rates])

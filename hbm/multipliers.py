@@ -112,7 +112,7 @@ class Multipliers:
         )
         if found.outcome is not Outcome.CONVERGED:
             return None
-        before, after = self.resolution.amplitudes(np.array((point, found.point)))
+        before, after = self.resolution.amplitudes((point, found.point))
         other = np.abs(after - before).max() > ASIDE * before.max()
         return None if other else found.point
 

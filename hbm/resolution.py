@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -61,13 +62,10 @@ class Resolution(ABC):
         """Return the system at one resolution."""
 
     @abstractmethod
-    def amplitudes(self, points: Array) -> Array:
-        """Return the values by whose change an error is measured, ``(points, values)``.
+    def amplitudes(self, points: Sequence[Array]) -> Array:
+        """Return the values by whose change an error is measured, (points, values)."""
 
-        ``points`` has shape ``(points, components)``.
-        """
-
-    def phasors(self, points: Array) -> ComplexArray:
+    def phasors(self, points: Sequence[Array]) -> ComplexArray:
         """Return what these are the moduli of."""
         return self.amplitudes(points).astype(complex)
 
@@ -88,13 +86,13 @@ class Resolution(ABC):
         made = refined(self.at(finer), point, finer.harmonics, normal)
         low = made.residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
-        rights = np.zeros((point.size, 2))
-        rights[:-1, 0] = -correction.residual
-        rights[:-1, 1] = correction.residual - low
-        newton, sampled = correction.linearised.solve(normal, rights).T
-        solved = point + newton
+        newton, sampled = (
+            correction.linearised.solve(normal, np.append(right, 0.0))
+            for right in (correction.residual, low - correction.residual)
+        )
+        solved = point - newton
         before, solved, resampled, after, last = self.amplitudes(
-            np.array((point, solved, solved + sampled, made.before, made.corrected))
+            (point, solved, solved - sampled, made.before, made.corrected)
         )
         size = float(before.max(initial=0.0)) or 1.0
         truncation = made.beyond * _largest(last - resampled)
@@ -117,7 +115,7 @@ class Resolution(ABC):
             return 0.0
         change = self._resolved(correction, fourier, normal)
         smooth = correction.point
-        sharp, smooth = self.phasors(np.array((smooth + change, smooth)))
+        sharp, smooth = self.phasors((smooth + change, smooth))
         moved = _largest(np.abs(sharp) - np.abs(smooth))
         return max(moved, TURNING * _largest(np.abs(sharp - smooth)))
 
@@ -153,15 +151,16 @@ class PathResolution(Resolution):
             self._made[fourier] = self._path.balance(fourier)
         return self._made[fourier]
 
-    def amplitudes(self, points: Array) -> Array:
+    def amplitudes(self, points: Sequence[Array]) -> Array:
         """Return the first-harmonic amplitude of each probe [m], (points, probes)."""
         return np.abs(self.phasors(points))
 
-    def phasors(self, points: Array) -> ComplexArray:
+    def phasors(self, points: Sequence[Array]) -> ComplexArray:
         """Return the first harmonic of each probe [m], (points, probes)."""
-        rank, places = self.rank, points[:, -1].tolist()
-        first = points[:, rank : 2 * rank] - 1j * points[:, 2 * rank : 3 * rank]
+        rank, places = self.rank, [float(point[-1]) for point in points]
+        table = np.array([point[rank : 3 * rank] for point in points])
+        first = table[:, :rank] - 1j * table[:, rank:]
         if places.count(places[0]) == len(places):
             problem, frequency = self._path.at(places[0])
             return problem.first_harmonic(first, frequency, self._probes)
-        return np.vstack([self.phasors(point[None]) for point in points])
+        return np.vstack([self.phasors([point]) for point in points])

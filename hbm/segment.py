@@ -63,8 +63,10 @@ class Segment:
         converge.
         """
         first, last = ends or (test(self.before), test(self.after))
+        if not first * last < 0.0 or (falling and first < 0.0):
+            return None
         length = self.length
-        if not first * last < 0.0 or length <= 0.0 or (falling and first < 0.0):
+        if length <= 0.0:
             return None
 
         def value(place: float) -> float:

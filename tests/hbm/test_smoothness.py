@@ -1,6 +1,7 @@
 """Friction smoother than it is: when that is taken, and what it costs."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -170,8 +171,8 @@ class Blunt(Resolution):
 
         return system
 
-    def amplitudes(self, points: Array) -> Array:
-        return points[:, :1]
+    def amplitudes(self, points: Sequence[Array]) -> Array:
+        return np.array([point[:1] for point in points])
 
     def estimate(
         self, correction: Correction, fourier: FourierBasis, _: Array
@@ -232,7 +233,7 @@ def test_smoothing_is_estimated_as_what_resolving_changes(threshold: float) -> N
         fourier = replace(fourier, threshold=each)
         found = correct_at(made.at(fourier), point, CONTROL)
         point = found.point
-        amplitude.append(made.amplitudes(point[None])[0, 0])
+        amplitude.append(made.amplitudes([point])[0, 0])
         if each == threshold:
             upright = np.zeros_like(point)
             upright[-1] = 1.0

@@ -60,7 +60,8 @@ def stiffness_slope(
 ) -> ComplexArray:
     """Return (dS/ds) y of each order, shape ``(orders, rank)``.
 
-    With S = K + s C + s² M − B D G, where D = 1/(s − λ) and G = s (V + s I).
+    With S = K + s C + s² M − B D G, where D = 1/(s − λ), and G = s (V + s I) and B
+    likewise are the couplings into the poles and back.
     """
     orders, (rank, count) = variable.size, viscous.shape
     slope = np.zeros((orders, rank), np.complex128)

@@ -1,5 +1,6 @@
 """What multipliers that are known in closed form do between two points of a curve."""
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -93,10 +94,10 @@ class Passing(Known):
         return np.sort(1.0 + 0.3 * away)[::-1].astype(complex)
 
 
-def amplitudes(point: Array) -> Array:
-    """Return the amplitude; there is none beyond the limits of the parameter."""
-    assert 0.0 <= point[-1] <= 1.0
-    return np.abs(point[:1])
+def amplitudes(points: Sequence[Array]) -> Array:
+    """Return the amplitudes; there are none beyond the limits of the parameter."""
+    assert all(0.0 <= point[-1] <= 1.0 for point in points)
+    return np.abs([point[:1] for point in points])
 
 
 def found(known: Known, line: Line) -> list[tuple[str, float]]:
@@ -105,6 +106,14 @@ def found(known: Known, line: Line) -> list[tuple[str, float]]:
     system: Any = line
     resolution: Any = SimpleNamespace(amplitudes=amplitudes)
     multipliers: Any = known
+    events = Events(
+        system,
+        resolution,
+        StepControl(),
+        multipliers,
+        limits=(0.0, 1.0),
+        recalls=False,
+    )
     ends = []
     for place in (0.0, 1.0):
         point, along = line.at(place), line.along(place)
@@ -117,15 +126,8 @@ def found(known: Known, line: Line) -> list[tuple[str, float]]:
             (0.0,),
             along / np.linalg.norm(along),
         )
-        ends.append(Settled(solved, known.at(point), FOURIER, asks=False))
-    events = Events(
-        system,
-        resolution,
-        StepControl(),
-        multipliers,
-        limits=(0.0, 1.0),
-        recalls=False,
-    )
+        growth = events.growth(solved)
+        ends.append(Settled(solved, known.at(point), FOURIER, False, growth))
     between = events.between(ends[0], ends[1], np.ones_like)
     return [(name, located.point[line.component]) for located, name in between]
 

@@ -26,6 +26,7 @@ from microslip.interruption import unmasked
 from microslip.progress import shown
 from microslip.result_file import load
 from microslip.studies.curve import gathered
+from microslip.studies.sweep import kept
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve
@@ -263,8 +264,9 @@ def looped(items: Iterator[int]) -> None:
         lambda items: deque(
             shown(items, total=1.0, done=float, unit="s", name="test"), maxlen=0
         ),
+        lambda items: (found := [], kept(items, found.append)),
     ],
-    ids=["within", "gathered", "shown"],
+    ids=["within", "gathered", "shown", "kept"],
 )
 def test_an_interruption_within_a_kernel_remains_one(
     taking: Callable[[Iterator[int]], object],

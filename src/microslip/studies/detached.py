@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from hbm.detached import LEAST, MOST, Sought
 from hbm.options import CurveOptions
 from hbm.solve import detached
+from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -87,11 +88,12 @@ def search(
     )
     interrupted = False
     try:
-        for each in watch(found):
-            if isinstance(each, Sought):
-                sought.append(each)
-            else:
-                responses.append(each)
+        with unmasked():
+            for each in watch(found):
+                if isinstance(each, Sought):
+                    sought.append(each)
+                else:
+                    responses.append(each)
     except KeyboardInterrupt:
         interrupted = True
     return Searched(tuple(responses), tuple(sought), interrupted)

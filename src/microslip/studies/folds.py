@@ -11,6 +11,7 @@ from hbm.errors import ContinuationError
 from hbm.fold_curve import FoldPoint
 from hbm.options import CurveOptions
 from hbm.solve import fold_curve
+from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.studies.curve import trace_curve
 from microslip.studies.parameter import Parameter
@@ -98,8 +99,9 @@ def _followed(
     points: list[FoldPoint] = []
     ending = "complete"
     try:
-        for point in watch(fold_curve(parameter.problem_at, start, options)):
-            points.append(point)  # noqa: PERF402  (what is there must be kept)
+        with unmasked():
+            for point in watch(fold_curve(parameter.problem_at, start, options)):
+                points.append(point)  # noqa: PERF402  (what is there must be kept)
     except ContinuationError as cause:
         ending = str(cause)
     except KeyboardInterrupt:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from hbm.errors import ContinuationError
 from hbm.linear_modes import LinearMode
 from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
+from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
@@ -73,8 +74,9 @@ def _followed(
     points: list[NonlinearMode] = []
     ending = "complete"
     try:
-        for point in watch(growth):
-            points.append(point)  # noqa: PERF402  (what is there must be kept)
+        with unmasked():
+            for point in watch(growth):
+                points.append(point)  # noqa: PERF402  (what is there must be kept)
     except ContinuationError as error:
         ending = str(error)
     except KeyboardInterrupt:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from microslip.experiments import March, Sweep
+from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip_mechanics.envelope import Envelope, enveloped, parted
 from microslip_mechanics.excitation import LoadHistory, SweptSine
@@ -51,9 +52,10 @@ def kept(blocks: Iterable[Any], keep: Callable[[Any], None]) -> str:
     """
     some = False
     try:
-        for block in blocks:
-            keep(block)
-            some = True
+        with unmasked():
+            for block in blocks:
+                keep(block)
+                some = True
     except IntegrationError as error:
         if not some:
             raise

@@ -24,6 +24,8 @@ from microslip_mechanics.response import MARGIN, PeriodicResponse
 
 HARMONICS = 63
 """most that are solved for, if their number is left open"""
+LITTLE, ROUNDING = 1e-2, 1e-9
+"""part of a change that leaves its size known; units of arc that do not matter"""
 SOON = 10
 """evaluations in which Newton must find the fold with twice the harmonics"""
 
@@ -132,22 +134,26 @@ class FoldCurve:
 
         They are twice the change by twice the harmonics and samples, in the plane
         across the curve: where the series converges like 1/H, as much is still missing.
-        They are infinite where Newton does not find that point soon.
+        They are infinite where Newton does not find that point soon: its residual
+        vanishes, or its steps do, beside what they have changed.
         """
+        scale, little = self._metric(correction.point), False
         point = guess = self._widened(correction.point)
-        normal = self._widened(correction.along / self._metric(correction.point) ** 2)
+        normal = self._widened(correction.along / scale**2)
         self._finer.begin(correction)
         for _ in range(SOON):
             residual, linearised = self._finer(point)
             if not np.all(np.isfinite(residual)):
                 break
-            if np.abs(residual).max() <= self._control.tolerance:
+            if little or np.abs(residual).max() <= self._control.tolerance:
                 frequency, parameter = 2.0 * np.abs(point - guess)[-2:]
                 return float(frequency / guess[-2]), float(parameter)
             try:
-                point = point - linearised.solve(normal, np.append(residual, 0.0))
+                step = linearised.solve(normal, np.append(residual, 0.0))
             except SingularError:
                 break
+            point = point - step
+            little = _little(step, point - guess, scale)
         return math.inf, math.inf
 
     def _planned(self, fourier: FourierBasis) -> tuple[FoldBalance, Balance]:
@@ -185,6 +191,15 @@ class FoldCurve:
         scale[:rank] = max(float(np.linalg.norm(point[:rank])), vibration)
         scale[-2:] = 0.1 * point[-2], self._path.unit(float(point[-1]))
         return scale
+
+
+def _little(step: Array, change: Array, scale: Array) -> bool:
+    """Return whether a step moves a fold by rounding, or little beside a change.
+
+    Frequency and parameter tell: the motion at a fold is badly conditioned.
+    """
+    most = LITTLE * np.abs(change[-2:]) + ROUNDING * scale[-2:]
+    return bool(np.all(np.abs(step[-2:]) <= most))
 
 
 def meeting(before: Correction, after: Correction) -> str:

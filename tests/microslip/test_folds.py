@@ -2,6 +2,7 @@
 
 import csv
 import itertools
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TypeAlias
@@ -132,3 +133,22 @@ def test_what_cannot_change_is_refused(
     assert status == 2
     assert reason in error
     assert error.count("\n") == 1
+
+
+def test_a_fold_that_goes_away_ends_there_with_known_errors(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("microslip.studies.folds.FAR", 1.0)
+    wide = ("curve.highest=38 Hz",)
+    less = parameter("duffing", wide, "structure.damping_ratio", "1.8e-4", "0")
+
+    upper, _ = followed_folds(less)
+
+    curve = upper.curve
+    assert "goes away" in curve.ending
+    assert 38.0 < curve.frequency[-1] / math.tau < 39.0
+    assert all(point.frequency_error < 1e-5 for point in upper.points)
+    # the peak at the fold is on the backbone, where c ω x = F but for other harmonics
+    damping = 2.0 * curve.parameter[-1] * math.sqrt(1000.0)
+    speed = curve.frequency[-1] * curve.amplitude[-1].max()
+    assert damping * speed == pytest.approx(0.1, rel=0.02)

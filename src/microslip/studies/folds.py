@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -11,6 +12,7 @@ from hbm.errors import ContinuationError
 from hbm.fold_curve import FoldPoint
 from hbm.options import CurveOptions
 from hbm.solve import fold_curve
+from microslip.experiments import Curve
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.studies.curve import trace_curve
@@ -18,6 +20,9 @@ from microslip.studies.parameter import Parameter
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
 
+FAR = 10.0
+"""times the highest frequency of the curve, or its lowest over it, beyond which a fold
+is not followed"""
 SAME = 1e-2
 """difference of two motions, relative, up to which they are one at two resolutions"""
 
@@ -101,7 +106,10 @@ def _followed(
     try:
         with unmasked():
             for point in watch(fold_curve(parameter.problem_at, start, options)):
-                points.append(point)  # noqa: PERF402  (what is there must be kept)
+                points.append(point)
+                if _far(point.response.frequency / math.tau, curve):
+                    ending = _left(parameter, point.response)
+                    break
     except ContinuationError as cause:
         ending = str(cause)
     except KeyboardInterrupt:
@@ -115,6 +123,20 @@ def _followed(
         parameter.label,
     )
     return FollowedFold(made, tuple(points))
+
+
+def _far(hertz: float, curve: Curve) -> bool:
+    """Return whether a fold has gone far away from the curve."""
+    return not curve.lowest / FAR <= hertz <= curve.highest * FAR
+
+
+def _left(parameter: Parameter, fold: PeriodicResponse) -> str:
+    """Return how a fold ends that goes far away."""
+    return (
+        f"the fold goes away to {fold.frequency / math.tau:.4g} Hz at {parameter.name} "
+        f"= {fold.parameter:.3g}: it is followed to {FAR:g} times the curve's highest "
+        "frequency, or its lowest over that; give the curve more range"
+    )
 
 
 def _distance(one: PeriodicResponse, other: PeriodicResponse) -> float:

@@ -71,6 +71,7 @@ def trace(
     scale = metric(accepted.point)
     direction = _begun(accepted, direction, scale)
     first = accepted = replace(accepted, tangent=direction, joined=False)
+    accepted.linearised.forget()
     yield accepted
     low, high = sorted((begin, end))
     past, went = Predictor(), 0.0
@@ -92,6 +93,7 @@ def trace(
         scale = metric(candidate.point)
         direction = candidate.along / float(np.linalg.norm(candidate.along / scale))
         accepted = replace(candidate, tangent=direction, joined=True)
+        accepted.linearised.forget()
         yield accepted
     raise ContinuationError(
         f"the curve has not come to an end after {control.most_points} points, at "

@@ -13,6 +13,8 @@ from microslip_mechanics.arrays import Array
 
 EPSILON = 1e-14
 """relative size below which a border does not cross the curve"""
+NONE: tuple[Array, Array] = np.empty(0), np.empty(0)
+"""no factors"""
 
 
 class Linearisation:
@@ -40,7 +42,7 @@ class Linearisation:
         self._made: tuple[Array, Array] | None = None
         self._places = np.append(places, size - 1)
         self._border: Array | None = None
-        self._factors: tuple[Array, Array] = (np.empty(0), np.empty(0))
+        self._factors = NONE
 
     @property
     def jacobian(self) -> Array:
@@ -96,6 +98,7 @@ class Linearisation:
         border = normal[self._places]
         if self._border is None:
             self._factors, self._border = self._factored(border), border
+            self._made = None  # as large as the factors, and hardly ever asked again
         wanted = right[self._places]
         if np.array_equal(border, self._border):
             found = self._solved(wanted)
@@ -106,6 +109,10 @@ class Linearisation:
         solution = np.zeros_like(right)
         solution[self._places] = found
         return solution
+
+    def forget(self) -> None:
+        """Let go of derivatives and factors: what solves again makes them anew."""
+        self._made, self._border, self._factors = None, None, NONE
 
     def _turned(self, border: Array, right: Array) -> Array:
         """Return the solution with another border, by a step along the tangent.

@@ -38,6 +38,9 @@ class Linearised(Protocol):
             If there is no solution.
         """
 
+    def forget(self) -> None:
+        """Let go of what takes memory: solving again makes it anew."""
+
 
 class SingularError(ArithmeticError):
     """The bordered Jacobian has no inverse."""

@@ -74,6 +74,8 @@ class Segment:
                 return first
             if place >= length:
                 return last
+            for each in solved.values():
+                each.linearised.forget()
             solved[place] = self._at(self._guess(place, solved), near)
             return test(solved[place])
 

@@ -20,3 +20,6 @@ class Dense:
             return np.linalg.solve(np.vstack([self.rows, normal]), right)
         except np.linalg.LinAlgError as error:
             raise SingularError from error
+
+    def forget(self) -> None:
+        """Keep the rows."""

@@ -76,6 +76,18 @@ def test_every_point_of_a_curve_solves_the_system() -> None:
         assert abs(cubic(point)[0][0]) <= CONTROL.tolerance
 
 
+def test_points_let_go_of_their_factors(monkeypatch: pytest.MonkeyPatch) -> None:
+    forgotten: list[Dense] = []
+    monkeypatch.setattr(Dense, "forget", lambda each: forgotten.append(each))
+
+    *points, last = trace(
+        cubic, np.array([-1.3, -1.0]), 1.0, metric=even, control=CONTROL
+    )
+
+    assert [each.linearised in forgotten for each in points] == [True] * len(points)
+    assert last.linearised not in forgotten
+
+
 @pytest.mark.parametrize(("begin", "end"), [(-1.0, 1.0), (1.0, -1.0), (-0.5, 0.7)])
 def test_both_ends_of_a_curve_lie_exactly_on_their_parameters(
     begin: float, end: float

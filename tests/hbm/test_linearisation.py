@@ -80,3 +80,23 @@ def test_without_unknowns_the_parameter_alone_is_solved_for() -> None:
     found = linearised.solve(np.array([0.0, 0.0, 2.0]), np.array([5.0, 5.0, 3.0]))
 
     np.testing.assert_array_equal(found, [0.0, 0.0, 1.5])
+
+
+def test_what_is_forgotten_is_made_anew() -> None:
+    jacobian, slope, normal = drawn()
+    made = []
+
+    def make() -> tuple[np.ndarray, np.ndarray]:
+        made.append(True)
+        return jacobian, slope
+
+    linearised = Linearisation(make, PLACES, SIZE)
+    right = np.arange(float(SIZE))
+    before = linearised.solve(normal, right)
+    linearised.solve(normal, 2.0 * right)
+    assert len(made) == 1
+
+    linearised.forget()
+
+    np.testing.assert_array_equal(linearised.solve(normal, right), before)
+    assert len(made) == 2

@@ -24,6 +24,9 @@ class Slope:
         del normal
         return np.array([right[0] / self._slope, right[1]])
 
+    def forget(self) -> None:
+        """Keep the slope."""
+
 
 class Root:
     """x² = 2, or what steps lead away from, with contact impulses that are given."""

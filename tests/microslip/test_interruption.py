@@ -256,6 +256,13 @@ def looped(items: Iterator[int]) -> None:
         deque(items, maxlen=0)
 
 
+def kept_by(items: Iterator[int]) -> tuple[list[int], str]:
+    """Return what is kept of a march, and how it ends."""
+    blocks: list[int] = []
+    ending = kept(items, blocks.append)
+    return blocks, ending
+
+
 @pytest.mark.parametrize(
     "taking",
     [
@@ -264,7 +271,7 @@ def looped(items: Iterator[int]) -> None:
         lambda items: deque(
             shown(items, total=1.0, done=float, unit="s", name="test"), maxlen=0
         ),
-        lambda items: (found := [], kept(items, found.append)),
+        kept_by,
     ],
     ids=["within", "gathered", "shown", "kept"],
 )

@@ -11,6 +11,7 @@ from hbm.adaptive import AdaptiveBalance
 from hbm.curve import Curve
 from hbm.effort import Effort
 from hbm.events import Events
+from hbm.memory import marched
 from hbm.multipliers import Multipliers
 from hbm.options import CurveOptions
 from hbm.path import Path
@@ -38,6 +39,7 @@ class Tracer:
             most=options.most_harmonics,
             errors=options.errors,
             effort=self.effort,
+            marched=bool(marched(problem.interface.points).any()),
         )
         drive = float(np.abs(problem.drive).max(initial=0.0))
         self.control = options.control(problem.force_scale, drive)

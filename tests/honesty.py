@@ -9,6 +9,8 @@ import numpy as np
 from contact_tables import contact_points
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response, periodic_response
+from microslip.rigs import problem_of
+from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -51,6 +53,11 @@ def bouncing() -> Problem:
     )
 
 
+def jenkins() -> Problem:
+    """Return a mass on a spring and a slider, marched from sample to sample."""
+    return problem_of(load_scene("jenkins"))
+
+
 @dataclass(frozen=True)
 class Variant:
     """A problem, its range of frequencies [rad/s] and a reference's resolution."""
@@ -75,6 +82,7 @@ VARIANTS = {
         lambda: rig_problem(model="B", friction__law="gkf"), TURN * 125.0, TURN * 145.0
     ),
     "full": Variant(rig_problem, TURN * 125.0, TURN * 145.0, 127, 4096),
+    "jenkins": Variant(jenkins, TURN * 14.0, TURN * 22.0, 63, 8192),
 }
 
 

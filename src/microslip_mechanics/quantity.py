@@ -12,7 +12,7 @@ UNITS = {
     "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6},
     "Hz": {"Hz": 1.0, "kHz": 1e3},
     "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3},
-    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3},
+    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6},
     "Pa": {"Pa": 1.0, "MPa": 1e6, "GPa": 1e9},
     "kg/m^3": {"kg/m^3": 1.0, "g/cm^3": 1e3},
     "kg m^2": {"kg m^2": 1.0, "kg mm^2": 1e-6, "g mm^2": 1e-9},
@@ -103,14 +103,17 @@ def quantity(
     positive: bool = False,
     optional: bool = False,
     default: object = MISSING,
+    told: tuple[str, str] | None = None,
 ) -> Any:  # noqa: ANN401  (a dataclass field, like dataclasses.field)
     """Declare a number with its SI unit and its range.
 
     ``positive`` sets the lower bound to zero and excludes the bound itself;
     ``optional`` makes None of a number that is left out, ``default`` another value.
+    ``told`` is what the documentation says of its range, which its dataclass checks,
+    and of a number that is left out.
     """
     low = max(lowest, 0.0) if positive else lowest
-    metadata = {"quantity": Quantity(unit, low, highest, positive)}
+    metadata = {"quantity": Quantity(unit, low, highest, positive), "told": told}
     if optional:
         default = None
     return field(default=default, metadata=metadata)

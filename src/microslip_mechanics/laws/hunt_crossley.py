@@ -23,11 +23,16 @@ class HuntCrossleyContact:
     """p"""
     damping: float = quantity("N s/m^(q+1)", lowest=0.0, default=0.0)
     """c [N s/m^(q+1)]"""
-    damping_exponent: float | None = quantity(lowest=0.0, highest=10.0, optional=True)
+    damping_exponent: float | None = quantity(
+        lowest=0.0,
+        highest=10.0,
+        optional=True,
+        told=("at least 0, at most 10", "as `exponent`"),
+    )
     """q; p if left out, as in the source"""
     clamped: bool = quantity(default=True)
     """whether a pulling force, possible at fast separation, is set to zero"""
-    gap: float | None = quantity("m", optional=True)
+    gap: float | None = quantity("m", optional=True, told=("at least 0", "0"))
     """g ≥ 0 [m]; 0 if left out"""
     preload: float = quantity("N", lowest=0.0, default=0.0)
     """contact force while w = 0 [N], in place of a gap"""

@@ -27,10 +27,13 @@ class NormalLoad:
     normal_damping: float = quantity("N s/m^(q+1)", lowest=0.0, default=0.0)
     """c [N s/m^(q+1)]"""
     normal_damping_exponent: float | None = quantity(
-        lowest=0.0, highest=10.0, optional=True
+        lowest=0.0,
+        highest=10.0,
+        optional=True,
+        told=("at least 0, at most 10", "as `normal_exponent`"),
     )
     """q; p if left out"""
-    gap: float | None = quantity("m", optional=True)
+    gap: float | None = quantity("m", optional=True, told=("at least 0", "0"))
     """g ≥ 0 [m]; 0 if left out"""
     preload: float = quantity("N", lowest=0.0, default=0.0)
     """N while w_n = 0 [N], in place of a gap"""

@@ -40,7 +40,9 @@ def _law(name: str, law: type[Any]) -> str:
 
 def _row(field: dataclasses.Field[Any]) -> str:
     """Return the line of one number."""
-    kind = field.metadata["quantity"]
+    kind, told = field.metadata["quantity"], field.metadata["told"]
+    if told:
+        return f"| `{field.name}` | {kind.unit} | {told[0]} | {told[1]} |"
     if field.default is dataclasses.MISSING:
         missing = "must be given"
     elif field.default is None:

@@ -45,7 +45,7 @@ class UnilateralSpring:
 
     stiffness: float = quantity("N/m^p", positive=True)
     """k [N/m^p]"""
-    gap: float | None = quantity("m", optional=True)
+    gap: float | None = quantity("m", optional=True, told=("at least 0", "0"))
     """g ≥ 0 [m]; 0 if left out"""
     preload: float = quantity("N", lowest=0.0, default=0.0)
     """contact force while w = 0 [N], in place of a gap"""

@@ -16,8 +16,8 @@ FLOOR = 1e-5
 """relative difference of amplitudes that no estimate accounts for: stiff contacts in
 perfect symmetry are reproducible no better"""
 COVERAGE = 3.0
-"""times its estimate by which harmonic balance may err at a single point: it errs by no
-more than the estimate at nine points of ten, and than thrice that at 98 of a hundred"""
+"""times its estimate by which harmonic balance may err at a single point: the estimate
+bounds 95 points of a hundred, by the problems of ``tests/hbm/test_adaptive.py``"""
 MULTIPLIER_FLOOR = 2e-3
 """the same of a multiplier's modulus, for which harmonic balance has no estimate"""
 

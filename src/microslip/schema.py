@@ -63,7 +63,7 @@ HISTORY: Schema = {
     "energy": (("time", "energy"), "J", "energy that flowed so far, or is stored"),
     "energy_error": (("time",), "J", "estimated error of friction's energy"),
     "peak_error": (("time",), "1", "estimated relative error of the largest amplitude"),
-    "work_difference": (("time",), "J", "friction's power integrated less its work"),
+    "work_difference": (("time",), "J", "friction's work less that by another way"),
 }
 ENVELOPE: Schema = {
     **NAMES,

@@ -70,8 +70,8 @@ class TimeHistory:
     peak_error: Array = field(default_factory=lambda: np.zeros(0))
     """estimated, of the largest amplitude so far, relative, like ``energy_error``"""
     work_difference: Array = field(default_factory=lambda: np.zeros(0))
-    """friction's energy by quadrature of its power less that by mean force times
-    sliding increment [J], like ``energy_error``"""
+    """friction's energy less that by another of two ways, mean force times sliding
+    increment and times the mean of both ends' velocities [J], like ``energy_error``"""
 
     def of(self, energy: str) -> Array:
         """Return one energy over time [J], shape (times,)."""

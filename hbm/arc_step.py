@@ -55,6 +55,7 @@ def next_point(
             cosine = float((candidate.along / scale) @ (direction / scale))
             if (close and cosine > control.sharpest_turn) or step <= control.smallest:
                 settler.keep()
+                candidate.linearised.forget()
                 return candidate, step
         elif step <= control.smallest:
             where = float(past.predict(0.0)[-1])

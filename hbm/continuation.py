@@ -20,6 +20,9 @@ FEWEST = 4
 """steps of a closed curve"""
 ASIDE = 0.1
 """length of a step from which it may pass a point, over its own"""
+TURNS, FEW = 3, 10.0
+"""sharp turns that shortest steps may make in a row, and how long these are, over the
+shortest"""
 
 
 def trace(
@@ -60,7 +63,8 @@ def trace(
     Raises
     ------
     ContinuationError
-        If the first point or, after the shortest step, a later one does not converge.
+        If the first point or, after the shortest step, a later one does not converge,
+        or if the curve turns sharply more often.
     """
     accepted = correct_at(system, start, control, settler, metric)
     step = control.initial
@@ -74,7 +78,7 @@ def trace(
     accepted.linearised.forget()
     yield accepted
     low, high = sorted((begin, end))
-    past, went = Predictor(), 0.0
+    past, went, sharp = Predictor(), 0.0, 0
     for number in range(control.most_points):
         missed = past.append(accepted.point, direction, scale, went)
         if went > 0.0:
@@ -82,6 +86,7 @@ def trace(
         candidate, went = next_point(
             system, past, direction, scale, step, control, settler
         )
+        sharp = _sharp(sharp, candidate, went, direction, scale, control)
         if not low < candidate.point[-1] < high:
             limits = (low, high)
             yield _border(system, accepted, candidate, limits, control, settler, metric)
@@ -93,7 +98,6 @@ def trace(
         scale = metric(candidate.point)
         direction = candidate.along / float(np.linalg.norm(candidate.along / scale))
         accepted = replace(candidate, tangent=direction, joined=True)
-        accepted.linearised.forget()
         yield accepted
     raise ContinuationError(
         f"the curve has not come to an end after {control.most_points} points, at "
@@ -155,6 +159,35 @@ def _begun(first: Correction, direction: Array, scale: Array) -> Array:
         ) from None
 
 
+def _sharp(
+    before: int,
+    candidate: Correction,
+    went: float,
+    direction: Array,
+    scale: Array,
+    control: StepControl,
+) -> int:
+    """Return how many sharp turns shortest steps have made in a row.
+
+    Raises
+    ------
+    ContinuationError
+        If they are too many: beyond a corner the curve may go on against the tangent
+        that continuity would have, and steps along that one come back.
+    """
+    if went > FEW * control.smallest:
+        return 0
+    cosine = float((candidate.along / scale) @ (direction / scale))
+    made = before + int(cosine <= control.sharpest_turn)
+    if made > TURNS:
+        raise ContinuationError(
+            f"the curve turns sharply at {PLACE}, where a contact changes its state: "
+            "more harmonics or more samples make it smoother",
+            float(candidate.point[-1]),
+        )
+    return made
+
+
 def _passes(
     first: Correction, before: Correction, after: Correction, scale: Array
 ) -> bool:
@@ -186,4 +219,6 @@ def _border(
     guess = accepted.point + share * (candidate.point - accepted.point)
     guess[-1] = limit
     found = correct_at(system, guess, control, settler, metric)
-    return replace(found, tangent=candidate.tangent)
+    point = found.point.copy()
+    point[-1] = limit  # not what rounding makes of it
+    return replace(found, point=point, tangent=candidate.tangent)

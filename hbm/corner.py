@@ -19,13 +19,14 @@ from microslip_mechanics.arrays import Array
 
 BEYOND = (0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)
 """arc lengths past the last point, at which the other side is sought"""
-FAR = 1e-3
-"""arc length of the way to the corner, by which its direction is known"""
+NEAR, FAR = 1e-3, 1e-2
+"""arc length of the way to the corner, by which its direction is known: at least, and
+from which on no more is needed"""
 STEPS = (1e-3, 1e-4, 1e-2, 1e-5)
 """arc lengths along the other side, tried in turn"""
 ITERATIONS = 8
 """of Newton's for such a step, which is nearly straight"""
-STRAIGHT = 0.9999
+STRAIGHT = 0.99
 """cosine of the angle between two ways, from which on they are one"""
 Metric: TypeAlias = Callable[[Array], Array]
 
@@ -74,13 +75,15 @@ def round_corner(
 
 def _back(way: Sequence[Correction], scale: Array) -> Array | None:
     """Return the unit direction of the way back, in the metric; None if it is short."""
+    direction: Array | None = None
     for before in reversed(way):
         chord = (before.point - way[-1].point) / scale
         length = float(np.linalg.norm(chord))
+        if length >= NEAR:
+            direction = chord / length
         if length >= FAR:
-            direction: Array = chord / length
-            return direction
-    return None
+            break
+    return direction
 
 
 def _along(step: Array, way: Array, scale: Array) -> bool:

@@ -36,6 +36,8 @@ UPRIGHT = 5e-3
 beside the segment"""
 NEAR = 0.4
 """share of a step within which a multiplier +1 is that of a fold in the same step"""
+FLAT = 1e-13
+"""change of an amplitude, relative, that may be rounding"""
 REAL = 1e-6
 """imaginary part of a multiplier, over its modulus, below which it is real"""
 TORUS, BRANCH = "Neimark-Sacker", "branch point"
@@ -179,7 +181,9 @@ class Events:
         beside[:, -1] = beside[:, -1].clip(*self.limits)
         sizes = self.resolution.amplitudes(list(beside))
         place = int(sizes[0].argmax())
-        return float(sizes[1][place] - sizes[0][place]) / small
+        change = float(sizes[1][place] - sizes[0][place])
+        rounding = FLAT * float(sizes[0][place])
+        return change / small if abs(change) > rounding else 0.0
 
     def _finest(
         self, correction: Correction, finer: FourierBasis | None

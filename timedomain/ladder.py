@@ -134,8 +134,12 @@ def _grow(control: Control, motion: Motion, level: int, error: float) -> None:
     counts[LEVEL] = level
     if error > GROWTH:
         counts[ROUGH] = counts[TICK]
-    elif counts[TICK] - counts[ROUGH] > control.hold:
-        counts[LEVEL] = max(0, level - 1)
+    elif (
+        level > 0
+        and counts[TICK] - counts[ROUGH] > control.hold
+        and counts[TICK] % (TICKS >> (level - 1)) == 0  # where a longer one may begin
+    ):
+        counts[LEVEL] = level - 1
         counts[ROUGH] = counts[TICK]
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import shlex
 import sys
 import warnings
+from decimal import Decimal
 
 from microslip.commands import (
     decay,
@@ -39,12 +41,19 @@ exit status: 0 done, 1 failed or the solvers disagree, 2 wrong scene or argument
 130 interrupted (what was computed is kept)"""
 
 
+def _plain(word: str) -> str:
+    """Return a word; a negative number without exponent, or it would be an option."""
+    number = re.fullmatch(r"-(\d+\.?\d*|\.\d+)[eE][-+]?\d{1,3}", word)
+    return format(Decimal(word), "f") if number else word
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Run one command and return the exit status."""
     # Small matrices: threads of the linear algebra cost more than they bring.
     for library in ("OPENBLAS", "MKL", "OMP"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
-    words = sys.argv[1:] if arguments is None else arguments
+    given = sys.argv[1:] if arguments is None else arguments
+    words = [_plain(word) for word in given]
     options = _parser().parse_args(words)
     options.command = shlex.join(["microslip", *words])
     try:

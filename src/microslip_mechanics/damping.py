@@ -78,7 +78,7 @@ class Damping:
 
     def _ratios(self, bare: Structure) -> tuple[float, ...]:
         """Return the ratio of each mode that has one."""
-        single = isinstance(self.ratio, (int, float))
+        single = np.asarray(self.ratio).ndim == 0
         ratios = np.atleast_1d(np.asarray(self.ratio, dtype=float))
         for ratio in ratios:
             if not 0.0 <= ratio < 1.0:

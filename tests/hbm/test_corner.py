@@ -1,5 +1,7 @@
 """Corners of a curve: turned round where its halves make an acute angle."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,8 @@ from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.static import static_equilibrium
 from systems import Dense
+
+TURN = 2.0 * np.pi
 
 CONTROL = StepControl(initial=0.05, largest=0.1)
 
@@ -132,3 +136,23 @@ def test_a_direction_in_which_nothing_is_found_is_tried_once() -> None:
     assert round_corner(ends, way, unit, 1e-12) is None
     # measured 18, and 42 where every derivative's direction is tried
     assert calls <= 25
+
+
+def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back() -> None:
+    """Where its slider begins to slip the tangents of both sides meet head on."""
+    scene = load_scene("friction-beam")
+    problem = problem_of(scene)
+    curve = scene.curve
+    options = CurveOptions(
+        TURN * curve.lowest,
+        TURN * curve.highest,
+        error=curve.tolerance,
+        stability=False,
+    )
+
+    traced = frequency_response(problem, static_equilibrium(problem), options)
+    found = [each.frequency for each in itertools.islice(traced, 400)]
+
+    assert len(found) < 300  # measured 140; it went to and fro without end
+    assert found[-1] == TURN * curve.highest
+    assert np.all(np.diff(found) > -0.01 * found[0])

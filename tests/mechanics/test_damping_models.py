@@ -17,6 +17,7 @@ from microslip_mechanics.rayleigh import Rayleigh
 from microslip_mechanics.reduction import reduced
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
+from microslip_mechanics.system import system
 from sparse_problems import dense, net
 
 RATIOS = (0.01, 0.0, 0.03, 0.002, 0.005)
@@ -185,3 +186,17 @@ def test_impossible_damping_is_refused(
 ) -> None:
     with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
         make()
+
+
+@pytest.mark.parametrize("ratio", [np.float32(0.02), np.array(0.02), 0.02])
+def test_one_ratio_of_any_kind_is_that_of_every_mode(ratio: float) -> None:
+    found = system(
+        mass=[1.0, 1.0],
+        stiffness=[[2e4, -1e4], [-1e4, 1e4]],
+        damping_ratio=ratio,
+        drive={"x1": 1.0},
+    )
+
+    squares, shapes = scipy.linalg.eigh(found.structure.stiffness, found.structure.mass)
+    rates = np.diag(shapes.T @ found.structure.damping @ shapes)
+    np.testing.assert_allclose(rates / 2.0 / np.sqrt(squares), 0.02, rtol=1e-6)

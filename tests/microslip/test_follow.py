@@ -146,3 +146,14 @@ def test_an_interrupted_search_says_how_far_it_was(
     assert isinstance(stored, ResponseCurve)
     assert stored.ending == "interrupted"
     assert stored.frequency.size > 5
+
+
+def test_a_negative_value_with_an_exponent_is_a_value(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["follow", "gap", "drive.x", "-5e-2", "1e-2", "--frequency", "4.5"]
+
+    status = main([*words, "-o", str(tmp_path / "phase")])
+
+    assert status == 0
+    assert "-0.05" in capsys.readouterr().out

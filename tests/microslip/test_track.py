@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 from microslip.cli import main
+from microslip.scene_file import load_scene
+from microslip.studies.axis import axis
 from microslip.studies.track import tracked
 
 SHORT = ("model=A", "curve.lowest=134 Hz", "curve.highest=136 Hz")
@@ -51,3 +53,16 @@ def test_a_key_that_the_scene_lacks_is_refused(
 ) -> None:
     assert main(["track", "two-blades", "excitation.farce", "1"]) == 2
     assert "force" in capsys.readouterr().err
+
+
+def test_values_with_units_lie_in_their_order() -> None:
+    texts = ["50 mN", "0.1 N", "1"]
+    scenes = [load_scene("duffing", [f"drive.x={text}"]) for text in texts]
+
+    assert axis("drive.x", texts, scenes) == ([0.05, 0.1, 1.0], "drive.x [N]")
+
+
+def test_values_that_are_no_numbers_lie_in_the_order_of_the_list() -> None:
+    scenes = [load_scene("two-blades", [f"model={text}"]) for text in ("A", "full")]
+
+    assert axis("model", ["A", "full"], scenes) == ([0.0, 1.0], "model")

@@ -7,6 +7,9 @@ import pytest
 
 from contact_tables import contact_points
 from convergence import observed_order
+from microslip.rigs import problem_of
+from microslip.scene_file import load_scene
+from microslip.studies.loads import load_history
 from microslip_mechanics.excitation import Dwell, SweptSine
 from microslip_mechanics.problem import Problem
 from rigs import rig_problem
@@ -212,3 +215,17 @@ def test_a_march_goes_on_only_with_steps_of_the_same_ladder() -> None:
     )
     whole = marched(problem, dwell, MarchOptions(0.01, 5))
     np.testing.assert_array_equal(rest[-1].displacement[-1], whole.displacement[-1])
+
+
+def test_steps_grow_again_wherever_a_load_has_a_kink() -> None:
+    """A step twice as long may begin at every other place only."""
+    stepped = ("sweep.kind=stepped", "sweep.steps=5", "sweep.periods=20")
+    scene = load_scene("duffing", stepped)
+    march = integrate(
+        problem_of(scene), load_history(scene), MarchOptions(5e-4, 4, 1e-3)
+    )
+
+    counts = [block.iterations / len(block.time) for block in march if len(block.time)]
+
+    # From a kink to the next one it was 138 times.
+    assert np.mean(np.array(counts) > 20.0 * min(counts)) < 0.2

@@ -120,14 +120,16 @@ def _keep(
     """Write table and picture of the values that have a response."""
     from microslip.figures.poles import poles_figure
     from microslip.store import save_figure
+    from microslip.studies.axis import axis
     from microslip.studies.poles import branches, limit_lines, limits_of
 
     span = limits_of(question.at(found[0].value))
     lines = branches(found, span)
     _write(table, options.key, found, lines)
     limits = {name: limit_lines(found, name, span) for name in ("free", "stuck")}
-    places = [_number(each.value, place) for place, each in enumerate(found)]
-    key = "friction coefficient µd" if options.key == "friction" else options.key
+    values = [each.value for each in found]
+    places, key = axis(options.key, values, [question.at(value) for value in values])
+    key = "friction coefficient µd" if options.key == "friction" else key
     title = arguments.title(options)
     save_figure(picture, poles_figure(places, lines, limits, span, key, title))
     print(f"table in {table}, picture in {picture}")
@@ -169,11 +171,3 @@ def _rows(each: Linearised, poles: ComplexArray) -> list[list[object]]:
         for branch, (decay, ratio, pole) in enumerate(columns, start=1)
         if not math.isnan(decay)
     ]
-
-
-def _number(text: str, place: int) -> float:
-    """Return the number that a value begins with, or its place in the list."""
-    try:
-        return float(text.split()[0])
-    except ValueError:
-        return float(place)

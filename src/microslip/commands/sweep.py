@@ -188,12 +188,14 @@ def _estimates(result: TimeHistory | Envelope) -> list[str]:
 
     if isinstance(result, Envelope) or not result.energy_error.size:
         return []
-    energy = result.energy_error[-1]
-    friction = max(abs(result.of("friction")[-1]), 1e-300)
-    work = result.work_difference[-1]
+    friction = abs(result.of("friction")[-1])
+    shares = [
+        f"{value:12.2g}" + (f"  ({value / friction:.1e} of it)" if friction else "")
+        for value in (result.energy_error[-1], result.work_difference[-1])
+    ]
     return [
-        f"  {'friction, error':20s} {energy:12.2g}  ({energy / friction:.1e} of it)",
-        f"  {'quadrature - work':20s} {work:12.2g}  ({work / friction:.1e} of it)",
+        f"  {'friction, error':20s} {shares[0]}",
+        f"  {'quadrature - work':20s} {shares[1]}",
         f"estimated error of the peak amplitude {result.peak_error[-1]:.1e}",
     ]
 

@@ -84,7 +84,9 @@ def _keep(
 ) -> None:
     """Write table and picture."""
     from microslip.figures.track import track_figure
+    from microslip.scene_file import load_scene
     from microslip.store import save_figure, save_table
+    from microslip.studies.axis import axis
 
     names = (options.key, "event", "frequency_hz", "amplitude_m", "error")
     rows = [
@@ -99,9 +101,18 @@ def _keep(
         for event in each.events
     ]
     save_table(table, names, rows)
+    values = [each.value for each in found]
+    places, label = axis(
+        options.key,
+        values,
+        [
+            load_scene(options.scene, [*options.overrides, f"{options.key}={value}"])
+            for value in values
+        ],
+    )
     peaks, others = [], []
-    for place, each in enumerate(found):
-        value, highest = _number(each.value, place), each.peak
+    for value, each in zip(places, found, strict=True):
+        highest = each.peak
         if highest is not None:
             hertz = highest.frequency / math.tau
             peaks.append((value, hertz, highest.amplitude))
@@ -111,13 +122,5 @@ def _keep(
             if event is not highest
         ]
     title = arguments.title(options)
-    save_figure(picture, track_figure(peaks, others, options.key, title))
+    save_figure(picture, track_figure(peaks, others, label, title))
     print(f"table in {table}, picture in {picture}")
-
-
-def _number(text: str, place: int) -> float:
-    """Return the number that a value begins with, or its place in the list."""
-    try:
-        return float(text.split()[0])
-    except ValueError:
-        return float(place)

@@ -1,0 +1,34 @@
+"""Where values of a scene's key lie on the axis of a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from microslip.key_path import key_path
+from microslip.scene_file import Scene
+from microslip.studies import numbers
+
+
+def axis(
+    key: str, texts: Sequence[str], scenes: Sequence[Scene]
+) -> tuple[list[float], str]:
+    """Return the place of each value on an axis, and its label.
+
+    Numbers of the structure, its contacts and loads lie at their value in SI units,
+    other numbers as they were given, and what is no number in the order of the list.
+
+    Parameters
+    ----------
+    key
+        Table and key.
+    texts, scenes
+        The values as they were given, and the scene with each of them.
+    """
+    found = [numbers.reached(each.rig, key_path(key)) for each in scenes]
+    if all(type(value) is float for value in found):
+        unit = numbers.unit(scenes[0].rig, key_path(key))
+        return found, f"{key} [{unit}]" if unit else key
+    try:
+        return [float(text) for text in texts], key
+    except ValueError:
+        return [float(place) for place in range(len(texts))], key

@@ -52,8 +52,8 @@ def next_point(
         )
         candidate = _directed(candidate, direction, scale)
         if candidate.outcome is Outcome.CONVERGED:
-            cosine = float((candidate.along / scale) @ (direction / scale))
-            if (close and cosine > control.sharpest_turn) or step <= control.smallest:
+            smooth = turn(candidate, direction, scale) > control.sharpest_turn
+            if (close and smooth) or step <= control.smallest:
                 settler.keep()
                 candidate.linearised.forget()
                 return candidate, step
@@ -115,6 +115,11 @@ def _directed(candidate: Correction, direction: Array, scale: Array) -> Correcti
     except SingularError:
         return replace(candidate, outcome=Outcome.SINGULAR)
     return replace(candidate, tangent=turned)
+
+
+def turn(candidate: Correction, direction: Array, scale: Array) -> float:
+    """Return the cosine between the tangent at a point and the one before it."""
+    return float((candidate.along / scale) @ (direction / scale))
 
 
 def tangent(linearised: Linearised, direction: Array, scale: Array) -> Array:

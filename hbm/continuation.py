@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.arc_step import Metric, lost, neglected, next_point, tangent
+from hbm.arc_step import Metric, lost, neglected, next_point, tangent, turn
 from hbm.errors import PLACE, ContinuationError
 from hbm.newton import Correction, Outcome, SingularError, System, correct
 from hbm.predictor import Predictor
@@ -21,8 +21,7 @@ FEWEST = 4
 ASIDE = 0.1
 """length of a step from which it may pass a point, over its own"""
 TURNS, FEW = 3, 10.0
-"""sharp turns that shortest steps may make in a row, and how long these are, over the
-shortest"""
+"""sharp turns that may be made while steps are shortest, or so many times as long"""
 
 
 def trace(
@@ -64,7 +63,7 @@ def trace(
     ------
     ContinuationError
         If the first point or, after the shortest step, a later one does not converge,
-        or if the curve turns sharply more often.
+        or if shortest steps turn sharply again and again.
     """
     accepted = correct_at(system, start, control, settler, metric)
     step = control.initial
@@ -167,7 +166,7 @@ def _sharp(
     scale: Array,
     control: StepControl,
 ) -> int:
-    """Return how many sharp turns shortest steps have made in a row.
+    """Return how many sharp turns were made since steps are about the shortest.
 
     Raises
     ------
@@ -177,8 +176,8 @@ def _sharp(
     """
     if went > FEW * control.smallest:
         return 0
-    cosine = float((candidate.along / scale) @ (direction / scale))
-    made = before + int(cosine <= control.sharpest_turn)
+    sharp = turn(candidate, direction, scale) <= control.sharpest_turn
+    made = before + int(sharp)
     if made > TURNS:
         raise ContinuationError(
             f"the curve turns sharply at {PLACE}, where a contact changes its state: "

@@ -109,8 +109,8 @@ def quantity(
 
     ``positive`` sets the lower bound to zero and excludes the bound itself;
     ``optional`` makes None of a number that is left out, ``default`` another value.
-    ``told`` is what the documentation says of its range, which its dataclass checks,
-    and of a number that is left out.
+    ``told`` is what the documentation says of a range that its dataclass checks, empty
+    if there is none, and of a number that is left out.
     """
     low = max(lowest, 0.0) if positive else lowest
     metadata = {"quantity": Quantity(unit, low, highest, positive), "told": told}

@@ -132,6 +132,21 @@ def found(known: Known, line: Line) -> list[tuple[str, float]]:
     return [(name, located.point[line.component]) for located, name in between]
 
 
+def test_rounding_is_no_growth_of_an_amplitude() -> None:
+    sizes = np.array([[1.0], [1.0 + 4e-16]])
+    resolution: Any = SimpleNamespace(amplitudes=lambda _: sizes)
+    none: Any = None
+    events = Events(
+        none, resolution, StepControl(), none, limits=(0.0, 1.0), recalls=False
+    )
+    point = np.array([1.0, 0.5])
+    solved = Correction(point, point, none, Outcome.CONVERGED, (0.0,), point)
+
+    assert events.growth(solved) == 0.0
+    sizes[1] += 1e-10
+    assert events.growth(solved) > 0.0
+
+
 def crossing(known: Known, circle: Array) -> list[float]:
     """Return where a combination (1, sum, product) vanishes between 0 and 1."""
     combined = circle[1] * known.path[:, 0] + circle[2] * known.path[:, 1]

@@ -6,12 +6,16 @@ import numpy as np
 import pytest
 
 from hbm.along_parameter import AlongParameter
+from hbm.continuation import trace
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.solve import parameter_response
+from hbm.step_control import StepControl
 from microslip.quantity import SceneError
 from microslip.studies.parameter import parameter
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
+from systems import Dense
 
 SLIDER = "element.slider.limit"
 FREQUENCY = math.tau * 17.0
@@ -56,3 +60,29 @@ def test_the_derivatives_are_those_of_the_residual_beyond_the_range_too(
     found = linearised.jacobian @ step[unknowns] + linearised.slope * step[-1]
     scale = np.abs(found).max()
     np.testing.assert_allclose(found, change[unknowns], rtol=0.0, atol=2e-3 * scale)
+
+
+class Rounded(Dense):
+    """A Jacobian whose solutions are off by rounding."""
+
+    def solve(self, normal: Array, right: Array) -> Array:
+        """Solve [rows; normal] d = right, but for rounding."""
+        return super().solve(normal, right) + 1e-20
+
+
+def test_a_curve_to_zero_ends_at_zero() -> None:
+    def straight(point: Array) -> tuple[Array, Rounded]:
+        return np.array([point[0] ** 2 - point[1] - 1.0]), Rounded(
+            [[2.0 * point[0], -1.0]]
+        )
+
+    *_, last = trace(
+        straight,
+        np.array([1.3, 0.7]),
+        0.0,
+        metric=np.ones_like,
+        control=StepControl(tolerance=1e-12),
+    )
+
+    assert last.point[-1] == 0.0
+    assert last.point[0] == pytest.approx(1.0, abs=1e-12)

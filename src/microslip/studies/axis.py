@@ -15,7 +15,8 @@ def axis(
     """Return the place of each value on an axis, and its label.
 
     Numbers of the structure, its contacts and loads lie at their value in SI units,
-    other numbers as they were given, and what is no number in the order of the list.
+    other numbers, if they have one unit, as they were given, and what is no number in
+    the order of the list.
 
     Parameters
     ----------
@@ -28,7 +29,10 @@ def axis(
     if all(type(value) is float for value in found):
         unit = numbers.unit(scenes[0].rig, key_path(key))
         return found, f"{key} [{unit}]" if unit else key
+    numerals, _, units = zip(*(text.partition(" ") for text in texts), strict=True)
     try:
-        return [float(text) for text in texts], key
+        if len(set(units)) == 1:
+            return [*map(float, numerals)], f"{key} [{units[0]}]" if units[0] else key
     except ValueError:
-        return [float(place) for place in range(len(texts))], key
+        pass
+    return [float(place) for place in range(len(texts))], key

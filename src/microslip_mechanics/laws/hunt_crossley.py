@@ -27,7 +27,7 @@ class HuntCrossleyContact:
         lowest=0.0,
         highest=10.0,
         optional=True,
-        told=("at least 0, at most 10", "as `exponent`"),
+        told=("", "as `exponent`"),
     )
     """q; p if left out, as in the source"""
     clamped: bool = quantity(default=True)

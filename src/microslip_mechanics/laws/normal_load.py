@@ -30,7 +30,7 @@ class NormalLoad:
         lowest=0.0,
         highest=10.0,
         optional=True,
-        told=("at least 0, at most 10", "as `normal_exponent`"),
+        told=("", "as `normal_exponent`"),
     )
     """q; p if left out"""
     gap: float | None = quantity("m", optional=True, told=("at least 0", "0"))

@@ -42,14 +42,15 @@ def _row(field: dataclasses.Field[Any]) -> str:
     """Return the line of one number."""
     kind, told = field.metadata["quantity"], field.metadata["told"]
     if told:
-        return f"| `{field.name}` | {kind.unit} | {told[0]} | {told[1]} |"
-    if field.default is dataclasses.MISSING:
+        missing = told[1]
+    elif field.default is dataclasses.MISSING:
         missing = "must be given"
     elif field.default is None:
         missing = "none"
     else:
         missing = str(field.default).lower()
-    return f"| `{field.name}` | {kind.unit} | {_range(field)} | {missing} |"
+    values = told[0] if told and told[0] else _range(field)
+    return f"| `{field.name}` | {kind.unit} | {values} | {missing} |"
 
 
 def _range(field: dataclasses.Field[Any]) -> str:

@@ -8,7 +8,8 @@ import pytest
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.studies.curve import Traced
-from microslip.studies.jumps import Fold, Jump, extrapolated, folds_of, jumps
+from microslip.studies.jump_folds import Fold, folds_of
+from microslip.studies.jumps import Jump, extrapolated, jumps
 from microslip.studies.verify import StudyError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import response_curve
@@ -20,6 +21,7 @@ TURN = 2.0 * np.pi
 RATES = [2e-4, 1e-4, 5e-5, 2.5e-5, 1.25e-5]
 """of the sweeps [Hz/s]: the slowest passes three thousand periods"""
 STEPS = 200
+RELATIVE = (2.2e-5, 1.1e-5, 5.5e-6, 2.75e-6)
 
 
 def traced(problem: Problem, start: float, end: float) -> Traced:
@@ -92,6 +94,31 @@ def test_the_delay_goes_like_the_power_two_thirds_of_the_rate() -> None:
         assert power == pytest.approx(2.0 / 3.0, abs=0.06)
 
 
+def test_sweeps_from_far_away_jump_where_those_from_near_do() -> None:
+    # On the way to its fold the motion has passed the height between it and the landing
+    # once already, and far behind it does so again.
+    problem, (fold, _) = duffing()
+    (far, _) = folds_of(problem, traced(problem, 0.8, 2.4), lead=0.8)
+    rates = [4e-4, 2e-4, 1e-4, 5e-5]
+
+    (near_jump,) = jumps(problem, [fold], rates, steps=STEPS)
+    (far_jump,) = jumps(problem, [far], rates, steps=STEPS)
+
+    np.testing.assert_allclose(far_jump.frequency, near_jump.frequency, rtol=5e-4)
+    # and the slowest ends there
+    assert far_jump.envelopes[-1][0][-1] < 0.7 * far.end
+
+
+def test_rates_follow_the_square_of_a_folds_frequency_unless_they_are_given() -> None:
+    problem, _ = duffing()
+    (_, fold) = folds_of(problem, traced(problem, 0.8, 2.4), lead=0.005)
+
+    (jump,) = jumps(problem, [fold])
+
+    np.testing.assert_allclose(jump.rates, fold.hertz**2 * np.array(RELATIVE))
+    assert abs(jump.extrapolated - fold.hertz) < 3.0 * jump.error + 1e-4 * fold.hertz
+
+
 @pytest.mark.parametrize("fastest", [0.1, 4e-3])
 def test_sweeps_too_fast_to_jump_on_their_way_are_refused(fastest: float) -> None:
     problem, (fold, _) = duffing()
@@ -121,6 +148,6 @@ def test_the_rig_with_falling_friction_jumps_on_its_upper_fold() -> None:
     folds = folds_of(problem, traced(problem, TURN * 133.0, TURN * 140.0), lead=5e-3)
     (fold,) = [each for each in folds if each.upward and each.hertz > 136.0]
 
-    (jump,) = jumps(problem, [fold], [0.4, 0.2, 0.1, 0.05], steps=STEPS)
+    (jump,) = jumps(problem, [fold])
 
     assert abs(jump.extrapolated - fold.hertz) < 3.0 * jump.error + 1e-4 * fold.hertz

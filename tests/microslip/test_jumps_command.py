@@ -13,7 +13,9 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.figures.jumps import JumpLine, jumps_figure
 from microslip.studies.curve import Traced
-from microslip.studies.jumps import Jump, folds_of
+from microslip.studies.jump_folds import folds_of
+from microslip.studies.jumps import Jump
+from microslip.studies.verify import StudyError
 from microslip_mechanics.response import ResponseCurve, response_curve
 from microslip_mechanics.static import static_equilibrium
 from small_problems import cubic_oscillator
@@ -58,7 +60,9 @@ def test_jumps_far_from_their_folds_decide_the_status(
         yield from jumps
 
     monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
-    monkeypatch.setattr("microslip.studies.jumps.folds_of", lambda *_, **__: [1, 2])
+    monkeypatch.setattr(
+        "microslip.studies.jump_folds.folds_of", lambda *_, **__: [1, 2]
+    )
     monkeypatch.setattr("microslip.studies.jumps.jumps", marched)
 
     ended, output, error = run("jumps", str(quick_scene))
@@ -70,6 +74,39 @@ def test_jumps_far_from_their_folds_decide_the_status(
     behind = [float(row[3]) for row in rows[5:]]
     assert behind == pytest.approx([*(away + 1e-3 * RATES ** (2 / 3)), away], abs=6e-5)
     assert rows[4][4] == rows[9][4] == ("DISAGREE" if status else "agree")
+    assert (quick_scene.parent / "quick-jumps.png").is_file()
+
+
+@pytest.mark.parametrize(
+    ("stops", "status", "said"),
+    [(KeyboardInterrupt(), 130, "interrupted"), (StudyError("no jump"), 1, "no jump")],
+)
+def test_jumps_found_before_one_fails_are_drawn(
+    stops: BaseException,
+    status: int,
+    said: str,
+    traced: Traced,
+    run: Run,
+    quick_scene: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    first, _ = made(traced, 1e-6)
+
+    def marched(*_: object) -> Iterator[Jump]:
+        yield first
+        raise stops
+
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
+    monkeypatch.setattr("microslip.studies.jumps.jumps", marched)
+    monkeypatch.setattr(
+        "microslip.studies.jump_folds.folds_of", lambda *_, **__: [1, 2]
+    )
+
+    ended, output, error = run("jumps", str(quick_scene))
+
+    assert ended == status
+    assert error == f"microslip: {said}; what was computed is kept\n"
+    assert "agree" in output
     assert (quick_scene.parent / "quick-jumps.png").is_file()
 
 
@@ -105,6 +142,7 @@ def test_the_picture_shows_curve_envelopes_and_delays(
     figure.draw_without_rendering()
     left, right = figure.axes
     curve, *envelopes, fold = left.lines
+    assert left.get_xlim() == pytest.approx((130.6, 133.4))
     shown = np.asarray(curve.get_ydata(), dtype=float)
     np.testing.assert_allclose(shown, 1e3 * small_curve.peak[:, 0])
     for each in envelopes:

@@ -6,17 +6,18 @@ import argparse
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc
+from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from microslip.studies.curve import Traced
     from microslip.studies.jumps import Jump
 
 HEADER = """\
-     fold  sweep    rate     jump  behind the fold
-     [Hz]         [Hz/s]     [Hz]             [Hz]"""
+     fold  sweep     rate     jump  behind the fold
+     [Hz]          [Hz/s]     [Hz]             [Hz]"""
 SPREAD = 3.0
 """errors of the extrapolation within which a jump is on its fold"""
 STEPS = 1e-4
@@ -41,26 +42,27 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--rates",
         type=arguments.positive,
         nargs="+",
-        default=[0.4, 0.2, 0.1, 0.05],
         metavar="HZ_PER_S",
-        help="of the sweeps, four or more (default: 0.4 0.2 0.1 0.05)",
+        help="of the sweeps, four or more (default: 2.2e-5, a half, a quarter and an "
+        "eighth of it, times the square of a fold's frequency: 0.4 at 135 Hz)",
     )
     parser.add_argument(
         "--lead",
         type=arguments.positive,
         default=0.008,
-        help="how far before and behind a fold, over its frequency (default: 0.008)",
+        help="how far before a fold sweeps begin, and how far behind it they end if "
+        "nothing jumps, over its frequency (default: 0.008)",
     )
     arguments.add_output(parser, "jumps")
     parser.set_defaults(run=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.studies.curve import trace_curve
-    from microslip.studies.jumps import folds_of, jumps
+    from microslip.studies.jump_folds import folds_of
+    from microslip.studies.jumps import jumps
 
     _, picture = arguments.outputs(options, "jumps")
     scene = load_scene(options.scene, options.overrides)
@@ -72,32 +74,47 @@ def _run(options: argparse.Namespace) -> int:
     if not folds:
         print("no stable motion ends at a fold: sweeps do not jump")
         return 0
-    found: list[Jump] = []
     print(HEADER)
-    for each in shown(
-        jumps(problem, folds, options.rates),
-        total=len(folds),
-        done=lambda _: len(found) + 1.0,
-        unit="folds",
-        name="jumps",
-    ):
-        found.append(each)
-        print(_lines(each), flush=True)
+    found, ending = _collected(jumps(problem, folds, options.rates), len(folds))
     _draw(options, traced, found, picture)
     print(f"picture in {picture}")
-    return 0 if all(_agrees(each) for each in found) else 1
+    status = arguments.ended(ending)
+    return status or (0 if all(_agrees(each) for each in found) else 1)
+
+
+def _collected(swept: Iterator[Jump], count: int) -> tuple[list[Jump], str]:
+    """Print jumps at so many folds as they come; return them, and how they ended."""
+    from microslip.progress import shown
+
+    found: list[Jump] = []
+    try:
+        for each in shown(
+            swept,
+            total=count,
+            done=lambda _: len(found) + 1.0,
+            unit="folds",
+            name="jumps",
+        ):
+            found.append(each)
+            print(_lines(each), flush=True)
+    except (KeyboardInterrupt, MicroslipError) as error:
+        if not found:
+            raise
+        interrupted = isinstance(error, KeyboardInterrupt)
+        return found, "interrupted" if interrupted else str(error)
+    return found, "complete"
 
 
 def _lines(jump: Jump) -> str:
     """Return the jumps at one fold, and what follows, as lines."""
     fold, way = jump.fold.hertz, "up" if jump.fold.upward else "down"
     rows = [
-        f"{fold:9.4f}  {way:5s} {rate:7g} {place:8.4f} {_late(jump, place):16.2e}"
+        f"{fold:9.4f}  {way:5s} {rate:8.3g} {place:8.4f} {_late(jump, place):16.2e}"
         for rate, place in zip(jump.rates, jump.frequency, strict=True)
     ]
     word = "agree" if _agrees(jump) else "DISAGREE"
     rows.append(
-        f"{fold:9.4f}  {way:5s}       0 {jump.extrapolated:8.4f} "
+        f"{fold:9.4f}  {way:5s}        0 {jump.extrapolated:8.4f} "
         f"{_late(jump, jump.extrapolated):16.2e} ± {jump.error:.1e}  {word}"
     )
     return "\n".join(rows)
@@ -123,7 +140,7 @@ def _draw(
 
     lines = [
         JumpLine(
-            f"{each.fold.hertz:.2f} Hz {'up' if each.fold.upward else 'down'}",
+            f"{each.fold.hertz:.2f} Hz, {'up' if each.fold.upward else 'down'}",
             each.fold.hertz,
             each.rates,
             np.array([_late(each, place) for place in each.frequency]),

@@ -14,6 +14,9 @@ from microslip.figures.style import COLOURS, WIDTH, framed, literal, readable
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import ResponseCurve
 
+BESIDE = 0.2
+"""how much of the curve is shown beside the sweeps, over their range"""
+
 
 @dataclass(frozen=True, slots=True)
 class JumpLine:
@@ -47,7 +50,7 @@ def jumps_figure(curve: ResponseCurve, jumps: Sequence[JumpLine], title: str) ->
         y="jump behind the fold [Hz]",
         title="Delay of the jump, and what is left of it at no rate",
     )
-    right.set_xlim(left=0.0)
+    right.set_xlim(0.0, 1.05 * max(jump.rates.max() for jump in jumps) ** (2.0 / 3.0))
     right.axhline(0.0, color="k", linewidth=WIDTH)
     right.legend(frameon=False)
     figure.suptitle(literal(title))
@@ -56,15 +59,17 @@ def jumps_figure(curve: ResponseCurve, jumps: Sequence[JumpLine], title: str) ->
 
 def _envelopes(axes: Axes, curve: ResponseCurve, jumps: Sequence[JumpLine]) -> None:
     whole = parted(curve)
-    axes.plot(abscissa(whole), 1e3 * whole.peak[:, 0], "k", lw=2 * WIDTH, label="curve")
+    axes.plot(abscissa(whole), 1e3 * whole.peak[:, 0], "k", lw=2 * WIDTH)
     for colour, jump in zip(COLOURS, jumps, strict=False):
-        for place, (hertz, envelope) in enumerate(jump.envelopes):
-            label = f"sweeps through {jump.name}" if place == 0 else None
-            axes.plot(hertz, 1e3 * envelope, color=colour, lw=WIDTH, label=label)
+        for hertz, envelope in jump.envelopes:
+            axes.plot(hertz, 1e3 * envelope, color=colour, lw=WIDTH)
         axes.axvline(jump.fold, color=colour, ls=":", lw=WIDTH)
-    title = f"Envelopes, {readable(curve.probes[0])}"
+    title = f"Curve, and envelopes of the sweeps, {readable(curve.probes[0])}"
     framed(axes, x=FREQUENCY, y="peak [mm]", title=title)
-    axes.legend(frameon=False)
+    swept = [hertz for jump in jumps for hertz, _ in jump.envelopes]
+    if swept:
+        low, high = np.min(np.concatenate(swept)), np.max(np.concatenate(swept))
+        axes.set_xlim(low - BESIDE * (high - low), high + BESIDE * (high - low))
 
 
 def _late(axes: Axes, jump: JumpLine, colour: str) -> None:

@@ -1,0 +1,120 @@
+"""Folds of a curve from which a stable motion jumps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from microslip.studies.curve import Traced
+from microslip.studies.verify import StudyError
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+
+BEYOND = 1e-4
+"""of a fold's frequency, by which one looks behind it for where the motion lands"""
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """A fold of a curve at which a stable motion ends."""
+
+    response: PeriodicResponse
+    upward: bool
+    """whether a sweep upwards ends there, rather than one downwards"""
+    begin: PeriodicResponse
+    """a stable motion on the way to it"""
+    end: float
+    """frequency behind it to which sweeps go [Hz]"""
+    height: float
+    """amplitude of the first probe half way to where the motion lands [m]"""
+    falls: bool
+    """whether it is smaller there"""
+
+    @property
+    def hertz(self) -> float:
+        """Its frequency [Hz]."""
+        return self.response.frequency / (2.0 * np.pi)
+
+
+def folds_of(problem: Problem, traced: Traced, *, lead: float) -> list[Fold]:
+    """Return the folds of a curve from which a stable motion jumps.
+
+    Parameters
+    ----------
+    problem
+        What was traced.
+    traced
+        The curve.
+    lead
+        How far behind the fold sweeps end, over the fold's frequency; they begin as far
+        before it, or where the stable motion begins.
+
+    Raises
+    ------
+    StudyError
+        If the stability of the curve is not known.
+    """
+    if any(each.event == "fold" and each.unstable < 0 for each in traced.responses):
+        raise StudyError(
+            "the curve has folds, but its stability is not known: sweep through them "
+            "by microslip sweep"
+        )
+    found = []
+    for place, response in enumerate(traced.responses):
+        if response.event != "fold" or not 0 < place < len(traced.responses) - 1:
+            continue
+        begin = _begin(traced.responses, place, lead)
+        if begin is not None:
+            upward = begin.frequency < response.frequency
+            landing = _landing(problem, traced, response, upward=upward)
+            if landing is not None:
+                share = 1.0 + (lead if upward else -lead)
+                end = share * response.frequency / (2.0 * np.pi)
+                found.append(Fold(response, upward, begin, end, *landing))
+    return found
+
+
+def _begin(
+    responses: Sequence[PeriodicResponse], place: int, lead: float
+) -> PeriodicResponse | None:
+    """Return the stable motion, at most ``lead`` away, from which one comes to a fold.
+
+    None if neither side of the fold is stable.
+    """
+    fold = responses[place].frequency
+    for step in (-1, 1):
+        begin, at = None, place + step
+        while 0 <= at < len(responses) and responses[at].unstable == 0:
+            if begin is not None and responses[at].event not in ("", "peak"):
+                break
+            begin, at = responses[at], at + step
+            if abs(begin.frequency - fold) >= lead * fold:
+                break
+        if begin is not None:
+            return begin
+    return None
+
+
+def _landing(
+    problem: Problem, traced: Traced, fold: PeriodicResponse, *, upward: bool
+) -> tuple[float, bool] | None:
+    """Return half way between the fold and the stable motion behind it [m].
+
+    And whether that one is smaller; None if there is none.
+    """
+    behind = fold.frequency * (1.0 + (BEYOND if upward else -BEYOND))
+    frequency, seen = traced.curve.frequency, traced.curve.amplitude[:, 0]
+    here = float(np.hypot(*fold.seen(problem.probes.rows[:1])[1:3, 0]))
+    landings = []
+    for first in range(len(frequency) - 1):
+        low, high = frequency[first : first + 2]
+        stable = traced.curve.unstable[first : first + 2].max() <= 0
+        if stable and (low - behind) * (high - behind) <= 0.0 and low != high:
+            share = (behind - low) / (high - low)
+            landings.append(seen[first] + share * (seen[first + 1] - seen[first]))
+    if not landings:
+        return None
+    landing = float(min(landings, key=lambda each: abs(each - here)))
+    return 0.5 * (here + landing), landing < here

@@ -31,13 +31,13 @@ from microslip.commands import (
     track,
     verify,
 )
+from microslip.errors import GivenError
 from microslip.interruption import unmasked
-from microslip.quantity import SceneError
 from microslip_mechanics.errors import MicroslipError
 
 EPILOG = """\
 start with: microslip frc two-blades
-exit status: 0 done, 1 failed or the solvers disagree, 2 wrong scene or arguments,
+exit status: 0 done, 1 failed or the solvers disagree, 2 wrong scene, file or arguments,
 130 interrupted (what was computed is kept)"""
 
 
@@ -61,7 +61,7 @@ def main(arguments: list[str] | None = None) -> int:
             # an overflow ends the command instead of running on with nonsense
             warnings.simplefilter("error", RuntimeWarning)
             return int(options.run(options))
-    except SceneError as error:
+    except GivenError as error:
         return _failed(str(error), 2)
     except (MicroslipError, ValueError) as error:
         return _failed(str(error), 1)

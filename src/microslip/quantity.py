@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from microslip_mechanics.errors import MicroslipError
+from microslip.errors import GivenError
 from microslip_mechanics.quantity import UNITS, Quantity, quantity
 
 __all__ = ["UNITS", "Quantity", "SceneError", "quantity"]
 
 
-class SceneError(MicroslipError):
+class SceneError(GivenError):
     """A scene that cannot be read or built: where, which value, and what to do."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from microslip.quantity import SceneError
 from microslip.result_file import end_of
 from microslip.schema import Growing
-from microslip.store import StoreError, begin, told
+from microslip.store import WrongFileError, begin, told
 from microslip.stream import Head, Stream, rows_of
 from microslip_mechanics.time_history import Checkpoint
 
@@ -63,13 +63,13 @@ def resumed(path: Path, scene: str) -> tuple[Recording, Growing]:
     ------
     SceneError
         If the file is that of another scene.
-    StoreError
+    WrongFileError
         If the march of this file cannot go on.
     """
     end, head = end_of(path)
     _demand_same(path, head, scene)
     if end.ending == "complete":
-        raise StoreError(f"{path} is complete: there is nothing to resume")
+        raise WrongFileError(f"{path} is complete: there is nothing to resume")
     return Recording(path, scene, head.text("command"), head), end
 
 
@@ -80,13 +80,13 @@ def last_state(path: Path, scene: str) -> tuple[Checkpoint, float]:
     ------
     SceneError
         If the file is that of another scene.
-    StoreError
+    WrongFileError
         If the file does not tell.
     """
     end, head = end_of(path)
     _demand_same(path, head, scene)
     if end.checkpoint is None or not head.rows or "frequency" not in head.growing:
-        raise StoreError(f"{path} does not tell where its march ended: march anew")
+        raise WrongFileError(f"{path} does not tell where its march ended: march anew")
     row = rows_of(path, head, head.rows - 1, 1)
     return end.checkpoint, float(row["frequency"][0])
 

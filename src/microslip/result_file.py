@@ -12,7 +12,7 @@ import numpy as np
 from scipy.io import netcdf_file
 
 from microslip.schema import CURVE, GROWS, SCHEMAS, Growing, checkpoint_of
-from microslip.store import Stored, StoreError
+from microslip.store import Stored, WrongFileError
 from microslip.stream import Head, rows_of
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import ResponseCurve
@@ -32,7 +32,7 @@ def load(path: Path, most: int | None = None) -> Stored:
 
     Raises
     ------
-    StoreError
+    WrongFileError
         If there is no such file, or it is not a result.
     """
     with _told(path), netcdf_file(path, "r", mmap=True) as file:
@@ -50,16 +50,20 @@ def end_of(path: Path) -> tuple[Growing, Head]:
 
     Raises
     ------
-    StoreError
+    WrongFileError
         If there is no such file, or its march cannot go on.
     """
     with _told(path), netcdf_file(path, "r", mmap=True) as file:
         kind = _known(path, getattr(file, TEXTS[0]).decode())
         if kind not in GROWS:
-            raise StoreError(f"{path} holds a {kind}: give what sweep or dwell wrote")
+            raise WrongFileError(
+                f"{path} holds a {kind}: give what sweep or dwell wrote"
+            )
         head = Head.read(file, kind)
     if "checkpoint" not in head.fixed:
-        raise StoreError(f"{path} does not know where its march can go on: march anew")
+        raise WrongFileError(
+            f"{path} does not know where its march can go on: march anew"
+        )
     # a march that was killed may have written half of a block behind it
     head = dataclasses.replace(head, rows=int(head.fixed["checkpoint"][0]))
     with _told(path):
@@ -73,18 +77,22 @@ def _told(path: Path) -> Iterator[None]:
     try:
         yield
     except FileNotFoundError:
-        raise StoreError(f"there is no result file {path}") from None
+        raise WrongFileError(f"there is no result file {path}") from None
     except OSError as error:
-        raise StoreError(f"{path} cannot be read: {error.strerror or error}") from None
+        raise WrongFileError(
+            f"{path} cannot be read: {error.strerror or error}"
+        ) from None
     except (TypeError, ValueError, KeyError, AttributeError, IndexError):
-        raise StoreError(
+        raise WrongFileError(
             f"{path} is not a result file: give what frc or sweep wrote"
         ) from None
 
 
 def _known(path: Path, kind: str) -> str:
     if kind not in SCHEMAS:
-        raise StoreError(f"{path} holds a {kind!r}, which this version does not know")
+        raise WrongFileError(
+            f"{path} holds a {kind!r}, which this version does not know"
+        )
     return kind
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from scipy.io import netcdf_file
 
+from microslip.errors import GivenError
 from microslip.record_file import Value
 from microslip.schema import (
     Growing,
@@ -32,6 +33,10 @@ if TYPE_CHECKING:
 
 class StoreError(MicroslipError):
     """A file that cannot be written or read as a result."""
+
+
+class WrongFileError(StoreError, GivenError):
+    """A file that a user has given and that is not what it should be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +115,7 @@ def save_figure(path: Path, figure: Figure) -> None:
     """
     ending = path.suffix[1:].lower()
     if ending and ending not in figure.canvas.get_supported_filetypes():
-        raise StoreError(
+        raise WrongFileError(
             f"{path} cannot be written: give an ending such as .png, .pdf or .svg"
         )
     with told(path):

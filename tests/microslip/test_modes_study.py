@@ -63,7 +63,7 @@ def test_an_interrupted_mode_keeps_what_it_has() -> None:
         (["--harmonics", "0"], 2, "1 to 127"),
         (["--amplitudes", "2", "1"], 2, "smaller one first"),
         (["--range", "140", "130"], 2, "lower frequency first"),
-        (["--range", "140", "141"], 1, "another --range"),
+        (["--range", "140", "141"], 2, "another --range"),
         (["--set", "model=C"], 2, "full, B, A"),
     ],
 )

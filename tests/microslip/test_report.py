@@ -210,7 +210,7 @@ def test_a_folder_that_cannot_be_made_is_told_in_a_line(
 ) -> None:
     status, output, error = run("report", str(quick_scene), "-o", "no/such/folder")
 
-    assert (status, output) == (1, "")
+    assert (status, output) == (2, "")
     assert error.startswith("microslip: there is no folder no/such/folder to write to")
 
 

@@ -128,13 +128,13 @@ def test_what_cannot_go_on_is_told_in_one_line(
     run("frc", scene, "-o", "curve")
     (tmp_path / "text.nc").write_text("no netCDF")
     for words, status, hint in (
-        (["--resume", "done.nc"], 1, "is complete"),
+        (["--resume", "done.nc"], 2, "is complete"),
         (["--resume", "part.nc"], 2, "another scene"),
         ([*LONG, "--resume", "part.nc", "--envelope"], 2, "rows in time"),
         ([*LONG, "--resume", "part.nc", "-o", "new"], 2, "leave -o out"),
-        (["--resume", "nowhere.nc"], 1, "there is no result file nowhere.nc"),
-        (["--resume", "curve.nc"], 1, "holds a frequency response curve"),
-        (["--resume", "text.nc"], 1, "is not a result file"),
+        (["--resume", "nowhere.nc"], 2, "there is no result file nowhere.nc"),
+        (["--resume", "curve.nc"], 2, "holds a frequency response curve"),
+        (["--resume", "text.nc"], 2, "is not a result file"),
     ):
         ended, _, error = run("sweep", scene, *words)
         assert (ended, error.count("\n")) == (status, 1), error

@@ -7,13 +7,13 @@ import math
 import sys
 from pathlib import Path
 
-from microslip_mechanics.errors import MicroslipError
+from microslip.errors import GivenError
 
 MOST_ROWS = 100_000
 """of a time history that a picture shows; a longer one is thinned"""
 
 
-class OutputError(MicroslipError):
+class OutputError(GivenError):
     """Results have no place to go."""
 
 
@@ -47,26 +47,27 @@ def add_output(parser: argparse.ArgumentParser, suffix: str) -> None:
         "--output",
         type=Path,
         metavar="PATH",
-        help=f"where results go, without ending (default: SCENE-{suffix} here)",
+        help="where results go: a folder, or a path without ending (default: "
+        f"SCENE-{suffix} here)",
     )
 
 
 def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
     """Return the paths of data and picture, in a folder that exists.
 
+    In a folder that is given itself they have the names that they have here.
+
     Raises
     ------
     OutputError
         If it does not: better before the work than after it.
     """
-    chosen: Path | None = options.output
-    if chosen is None:
-        chosen = Path(f"{Path(options.scene).stem}-{suffix}")
+    chosen: Path = options.output or Path()
+    if chosen.is_dir():
+        chosen /= f"{Path(options.scene).stem}-{suffix}"
     elif chosen.suffix in {".nc", ".png"}:
         chosen = chosen.with_suffix("")
-    if not chosen.name:
-        raise OutputError(f"{chosen} is a folder: give a file name for the results")
-    _demand_folder(chosen)
+    demand_folder(chosen)
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
 
 
@@ -87,7 +88,7 @@ def table(options: argparse.Namespace) -> Path | None:
     """
     chosen: Path | None = options.csv
     if chosen is not None:
-        _demand_folder(chosen)
+        demand_folder(chosen)
     return chosen
 
 
@@ -115,7 +116,14 @@ def positive(text: str) -> float:
     return number
 
 
-def _demand_folder(path: Path) -> None:
+def demand_folder(path: Path) -> None:
+    """Refuse a path in a folder that does not exist.
+
+    Raises
+    ------
+    OutputError
+        If it does not: better before the work than after it.
+    """
     if not path.parent.is_dir():
         raise OutputError(
             f"there is no folder {path.parent} to write to: make it first"

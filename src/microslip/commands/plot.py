@@ -35,6 +35,7 @@ def _run(options: argparse.Namespace) -> int:
 
     stored = load(options.file, arguments.MOST_ROWS)
     picture = options.output or options.file.with_suffix(".png")
+    arguments.demand_folder(picture)
     title = f"{options.file.name}: {stored.command}"
     save_figure(picture, result_figure(stored.result, title))
     print(f"picture in {picture}")

@@ -10,13 +10,14 @@ from hbm.linear_modes import LinearMode
 from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
 from microslip.interruption import unmasked
 from microslip.progress import Watch
+from microslip.quantity import SceneError
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 
 
 class ModeError(MicroslipError):
-    """A scene without a mode to follow; the text says where it was sought."""
+    """A scene without a point of a mode; the text says why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +49,7 @@ def followed(
 
     Raises
     ------
-    ModeError
+    SceneError
         If there is no mode in the range.
     KeyboardInterrupt
         If it comes before the first point of a mode.
@@ -56,7 +57,7 @@ def followed(
     rest = static_equilibrium(problem)
     found = modes_in_range(problem, rest, *frequencies)
     if not found:
-        raise ModeError(
+        raise SceneError(
             "no mode has a natural frequency in this range while its contacts stick: "
             "give another --range"
         )

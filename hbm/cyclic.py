@@ -180,7 +180,10 @@ class CyclicStructure:
     def _made(self, angle: float) -> _Wave:
         rows = self._own + np.exp(1j * angle) * self._following
         sizes = np.linalg.norm(rows, axis=1)
-        largest = float(np.abs(self._own).max() + np.abs(self._following).max())
+        largest = float(
+            np.abs(self._own).max(initial=0.0)
+            + np.abs(self._following).max(initial=0.0)
+        )
         sees = np.flatnonzero(sizes > HELD * largest)
         matrices = (
             self._problem.wave("stiffness", angle),

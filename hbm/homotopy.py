@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.arc_step import Metric
-from hbm.continuation import correct_at
+from hbm.continuation import correct_at, trace
 from hbm.effort import Effort
-from hbm.errors import ContinuationError
+from hbm.errors import PLACE, ContinuationError
 from hbm.fourier import FourierBasis
+from hbm.parametric import ParametricBalance
 from hbm.path import Path
 from hbm.relative import RelativeProblem
 from hbm.residual import HarmonicBalance
@@ -19,6 +20,9 @@ from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 
 SMALLEST_STEP = 1e-3
+LEAST, UNIT, POINTS = 0.01, 0.1, 300
+"""drive at which an arc begins and what counts as one unit of it, over the whole; the
+most points of the arc"""
 FOURIERS = (FourierBasis(3, 128), FourierBasis(7, 128), FourierBasis(15, 256))
 """coarse resolutions that are tried in turn"""
 SMOOTH = 1e4
@@ -35,9 +39,10 @@ def approaches(
     """Yield coefficients of coarse responses at a parameter, (2H + 1, rank) each.
 
     The drive grows from nothing, or the threshold velocity of friction falls from a
-    large value, or friction grows from nothing, at coarse resolutions in turn. Some of
-    what is found may exist at its resolution alone, or be the same again. ``effort``
-    counts what it takes; ``metric`` measures steps of Newton's iteration.
+    large value, or friction grows from nothing, at coarse resolutions in turn; at last
+    the drive grows along an arc, through folds. Some of what is found may exist at its
+    resolution alone, or be the same again. ``effort`` counts what it takes; ``metric``
+    measures steps of Newton's iteration.
     """
     problem, _ = path.at(parameter)
     rubs = bool(problem.points.dynamic.any() or problem.points.static.any())
@@ -49,6 +54,11 @@ def approaches(
                 )
             except ContinuationError:
                 continue
+    for fourier in FOURIERS:
+        try:
+            yield _along_an_arc(path, parameter, fourier, control, effort, metric)
+        except ContinuationError:
+            continue
 
 
 def _followed(
@@ -85,6 +95,46 @@ def _followed(
                 raise
             continue
         point, place, step = found, target, 1.5 * step
+    return point[:-1].reshape(fourier.coefficients, problem.rank)
+
+
+def _along_an_arc(
+    path: Path,
+    parameter: float,
+    fourier: FourierBasis,
+    control: StepControl,
+    effort: Effort,
+    metric: Metric,
+) -> Array:
+    """Return the coefficients where a drive that grows through folds is whole.
+
+    Raises
+    ------
+    ContinuationError
+        If it does not arrive.
+    """
+    problem, frequency = path.at(parameter)
+
+    def driven(share: float) -> tuple[RelativeProblem, float]:
+        return _drive(problem, share), frequency
+
+    def scale(point: Array) -> Array:
+        return np.append(metric(point)[:-1], UNIT)
+
+    mask = path.mask(fourier.harmonics)
+    balance = ParametricBalance(driven, fourier, mask, lambda _: UNIT, (0.0, 1.0))
+    still, _ = driven(LEAST)
+    start = HarmonicBalance(still, fourier, mask).point(problem.rest[None, :], LEAST)
+    for last in trace(
+        effort.counted(balance, fourier.harmonics),
+        start,
+        1.0,
+        metric=scale,
+        control=replace(control, most_points=POINTS),
+    ):
+        point = last.point
+    if point[-1] < 1.0:
+        raise ContinuationError(f"the drive falls again at {PLACE}", parameter)
     return point[:-1].reshape(fourier.coefficients, problem.rank)
 
 

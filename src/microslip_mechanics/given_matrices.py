@@ -11,10 +11,14 @@ from microslip_mechanics.arrays import Matrix
 
 
 def square_matrix(given: Matrix, what: str) -> Matrix:
-    """Return a square matrix, of floating point numbers."""
+    """Return a square matrix, of floating point numbers, that is nobody else's."""
     sparse = bool(scipy.sparse.issparse(given))
+    if (sparse or isinstance(given, np.ndarray)) and np.iscomplexobj(given):
+        raise ValueError(
+            f"{what} is complex: give real values, structural damping as loss_factor"
+        )
     if sparse:
-        return scipy.sparse.csc_array(given, dtype=float)
+        return scipy.sparse.csc_array(given, dtype=float, copy=True)
     try:
         matrix = np.array(given, dtype=float)
     except (TypeError, ValueError):

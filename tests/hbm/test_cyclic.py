@@ -76,8 +76,14 @@ def around(problem: CyclicProblem, response: PeriodicResponse) -> Array:
 
 @pytest.mark.parametrize(
     ("sectors", "engine_order", "law"),
-    [(6, 2, JENKINS), (5, 2, JENKINS), (6, 1, COULOMB_LAW), (4, 2, JENKINS)],
-    ids=["jenkins", "odd number", "coulomb", "standing wave"],
+    [
+        (6, 2, JENKINS),
+        (5, 2, JENKINS),
+        (6, 1, COULOMB_LAW),
+        (4, 2, JENKINS),
+        (3, 3, JENKINS),
+    ],
+    ids=["jenkins", "odd number", "coulomb", "standing wave", "in phase"],
 )
 def test_sector_moves_like_the_disk(
     sectors: int, engine_order: int, law: PointLaw

@@ -1,6 +1,7 @@
 """Where a curve begins anew: which response it takes, and how far it leaps."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 
 import hbm.pieces
+from hbm.along_parameter import AlongParameter
 from hbm.effort import Effort
 from hbm.errors import ContinuationError
 from hbm.newton import Correction, Outcome
@@ -21,6 +23,7 @@ from hbm.tracer import Tracer
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from systems import Dense
@@ -158,15 +161,40 @@ def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
     assert [place for _, place in points] == [0.0]
 
 
-def test_a_duffing_curve_without_a_first_point_is_traced_from_its_end() -> None:
+def test_a_duffing_curve_that_rest_does_not_begin_begins_behind_folds() -> None:
     problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
     options = CurveOptions(TURN * 5.8, TURN * 9.0, stability=False)
 
     curve = list(frequency_response(problem, static_equilibrium(problem), options))
 
-    assert curve[0].frequency == TURN * 9.0
-    assert curve[-1].frequency == TURN * 5.8
+    assert curve[0].frequency == TURN * 5.8
+    assert curve[-1].frequency == TURN * 9.0
     assert "restart" not in [each.event for each in curve]
+
+
+@pytest.mark.parametrize(("scene", "hertz"), [("duffing", 5.4), ("gap", 5.2)])
+def test_a_first_point_behind_folds_of_the_drive_is_reached_along_them(
+    scene: str, hertz: float
+) -> None:
+    # From rest the motion leaps at a fold at which the drive has not grown whole.
+    problem = problem_of(load_scene(scene, ["drive.x=0.1"]))
+    whole = CurveOptions(TURN * 4.0, TURN * 7.0, stability=False)
+    curve = list(frequency_response(problem, static_equilibrium(problem), whole))
+
+    def driven(share: float) -> Problem:
+        return replace(problem, drive=share * problem.drive)
+
+    path = AlongParameter(driven, TURN * hertz, 1.0, 2.0)
+    tracer = Tracer(problem, path, CurveOptions(1.0, 2.0, stability=False))
+    first = next(iter(tracer.responses()))
+
+    places = np.array([each.frequency for each in curve]) / TURN
+    heights = np.array([np.hypot(*each.coefficients[1:3, 0]) for each in curve])
+    reached = np.hypot(*first.coefficients[1:3, 0])
+    passes = np.flatnonzero((places[:-1] - hertz) * (places[1:] - hertz) <= 0.0)
+    known = [np.interp(hertz, places[n : n + 2], heights[n : n + 2]) for n in passes]
+    assert first.parameter == 1.0
+    assert min(abs(each / reached - 1.0) for each in known) < 0.02
 
 
 @pytest.mark.parametrize("limit", [{"harmonics": 1}, {"most_harmonics": 1}])

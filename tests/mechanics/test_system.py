@@ -80,6 +80,30 @@ def test_rayleigh_damping_and_sparse_matrices_are_kept() -> None:
     np.testing.assert_allclose(problem.structure.damping.toarray(), expected)
 
 
+@pytest.mark.parametrize("sparse", [False, True])
+@pytest.mark.parametrize("name", ["mass", "stiffness", "damping"])
+def test_complex_matrices_are_refused_rather_than_cut(name: str, sparse: bool) -> None:
+    given: dict[str, Any] = dict.fromkeys(("mass", "stiffness", "damping"), np.eye(2))
+    given[name] = given[name] * (1.0 + 0.05j)
+    made: dict[str, Any] = {
+        key: scipy.sparse.csc_array(each) if sparse else each
+        for key, each in given.items()
+    }
+
+    with pytest.raises(ValueError, match=f"{name} is complex: .* loss_factor"):
+        system(**made, drive={"x1": 1.0})
+
+
+def test_sparse_matrices_are_copied() -> None:
+    stiffness = scipy.sparse.csc_array(3.0 * np.eye(2))
+    mass = scipy.sparse.csc_array(np.eye(2))
+    problem = system(mass=mass, stiffness=stiffness, drive={"x1": 1.0})
+
+    stiffness.data[:] = 7.0
+
+    assert problem.structure.stiffness[0, 0] == 3.0
+
+
 def test_drive_has_amplitudes_and_phases() -> None:
     assert made(drive={"x1": 2.0, "x2": (3.0, np.pi)}).drive.tolist() == [2.0, -3.0]
 

@@ -115,6 +115,25 @@ def test_sliders_are_let_go_with_the_forces_that_they_hold(drive: str) -> None:
     np.testing.assert_allclose(found.displacement, expected, rtol=0, atol=1e-9 * swing)
 
 
+def test_a_decay_about_where_a_slider_holds_it_is_measured_to_its_end() -> None:
+    problem = problem_of(load_scene("jenkins", ["structure.damping_ratio=0.05"]))
+    free = 2.0 * np.pi * 18.3748
+    still = np.zeros(problem.structure.dofs)
+    # the slider slides once, and holds the mass beside zero
+    start = Start(still + 4e-4, still)
+
+    history = joined(
+        list(released(problem, start, March(1e-4, 5), frequency=free, periods=20)), ""
+    )
+    decay = measured(problem, history, 0)
+
+    last = history.displacement[-200:, 0]
+    aside, swing = abs(last.max() + last.min()) / 2.0, np.ptp(last) / 2.0
+    assert aside > 20.0 * swing
+    assert decay.time[-1] > 0.9 * history.time[-1]
+    assert decay.amplitude[-1] == pytest.approx(swing, rel=0.05)
+
+
 def test_the_state_of_other_contacts_is_refused() -> None:
     problem = problem_of(load_scene("jenkins", []))
     still = np.zeros(problem.structure.dofs)

@@ -23,7 +23,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="error against run time: harmonic balance, marches and scipy's solvers",
         description="Find one periodic motion by every method at settings from loose "
         "to tight; print the error of each run against a reference of two independent "
-        "methods, its CPU time from nothing to the steady state, and what 1 %%, 0.1 %% "
+        "methods, its CPU time from nothing to the steady state, and what 1 %, 0.1 % "
         "and 1e-6 cost; write SCENE-precision.csv and SCENE-precision.png. A march "
         "costs as many periods from rest as its slowest transient needs to fall below "
         "its error; shooting is a method of its own.",

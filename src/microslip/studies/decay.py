@@ -10,6 +10,7 @@ import numpy as np
 
 from microslip.experiments import March
 from microslip.quantity import SceneError
+from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.ring_down import RingDown, ring_down
 from microslip_mechanics.sine_test import SineTest, Tone
@@ -74,14 +75,18 @@ def _let_go(problem: Problem, state: Checkpoint) -> Start:
 
 
 def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:
-    """Return frequency and damping of a probe's decay about the static equilibrium."""
-    rest = problem.probes.rows[probe] @ static_equilibrium(problem).displacement
-    return ring_down(
-        history.time,
-        history.displacement[:, probe],
-        history.velocity[:, probe],
-        rest=float(rest),
-    )
+    """Return frequency and damping of a probe's decay about its place of rest.
+
+    That is the static equilibrium or, where friction depends on the past and may hold
+    it anywhere, the middle of the last cycle of the march.
+    """
+    seen = history.displacement[:, probe]
+    rest = float(problem.probes.rows[probe] @ static_equilibrium(problem).displacement)
+    if beyond_motion(problem.interface.points):
+        period = 2.0 * math.pi / history.frequency[-1]
+        last = seen[history.time >= history.time[-1] - period]
+        rest = 0.5 * float(last.max() + last.min())
+    return ring_down(history.time, seen, history.velocity[:, probe], rest=rest)
 
 
 def liveliest(history: TimeHistory) -> int:

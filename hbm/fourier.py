@@ -46,7 +46,9 @@ class FourierBasis:
     @property
     def doubled(self) -> FourierBasis:
         """Twice the resolution, odd orders staying odd."""
-        return replace(self, harmonics=2 * self.harmonics + 1, samples=2 * self.samples)
+        orders = 2 * self.harmonics + 1
+        samples = max(2 * self.samples, 4 * orders + 4)
+        return replace(self, harmonics=orders, samples=samples)
 
 
 class Transform:

@@ -91,7 +91,7 @@ def _with_force(path: Path, scene: Scene) -> Scene:
 
 def _read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except (FileNotFoundError, NotADirectoryError):
         raise SceneError(
             f"there is no scene file {path}, and no built-in scene of that name: "

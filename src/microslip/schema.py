@@ -21,7 +21,7 @@ Schema: TypeAlias = dict[str, tuple[tuple[str, ...], str, str]]
 CURVE: Schema = {
     "frequency": (("point",), "rad/s", "excitation frequency"),
     "amplitude": (("point", "probe"), "m", "first-harmonic amplitude"),
-    "peak": (("point", "probe"), "m", "largest deviation from the mean in time"),
+    "peak": (("point", "probe"), "m", "half of the way from least to largest in time"),
     "velocity_peak": (("point", "probe"), "m/s", "largest velocity in time"),
     "normal_smallest": (("point", "contact"), "N", "smallest normal force"),
     "normal_largest": (("point", "contact"), "N", "largest normal force"),

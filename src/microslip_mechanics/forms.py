@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import numbers
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
@@ -29,7 +30,7 @@ def relative(pair: Pair, names: tuple[str, ...], what: str) -> Array:
     ValueError
         If an end is missing, unknown or empty, or if both are the same.
     """
-    if isinstance(pair, (str, Mapping)) or len(pair) != 2:
+    if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
         raise ValueError(
             f'{what} = {pair!r}: give two ends, such as ["{names[0]}", "{GROUND}"]; '
             f'the ground is written as "{GROUND}"'
@@ -57,10 +58,14 @@ def form(wanted: Form, names: tuple[str, ...], what: str) -> Array:
             "degrees of freedom and their factors"
         )
     for name, factor in wanted.items():
-        if isinstance(factor, (str, bool)) or not math.isfinite(factor):
+        if not _real(factor) or not math.isfinite(factor):
             raise ValueError(f"{what}: factor {factor!r} of {name} is no finite number")
         row[place_of(name, names, what)] = factor
     return row
+
+
+def _real(factor: object) -> bool:
+    return isinstance(factor, numbers.Real) and not isinstance(factor, bool)
 
 
 def place_of(name: str, names: tuple[str, ...], what: str) -> int:

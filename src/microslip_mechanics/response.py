@@ -97,7 +97,7 @@ class ResponseCurve:
     amplitude: Array
     """first harmonic of each probe [m], shape (points, probes)"""
     peak: Array
-    """largest deviation from the mean in time [m], shape (points, probes)"""
+    """half of the way from least to largest in time [m], shape (points, probes)"""
     velocity_peak: Array
     """largest velocity in time [m/s], shape (points, probes)"""
     contacts: tuple[str, ...]
@@ -181,7 +181,7 @@ def response_curve(
 
 
 def _seen(point: PeriodicResponse, rows: Array) -> tuple[Array, Array, Array]:
-    """Return amplitude, peak and largest velocity of each probe, (probes,) each."""
+    """Return amplitude, half of the swing and largest velocity, (probes,) each."""
     seen = point.seen(rows)
     orders = np.arange(seen.shape[0] // 2 + 1)[:, None]
     samples = max(PEAK_SAMPLES, 8 * len(seen))
@@ -194,6 +194,6 @@ def _seen(point: PeriodicResponse, rows: Array) -> tuple[Array, Array, Array]:
     )
     return (
         np.hypot(seen[1], seen[2]),
-        np.abs(displacement).max(axis=0),
+        0.5 * np.ptp(displacement, axis=0),
         np.abs(velocity).max(axis=0),
     )

@@ -115,10 +115,14 @@ def _probes(given: ProbeForms | None, names: tuple[str, ...]) -> Probes:
                 "results report"
             )
         given = names
-    if isinstance(given, str) or not given:
+    if (
+        not isinstance(given, (Mapping, Sequence))
+        or isinstance(given, str)
+        or not given
+    ):
         raise ValueError(f"probes = {given!r}: give the names of one or more")
     if not isinstance(given, Mapping):
-        given = {name: name for name in given}
+        given = {str(name): name for name in given}
     rows = []
     for name, wanted in given.items():
         what = f"probe {name}"

@@ -117,6 +117,14 @@ def test_a_basis_has_a_mean_and_two_coefficients_per_harmonic() -> None:
     assert FourierBasis(5, 22).coefficients == 11
 
 
+@pytest.mark.parametrize("harmonics", [1, 3, 8])
+def test_twice_the_resolution_of_the_least_samples_has_enough(harmonics: int) -> None:
+    doubled = FourierBasis(harmonics, 4 * harmonics + 2).doubled
+
+    assert doubled.harmonics == 2 * harmonics + 1
+    assert doubled.samples == 4 * doubled.harmonics + 4
+
+
 def test_a_basis_without_harmonics_is_refused() -> None:
     with pytest.raises(ValueError, match=r"^0 harmonics: take at least 1$"):
         FourierBasis(0, 64)

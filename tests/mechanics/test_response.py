@@ -86,7 +86,8 @@ def test_response_repeats_after_one_turn_of_the_phase() -> None:
 
 def test_curve_shows_first_harmonic_peak_and_velocity_of_each_probe() -> None:
     coefficients = np.zeros((7, 3))
-    coefficients[:, 0] = [9.0, 2.0, 0.0, 0.5, 0.0, 0.0, 0.0]  # 9 + 2 cos + ½ cos 2
+    # 9 + 2 cos + ½ cos 2, from −1.5 to 2.5 about its mean
+    coefficients[:, 0] = [9.0, 2.0, 0.0, 0.5, 0.0, 0.0, 0.0]
     coefficients[:, 1] = [-4.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.25]  # −4 + 3 sin + ¼ sin 3
     coefficients[:, 2] = [0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0]  # 4 sin
     watched = problem(np.array([[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [1.5, 0, 1]]))
@@ -94,7 +95,7 @@ def test_curve_shows_first_harmonic_peak_and_velocity_of_each_probe() -> None:
     curve = response_curve(watched, [response(coefficients)], "complete")
 
     np.testing.assert_allclose(curve.amplitude, [[2.0, 2.0, 3.0, 5.0]], rtol=1e-14)
-    np.testing.assert_allclose(curve.peak[:, :3], [[2.5, 2.5, 2.75]], rtol=1e-14)
+    np.testing.assert_allclose(curve.peak[:, :3], [[2.0, 2.0, 2.75]], rtol=1e-14)
     assert curve.velocity_peak[0, 2] == pytest.approx(
         3.75 * FREQUENCY, rel=1e-14, abs=0.0
     )

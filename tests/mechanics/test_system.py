@@ -228,6 +228,10 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
         between({"x1": float("nan")}, "ground"),
         ("slider", "factor nan of x1"),
     ),
+    "factor in a list": (between({"x1": [1.0]}, "ground"), ("factor [1.0] of x1",)),
+    "ends that are a number": ({"probes": {"tip": 3}}, ("probe tip = 3", "two ends")),
+    "probes that are a number": ({"probes": 3}, ("probes = 3", "names")),
+    "probe without a name": ({"probes": [True]}, ("probe True", "two ends")),
     "stiffness of another shape": (
         {"stiffness": np.eye(3)},
         ("stiffness has shape (3, 3)", "mass has (2, 2)"),

@@ -284,6 +284,28 @@ def test_override_of_an_unknown_element_names_those_there_are() -> None:
         load_scene("chain", ["element.slider.limit=1"])
 
 
+@pytest.mark.parametrize(
+    ("override", "words"),
+    [
+        ("element.cubic.law=[]", r"element cubic: law = \[\] is unknown: give one of"),
+        ("element.cubic.between=3", "between = 3: give two ends"),
+        ("element.cubic.each=[[1]]", r"element cubic: each: there is no set \[1\]"),
+        ("probes=3", "probes = 3: give the names"),
+        ("probes.a=5", "probe a = 5: give two ends"),
+    ],
+)
+def test_values_of_a_wrong_kind_are_told_in_one_line(override: str, words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        problem_of(load_scene("duffing", [override]))
+
+
+def test_a_scene_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
+    path = tmp_path / "windows.toml"
+    path.write_text(built_in_text("duffing"), encoding="utf-8-sig")
+
+    assert load_scene(str(path), []).curve == load_scene("duffing", []).curve
+
+
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_built_in_text_names_the_ground(name: str) -> None:
     assert '"ground"' in built_in_text(name)

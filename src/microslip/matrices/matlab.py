@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import scipy.io
+from scipy.io.matlab import MatReadError
 
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
@@ -30,7 +31,7 @@ def read_matlab(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         raise MatrixFileError(
             path, f"cannot be read ({error.strerror}): check the name"
         ) from None
-    except (ValueError, TypeError, EOFError) as error:
+    except (ValueError, TypeError, LookupError, EOFError, MatReadError) as error:
         raise MatrixFileError(
             path, f"is no sound MATLAB file ({error}): save it again with '-v7'"
         ) from None

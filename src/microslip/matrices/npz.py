@@ -13,6 +13,9 @@ from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
 from microslip.matrices.variable import matrix_of
 
+UNSOUND = ValueError, zipfile.BadZipFile, EOFError, OSError, NotImplementedError
+"""what reading a damaged archive may raise"""
+
 SPARSE = {"format", "shape", "data"}
 """arrays that :func:`scipy.sparse.save_npz` always writes"""
 
@@ -48,7 +51,7 @@ def _arrays(path: Path) -> dict[str, Any]:
         raise MatrixFileError(
             path, "cannot be read (No such file or directory): check the name"
         ) from None
-    except (ValueError, zipfile.BadZipFile, EOFError, OSError) as error:
+    except UNSOUND as error:
         raise MatrixFileError(
             path, f"is no sound archive of numbers ({error}): use numpy.savez"
         ) from None

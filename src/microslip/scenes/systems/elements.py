@@ -51,7 +51,7 @@ def _element(
     law = left.pop("law", None)
     if not isinstance(name, str) or not name:
         raise SceneError(f"{source}: [[element]] name = {name!r}: give a text")
-    if law not in LAWS:
+    if not isinstance(law, str) or law not in LAWS:
         hint = meant(str(law), list(LAWS))
         raise SceneError(f"{source}: element {name}: law = {law!r} is unknown{hint}")
     given = {key: left.pop(key) for key in KEYS if key in left}

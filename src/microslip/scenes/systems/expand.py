@@ -32,7 +32,7 @@ def expanded(
     if not isinstance(each, list) or not each:
         raise SceneError(f'{place}{shown(each)}: give a list of sets, such as ["face"]')
     for group in each:
-        if group not in sets:
+        if not isinstance(group, str) or group not in sets:
             hint = meant(str(group), list(sets)) if sets else ": add [structure.sets]"
             raise SceneError(f"{place}: there is no set {group!r}{hint}")
     if len({len(sets[group]) for group in each}) > 1:

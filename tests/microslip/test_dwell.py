@@ -94,6 +94,15 @@ def test_dwell_is_written_drawn_and_told(
     assert run("plot", "quick-dwell.nc")[0] == 0
 
 
+@pytest.mark.parametrize(("scene", "said"), [("jenkins", True), ("duffing", False)])
+def test_dwell_says_that_steps_of_what_remembers_have_no_estimated_error(
+    scene: str, said: bool, run: Run
+) -> None:
+    _, output, _ = run("dwell", scene, "--frequency", "3", "--most-periods", "3")
+
+    assert ("marched with the scene's steps" in output) == said
+
+
 def test_dwell_that_is_not_steady_in_time_says_so(
     run: Run, quick_scene: Path, tmp_path: Path
 ) -> None:

@@ -299,6 +299,33 @@ def test_values_of_a_wrong_kind_are_told_in_one_line(override: str, words: str) 
         problem_of(load_scene("duffing", [override]))
 
 
+def test_a_forgotten_law_is_missing(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(built_in_text("duffing").replace('law = "cubic-spring"', ""))
+
+    with pytest.raises(SceneError, match=r"scene.toml: element cubic: law is missing"):
+        load_scene(str(path), [])
+
+
+def test_wrong_numbers_of_the_structure_name_the_scene(tmp_path: Path) -> None:
+    table = '[structure.rayleigh]\nfrequencies = ["1 Hz"]\nratios = [0.1]\n[[element]]'
+    text = built_in_text("duffing").replace("damping_ratio", "# damping_ratio")
+    path = tmp_path / "scene.toml"
+    path.write_text(text.replace("[[element]]", table, 1))
+
+    with pytest.raises(
+        SceneError, match=r"scene.toml: \[rayleigh\]: give two frequencies"
+    ):
+        load_scene(str(path), [])
+
+
+def test_a_tolerance_beside_fixed_harmonics_is_refused(run: Run) -> None:
+    status, output, error = run("frc", "chain", "--tolerance", "1e-4")
+
+    assert (status, output) == (2, "")
+    assert "the scene fixes curve.harmonics = 7: leave one of them out" in error
+
+
 def test_a_scene_may_begin_with_a_byte_order_mark(tmp_path: Path) -> None:
     path = tmp_path / "windows.toml"
     path.write_text(built_in_text("duffing"), encoding="utf-8-sig")

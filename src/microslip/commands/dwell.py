@@ -79,10 +79,12 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.store import save_figure
+    from microslip_mechanics.contact.memory import remembers
 
     data, picture = arguments.outputs(options, "dwell")
     scene = load_scene(options.scene, options.overrides)
-    history, distances, ending = dwelled(options, scene, problem_of(scene), data)
+    problem = problem_of(scene)
+    history, distances, ending = dwelled(options, scene, problem, data)
     figure = dwell_figure(
         history, distances, options.tolerance, arguments.title(options)
     )
@@ -90,6 +92,11 @@ def _run(options: argparse.Namespace) -> int:
     print("\n".join(_lines(options, history, distances)))
     print(energy_table(history))
     print(f"{len(distances)} periods in {data}, picture in {picture}")
+    if remembers(problem.interface.points).any():
+        print(
+            "contacts that remember are marched with the scene's steps, "
+            f"{scene.march.time_step:g} s: no error of these is estimated"
+        )
     return arguments.ended(ending)
 
 

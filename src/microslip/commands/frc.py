@@ -69,6 +69,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.curve import curve_figure
+    from microslip.quantity import SceneError
     from microslip.scene_file import load_scene
     from microslip.store import Stored, save, save_figure
 
@@ -76,6 +77,11 @@ def _run(options: argparse.Namespace) -> int:
     if options.tolerance is not None:
         options.overrides.append(f"curve.tolerance={options.tolerance}")
     scene = load_scene(options.scene, options.overrides)
+    if options.tolerance is not None and scene.curve.harmonics is not None:
+        raise SceneError(
+            f"--tolerance {options.tolerance}: the scene fixes curve.harmonics = "
+            f"{scene.curve.harmonics}: leave one of them out"
+        )
     traced = _traced(options, scene)
     save(data, Stored(traced.curve, scene.text, options.command))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))

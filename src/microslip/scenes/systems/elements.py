@@ -51,6 +51,10 @@ def _element(
     law = left.pop("law", None)
     if not isinstance(name, str) or not name:
         raise SceneError(f"{source}: [[element]] name = {name!r}: give a text")
+    if law is None:
+        raise SceneError(
+            f"{source}: element {name}: law is missing: give one of {', '.join(LAWS)}"
+        )
     if not isinstance(law, str) or law not in LAWS:
         hint = meant(str(law), list(LAWS))
         raise SceneError(f"{source}: element {name}: law = {law!r} is unknown{hint}")

@@ -51,12 +51,7 @@ def read_system(source: str, document: dict[str, Any], known: list[str]) -> Syst
     return System(
         source,
         _matrices(source, structure),
-        read_table(
-            source,
-            "[structure] ",
-            Numbers,
-            {key: structure[key] for key in NUMBERS if key in structure},
-        ),
+        _structure_numbers(source, structure),
         _masses(source, structure),
         laws,
         ends,
@@ -67,6 +62,15 @@ def read_system(source: str, document: dict[str, Any], known: list[str]) -> Syst
         _optional(source, document, "engine_order", Order),
         sets,
     )
+
+
+def _structure_numbers(source: str, structure: dict[str, Any]) -> Numbers:
+    given = {key: structure[key] for key in NUMBERS if key in structure}
+    try:
+        made: Numbers = read_table(source, "[structure] ", Numbers, given)
+    except ValueError as error:
+        raise SceneError(f"{source}: {error}") from None
+    return made
 
 
 def _optional(source: str, document: dict[str, Any], name: str, table: type) -> Any:  # noqa: ANN401  (an instance of ``table``)

@@ -211,7 +211,7 @@ def test_stuck_march_ends_the_tables_with_one_line_and_keeps_the_rows_before(
 def test_csv_without_a_place_is_told_in_one_line(run: Run) -> None:
     status, _, error = run("tables", "--quick", "--csv", "nowhere/tables.csv")
 
-    assert status == 1
+    assert status == 2
     assert error.startswith("microslip: ")
     assert "nowhere" in error
     assert len(error.splitlines()) == 1
@@ -228,7 +228,7 @@ def test_csv_without_a_place_is_refused_before_the_work(
 
     status, _, error = run("tables", "--csv", "nowhere/tables.csv")
 
-    assert status == 1
+    assert status == 2
     assert "nowhere" in error
 
 

@@ -19,6 +19,7 @@ from hbm.newton import (
     correct,
 )
 from hbm.resolution import Estimate, Resolution
+from hbm.superharmonics import Superharmonics
 from microslip_mechanics.arrays import Array
 
 HARMONICS = 255
@@ -75,6 +76,7 @@ class AdaptiveBalance:
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
         self.fourier = self.settled = self._kept = start
         self._wait, self._effort = 0, effort or Effort()
+        self._superharmonics = Superharmonics()
         self._smoothest, self._sharpest = start.threshold, 0.0
         self._estimates = errors or tolerance is not None
         self._sampled: deque[tuple[float, int]] = deque(maxlen=NEIGHBOURS * marched)
@@ -101,9 +103,18 @@ class AdaptiveBalance:
         """Whether the resolution is another one than that of the last kept point."""
         return self.fourier != self._kept
 
+    def overlooks(self, point: Array, scale: Array, step: float) -> bool:
+        """Return whether a step passed the resonance of a higher harmonic."""
+        reported, fourier, _ = self.kept(point)
+        rank = self._resolution.rank
+        orders = slice(rank, fourier.coefficients * rank)
+        waves = (reported[orders] / scale[orders]).reshape(fourier.harmonics, 2, rank)
+        return self._superharmonics.passed(waves[:, 0] - 1j * waves[:, 1], step)
+
     def keep(self) -> None:
         """Let the next point have the resolution that the last one asks for."""
         self._kept, self._wait = self.settled, self._wait - 1
+        self._superharmonics.keep()
         if self.estimate is not None and self._wait <= 0:
             self.fourier, self._sharpest = self._coarser(self.estimate), 0.0
 

@@ -53,7 +53,9 @@ def next_point(
         candidate = _directed(candidate, direction, scale)
         if candidate.outcome is Outcome.CONVERGED:
             smooth = turn(candidate, direction, scale) > control.sharpest_turn
-            if (close and smooth) or step <= control.smallest:
+            passed = settler.overlooks(candidate.point, scale, step)
+            seen = not passed or step <= control.narrowest
+            if (close and smooth and seen) or step <= control.smallest:
                 settler.keep()
                 candidate.linearised.forget()
                 return candidate, step

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hbm.linearisation import Linearisation
 from hbm.newton import Correction, Small
+from hbm.settler import Unsettled
 from microslip_mechanics.arrays import Array
 
 SHIFT = 1e-5
@@ -36,14 +37,12 @@ class FoldLinearisation(Linearisation):
     borders: Borders
 
 
-class FoldBalance:
+class FoldBalance(Unsettled):
     """Residual R(y, ω; λ), and g, which is zero where ∂R/∂y is singular.
 
     A point is that of harmonic balance followed by the parameter λ. As a settler it
     brings the borders up to date with each point that is kept.
     """
-
-    changed = False
 
     def __init__(
         self,
@@ -117,9 +116,6 @@ class FoldBalance:
                 *(np.pad(each, (0, missing)) for each in linearised.borders)
             )
             self._size = self.vibration(correction.point)
-
-    def retreat(self, times: int) -> None:
-        """Do nothing."""
 
     def vibration(self, point: Array) -> float:
         """Return the size of what vibrates at a point."""

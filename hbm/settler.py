@@ -27,6 +27,12 @@ class Settler(Protocol):
         ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`.
         """
 
+    def overlooks(self, point: Array, scale: Array, step: float) -> bool:
+        """Return whether a step to a point was too long to see what lies on its way.
+
+        ``scale`` is the unit of arc of each component.
+        """
+
     def keep(self) -> None:
         """Learn that the last point is kept."""
 
@@ -48,6 +54,15 @@ class Unsettled:
     ) -> Correction:
         """Return the point."""
         return correction
+
+    def overlooks(
+        self,
+        point: Array,  # noqa: ARG002
+        scale: Array,  # noqa: ARG002
+        step: float,  # noqa: ARG002
+    ) -> bool:
+        """Return that it was not."""
+        return False
 
     def keep(self) -> None:
         """Do nothing."""

@@ -31,6 +31,9 @@ class StepControl:
     sharpest_turn: float = 0.5
     """a step turns the tangent by no more than what has this cosine"""
 
+    narrowest: float = 4e-3
+    """length of a step that overlooks nothing"""
+
     def __post_init__(self) -> None:
         """Check the order of the steps."""
         if not 0.0 < self.smallest <= self.initial <= self.largest:

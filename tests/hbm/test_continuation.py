@@ -11,6 +11,7 @@ from hbm.arc_step import tangent
 from hbm.continuation import correct_at, trace
 from hbm.errors import ContinuationError
 from hbm.newton import Correction, Outcome, Small, System
+from hbm.settler import Unsettled
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from systems import Dense
@@ -268,7 +269,7 @@ def test_a_step_stays_between_the_smallest_and_the_largest() -> None:
     assert control.after(0.01, 1.0, 1, 20) == 0.009
 
 
-class Picky:
+class Picky(Unsettled):
     """Returns points rounded in x, refuses some, and notes what it is told."""
 
     def __init__(self, refused: int = 0) -> None:

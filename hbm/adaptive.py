@@ -121,14 +121,17 @@ class AdaptiveBalance:
     def retreat(self, times: int) -> None:
         """Go back to the resolution of the last kept point, then to finer ones.
 
-        Coarse samples make the residual less smooth than the contacts are.
+        Coarse samples make the residual less smooth than the contacts are. What fails
+        with the resolution that worked before does not fail for want of it: less is
+        tried again at the next point.
         """
-        if self.changed:
+        tried, kept = self.fourier, self._kept
+        if tried.harmonics < kept.harmonics or tried.samples < kept.samples:
             self._wait = WAIT
-        self.fourier = self._kept
+        self.fourier = kept
         if self._tolerance is not None:
             for _ in range(min(times // PATIENCE, RAISES)):
-                self.fourier = self._doubled(True, True)
+                self.fourier, self._wait = self._doubled(True, True), 0
 
     def settle(
         self,

@@ -25,6 +25,9 @@ from microslip_mechanics.arrays import Array
 Metric = Callable[[Array], Array]
 """point (n + 1,) ↦ the change of each component that counts as one unit of arc"""
 
+THROWN = 10.0
+"""times its length by which a step moves a point that it throws beyond a corner"""
+
 
 def next_point(
     system: System,
@@ -58,6 +61,8 @@ def next_point(
             if (close and smooth and seen) or step <= control.smallest:
                 settler.keep()
                 candidate.linearised.forget()
+                if not smooth:
+                    candidate = _away(candidate, past.predict(0.0), scale, step)
                 return candidate, step
         elif step <= control.smallest:
             where = float(past.predict(0.0)[-1])
@@ -117,6 +122,19 @@ def _directed(candidate: Correction, direction: Array, scale: Array) -> Correcti
     except SingularError:
         return replace(candidate, outcome=Outcome.SINGULAR)
     return replace(candidate, tangent=turned)
+
+
+def _away(candidate: Correction, start: Array, scale: Array, step: float) -> Correction:
+    """Return a point that turns sharply, headed away from ``start`` if that is far.
+
+    What a far shorter step has thrown beyond a corner, in the plane across it, lies on
+    the curve's other side, which may lead away against what continuity would have.
+    """
+    moved = (candidate.point - start) / scale
+    far = float(np.linalg.norm(moved)) > THROWN * step
+    if far and float(moved @ (candidate.along / scale)) < 0.0:
+        return replace(candidate, tangent=-candidate.along)
+    return candidate
 
 
 def turn(candidate: Correction, direction: Array, scale: Array) -> float:

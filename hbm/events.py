@@ -99,7 +99,8 @@ class Events:
                 located, normal, tolerance, small, share=share, across=turns
             )
             moved = float(np.linalg.norm((settled.point - located.point) / scale))
-            if settled.outcome is Outcome.CONVERGED and moved < segment.length:
+            near = settled.outcome is Outcome.CONVERGED and moved < segment.length
+            if near and (not turns or self._folds(segment)):
                 yield settled, name
         self.system.fourier = fourier
 
@@ -110,6 +111,21 @@ class Events:
         for name, located in (("fold", fold), ("peak", peak)):
             if located is not None:
                 yield Found(segment.place(located.point), name, located)
+
+    def _folds(self, segment: Segment) -> bool:
+        """Return whether the curve folds with the resolution that its fold asks for.
+
+        That of the points makes folds of its own where it is hardly enough or changes.
+        """
+        before, after, length = segment.before, segment.after, segment.length
+        around = [
+            before.point - length * before.along,
+            before.point,
+            after.point,
+            after.point + length * after.along,
+        ]
+        slopes = segment.slopes(around)
+        return slopes is None or min(slopes) <= 0.0 <= max(slopes)
 
     def _changes(
         self, segment: Segment, before: Settled, after: Settled

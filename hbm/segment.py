@@ -7,7 +7,7 @@ of a test function is refined by Brent's method, or by bisection where the preci
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -86,6 +86,17 @@ class Segment:
             seek = scipy.optimize.bisect if rough else scipy.optimize.brentq
             root = seek(value, 0.0, length, xtol=near, rtol=1e-12)
             return solved.get(root) or self._at(self._guess(root, solved), near)
+        except (_LostError, SingularError):
+            return None
+
+    def slopes(self, guesses: Sequence[Array]) -> list[float] | None:
+        """Return what is zero at a fold, on the curve across each of some guesses.
+
+        None if one does not converge.
+        """
+        near = PRECISION * self.length
+        try:
+            return [folds(self._at(guess, near)) for guess in guesses]
         except (_LostError, SingularError):
             return None
 

@@ -151,8 +151,12 @@ def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back() -> None:
     )
 
     traced = frequency_response(problem, static_equilibrium(problem), options)
-    found = [each.frequency for each in itertools.islice(traced, 400)]
+    points = list(itertools.islice(traced, 400))
+    found = np.array([each.frequency for each in points])
 
-    assert len(found) < 300  # measured 140; it went to and fro without end
+    assert found.size < 300  # measured 142; it went to and fro without end
     assert found[-1] == TURN * curve.highest
-    assert np.all(np.diff(found) > -0.01 * found[0])
+    # Neither thrown back at a corner, nor folded where harmonics hardly do.
+    back = np.maximum.accumulate(found) / found - 1.0
+    assert back.max() < 1e-5  # measured 5e-6 at a corner that is missed, 1.4e-5 before
+    assert {each.event for each in points} == {"", "peak"}

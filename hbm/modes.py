@@ -154,7 +154,7 @@ def nonlinear_mode(
         tolerance=options.error if options.harmonics is None else None,
         most=MOST,
     )
-    with threadpool_limits(1, "blas"), placed(_metres):
+    with threadpool_limits(1, "blas"), placed(_millimetres):
         for correction in Leaping(
             system,
             resolution.start(math.log(options.smallest), system.size),
@@ -175,9 +175,9 @@ def nonlinear_mode(
         )
 
 
-def _metres(parameter: float) -> str:
+def _millimetres(parameter: float) -> str:
     """Return the name of a place along the logarithm of the amplitude."""
-    return f"{math.exp(parameter):.9g} m"
+    return f"{1e3 * math.exp(parameter):.9g} mm"
 
 
 def _resolution(

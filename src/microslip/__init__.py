@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from microslip.api import curve, scene, sweep
     from microslip_mechanics.element import Element
+    from microslip_mechanics.errors import MicroslipError
     from microslip_mechanics.given_loads import BaseMotion, EngineOrder
     from microslip_mechanics.laws.catalogue import LAWS
     from microslip_mechanics.reduced_problem import reduced_problem
@@ -21,6 +22,7 @@ __all__ = [
     "BaseMotion",
     "Element",
     "EngineOrder",
+    "MicroslipError",
     "curve",
     "reduced_problem",
     "scene",
@@ -38,12 +40,13 @@ HOMES = {
     "Element": "microslip_mechanics.element",
     "EngineOrder": "microslip_mechanics.given_loads",
     "LAWS": "microslip_mechanics.laws.catalogue",
+    "MicroslipError": "microslip_mechanics.errors",
 }
 """module of each name; laws are found in the catalogue by the name of their class"""
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401  (whatever is asked for)
-    """Return a public name, or a law by its class's name."""
+    """Return a public name, a law by its class's name, or the version."""
     if name in HOMES:
         return getattr(importlib.import_module(HOMES[name]), name)
     if name[:1].isupper():
@@ -51,4 +54,11 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401  (whatever is asked for)
         for law in laws.values():
             if law.__name__ == name:
                 return law
+    if name == "__version__":
+        return importlib.import_module("importlib.metadata").version("microslip")
     raise AttributeError(f"module microslip has no attribute {name}")
+
+
+def __dir__() -> list[str]:
+    """Return the public names, without loading them."""
+    return sorted([*__all__, "__version__"])

@@ -3,14 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
-from microslip.experiments import Curve, March
+from microslip.errors import GivenError
+from microslip.experiments import Curve, March, check_samples
+from microslip.quantity import quantity
+from microslip.table import read_table
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.response import ResponseCurve
     from microslip_mechanics.time_history import TimeHistory
+
+
+@dataclass(frozen=True, slots=True)
+class Swept:
+    """The swept sine of :func:`sweep`."""
+
+    lowest: float = quantity("Hz", positive=True)
+    highest: float = quantity("Hz", positive=True)
+    duration: float = quantity("s", positive=True)
+    ramp: float = quantity("s", lowest=0.0)
 
 
 def scene(source: str, overrides: Sequence[str] = ()) -> Problem:
@@ -21,7 +35,7 @@ def scene(source: str, overrides: Sequence[str] = ()) -> Problem:
     source
         Name or path.
     overrides
-        Texts ``table.key=value`` that replace values.
+        Texts ``table.key=value`` that replace values, or one of them.
 
     Raises
     ------
@@ -31,13 +45,14 @@ def scene(source: str, overrides: Sequence[str] = ()) -> Problem:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
 
-    return problem_of(load_scene(source, overrides))
+    several = [overrides] if isinstance(overrides, str) else overrides
+    return problem_of(load_scene(source, several))
 
 
 def curve(
     problem: Problem,
-    lowest: float,
-    highest: float,
+    lowest: float | str,
+    highest: float | str,
     *,
     tolerance: float = 1e-3,
     harmonics: int | None = None,
@@ -50,7 +65,8 @@ def curve(
     problem
         From :func:`microslip.system` or :func:`microslip.scene`.
     lowest, highest
-        Where it begins and ends [Hz]; downwards if the first is the larger one.
+        Where it begins and ends [Hz]; downwards if the first is the larger one. These
+        and other quantities may be texts with a unit, such as ``"0.1 kHz"``.
     tolerance
         Relative error of amplitude, from which harmonics and samples follow.
     harmonics, samples
@@ -59,22 +75,34 @@ def curve(
     Raises
     ------
     MicroslipError
-        If there is not even a first point; else ``ending`` says how the curve ends.
+        If an argument is of no use, or if there is not even a first point; else
+        ``ending`` says how the curve ends.
     """
     from microslip.studies.curve import trace_curve
 
-    wanted = Curve(lowest, highest, tolerance, harmonics, samples)
-    return trace_curve(problem, wanted).curve
+    name = "microslip.curve"
+    wanted: Curve = _read(
+        name,
+        Curve,
+        lowest=lowest,
+        highest=highest,
+        tolerance=tolerance,
+        harmonics=harmonics,
+        samples=samples,
+    )
+    check_samples(f"{name}:", wanted)
+    _check_apart(name, wanted.lowest, wanted.highest)
+    return trace_curve(_checked(name, problem), wanted).curve
 
 
 def sweep(
     problem: Problem,
-    lowest: float,
-    highest: float,
+    lowest: float | str,
+    highest: float | str,
     *,
-    duration: float,
-    time_step: float,
-    ramp: float = 0.0,
+    duration: float | str,
+    time_step: float | str,
+    ramp: float | str = 0.0,
     store_every: int = 1,
 ) -> TimeHistory:
     """Return the march through an exponential swept sine.
@@ -97,11 +125,61 @@ def sweep(
     Raises
     ------
     MicroslipError
-        If the first steps fail; else ``ending`` says how the march ends.
+        If an argument is of no use, or if the first steps fail; else ``ending`` says
+        how the march ends.
     """
     from microslip.studies.sweep import march_sweep
     from microslip_mechanics.excitation import SweptSine
 
-    end = ramp + duration
-    history = SweptSine(ramp, ramp, end, end, lowest, highest)
-    return march_sweep(problem, history, March(time_step, store_every))
+    name = "microslip.sweep"
+    march: March = _read(name, March, time_step=time_step, store_every=store_every)
+    swept: Swept = _read(
+        name, Swept, lowest=lowest, highest=highest, duration=duration, ramp=ramp
+    )
+    _check_apart(name, swept.lowest, swept.highest)
+    begin, end = swept.ramp, swept.ramp + swept.duration
+    history = SweptSine(begin, begin, end, end, swept.lowest, swept.highest)
+    return march_sweep(_checked(name, problem), history, march)
+
+
+def _read(function: str, table: type, **values: object) -> Any:  # noqa: ANN401
+    """Return the arguments of a function as the keys of a scene's table are read."""
+    given = {
+        name: value.item() if hasattr(value, "item") else value
+        for name, value in values.items()
+        if value is not None
+    }
+    return read_table(function, "", table, given)
+
+
+def _check_apart(function: str, lowest: float, highest: float) -> None:
+    """Check that two frequencies [Hz] are a range.
+
+    Raises
+    ------
+    GivenError
+        If they are the same.
+    """
+    if lowest == highest:
+        raise GivenError(
+            f"{function}: lowest and highest are both {lowest:g} Hz: give two "
+            "different frequencies"
+        )
+
+
+def _checked(function: str, problem: Problem) -> Problem:
+    """Return a problem.
+
+    Raises
+    ------
+    GivenError
+        If it is none.
+    """
+    from microslip_mechanics.problem import Problem
+
+    if not isinstance(problem, Problem):
+        raise GivenError(
+            f"{function}: problem = {problem!r}: give what microslip.system or "
+            "microslip.scene returns"
+        )
+    return problem

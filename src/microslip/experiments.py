@@ -68,15 +68,26 @@ def check_experiments(source: str, sweep: Sweep, curve: Curve) -> None:
                 f"{table.highest:g} Hz: give lowest < highest"
             )
     _check_kind(source, sweep)
+    check_samples(f"{source}: [curve]", curve)
+
+
+def check_samples(place: str, curve: Curve) -> None:
+    """Check the number of samples per period.
+
+    Raises
+    ------
+    SceneError
+        If they are too few, or do not stand with harmonics.
+    """
     if curve.samples is not None and curve.harmonics is None:
         raise SceneError(
-            f"{source}: [curve] samples = {curve.samples}: they follow from the "
+            f"{place} samples = {curve.samples}: they follow from the "
             "tolerance unless harmonics are given: give both, or neither"
         )
     fewest = 4 * (curve.harmonics or 0) + 2
     if curve.samples is not None and curve.samples < fewest:
         raise SceneError(
-            f"{source}: [curve] samples = {curve.samples}: too few for "
+            f"{place} samples = {curve.samples}: too few for "
             f"{curve.harmonics} harmonics: give at least {fewest}"
         )
 

@@ -85,7 +85,7 @@ def _table(curve: ResponseCurve) -> str:
                 f"{1e3 * amplitude:10.5f}"
                 for amplitude in curve.amplitude[place, :SHOWN]
             ),
-            f"{1e3 * curve.friction_energy[place]:12.6f}",
+            f"{1e3 * curve.friction_energy[place]:z12.6f}",
             f"{curve.multiplier[place]:11.5f}",
         )
         lines.append(" ".join(values) + f"  {curve.event[place]}")

@@ -86,7 +86,7 @@ def _run(options: argparse.Namespace) -> int:
     save(data, Stored(traced.curve, scene.text, options.command))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     print(_table(traced))
-    if traced.curve.contacts:
+    if traced.rest.normal_force.any():
         print(_rest(traced.curve.contacts, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(_events(traced.curve))
@@ -214,28 +214,25 @@ def _table(traced: Traced) -> str:
     from microslip.studies.curve import shown_points
 
     curve = traced.curve
-    lines = [
-        f"frequency {titled(' first harmonic [mm]', curve.probes)}     friction      "
-        "normal force [N]",
-        f"     [Hz] {headed(curve.probes)}  [mJ/period]     least      most",
-    ]
-    largest = int(curve.amplitude[:, 0].argmax())
+    presses = bool(curve.normal_smallest.any() or curve.normal_largest.any())
+    head = f"frequency {titled(' first harmonic [mm]', curve.probes)}     friction"
+    units = f"     [Hz] {headed(curve.probes)}  [mJ/period]"
+    if presses:
+        head, units = f"{head}      normal force [N]", f"{units}     least      most"
+    lines = [head, units]
+    largest = int(curve.amplitude.max(axis=1).argmax())
     for place in shown_points(curve, largest):
-        values = (
+        values = [
             f"{curve.frequency[place] / math.tau:9.4f}",
             *(
                 f"{1e3 * amplitude:10.5f}"
                 for amplitude in curve.amplitude[place, :SHOWN]
             ),
-            f"{1e3 * curve.friction_energy[place]:12.6f}",
-            _force(curve.normal_smallest[place].min(initial=math.inf)),
-            _force(curve.normal_largest[place].max(initial=-math.inf)),
-        )
+            f"{1e3 * curve.friction_energy[place]:z12.6f}",
+        ]
+        if presses:
+            values.append(f"{curve.normal_smallest[place].min():z9.3f}")
+            values.append(f"{curve.normal_largest[place].max():z9.3f}")
         mark = "  largest" if place == largest else ""
         lines.append(" ".join(values) + mark)
     return "\n".join(lines)
-
-
-def _force(force: float) -> str:
-    """Return a normal force, or nothing where no contact is."""
-    return f"{force:9.3f}" if math.isfinite(force) else f"{'-':>9s}"

@@ -1,0 +1,86 @@
+"""The functions of plain Python, and what they say of arguments of no use."""
+
+import importlib.metadata
+from typing import Any
+
+import numpy as np
+import pytest
+
+import microslip
+
+
+@pytest.fixture(scope="module")
+def duffing() -> Any:
+    return microslip.scene("duffing")
+
+
+SWEPT: dict[str, Any] = {"duration": 1.0, "time_step": 1e-3}
+
+
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        ({"lowest": -4.0}, "lowest = -4.0: is out of range: it must be above 0 Hz"),
+        ({"lowest": "4 kg"}, r'lowest = "4 kg": '),
+        ({"highest": float("nan")}, "highest = nan: is not finite"),
+        ({"highest": 4.0}, "lowest and highest are both 4 Hz: give two"),
+        ({"tolerance": 10.0}, "tolerance = 10.0: is out of range"),
+        ({"tolerance": 1e-300}, "tolerance = 1e-300: is out of range"),
+        ({"harmonics": 2.5}, "harmonics = 2.5: is not a whole number"),
+        ({"harmonics": 1000}, "harmonics = 1000: is out of range"),
+        ({"samples": 64}, "samples = 64: they follow from the tolerance"),
+        ({"harmonics": 7, "samples": 8}, "samples = 8: too few for 7 harmonics"),
+        ({"problem": "duffing"}, "problem = 'duffing': give what microslip.system"),
+    ],
+)
+def test_arguments_of_a_curve_that_are_of_no_use_are_named(
+    duffing: Any, given: dict[str, Any], text: str
+) -> None:
+    arguments = {"problem": duffing, "lowest": 4.0, "highest": 7.0} | given
+
+    with pytest.raises(microslip.MicroslipError, match=f"^microslip.curve: {text}"):
+        microslip.curve(**arguments)
+
+
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        ({"time_step": 0.0}, "time_step = 0.0: is out of range"),
+        ({"store_every": 1.5}, "store_every = 1.5: is not a whole number"),
+        ({"duration": -1.0}, "duration = -1.0: is out of range"),
+        ({"highest": 4.0}, "lowest and highest are both 4 Hz"),
+        ({"problem": None}, "problem = None: give what microslip.system"),
+    ],
+)
+def test_arguments_of_a_sweep_that_are_of_no_use_are_named(
+    duffing: Any, given: dict[str, Any], text: str
+) -> None:
+    arguments = {"problem": duffing, "lowest": 4.0, "highest": 7.0} | SWEPT | given
+
+    with pytest.raises(microslip.MicroslipError, match=f"^microslip.sweep: {text}"):
+        microslip.sweep(**arguments)
+
+
+def test_quantities_may_be_texts_with_units_or_numbers_of_numpy(duffing: Any) -> None:
+    plain = microslip.curve(duffing, 4.0, 4.5, harmonics=3)
+
+    units = microslip.curve(duffing, "4 Hz", "0.0045 kHz", harmonics=3)
+    few: Any = np.int64(3)
+    numbers = microslip.curve(duffing, np.float64(4.0), np.float64(4.5), harmonics=few)
+
+    for other in (units, numbers):
+        np.testing.assert_array_equal(other.amplitude, plain.amplitude)
+
+
+def test_one_override_needs_no_list() -> None:
+    single = microslip.scene("duffing", "drive.x=3")
+
+    assert single.drive == microslip.scene("duffing", ["drive.x=3"]).drive
+
+
+def test_the_package_tells_its_names_and_its_version() -> None:
+    names = dir(microslip)
+
+    assert {"curve", "scene", "sweep", "system", "MicroslipError"} <= set(names)
+    assert microslip.__version__ == importlib.metadata.version("microslip")
+    assert all(hasattr(microslip, name) for name in names)

@@ -1,5 +1,6 @@
 """Dwells: the steady state of closed forms and of harmonic balance, limits, texts."""
 
+import dataclasses
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
@@ -7,9 +8,11 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
+from figure_checks import check_labels
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.experiments import March
+from microslip.figures.dwell import dwell_figure
 from microslip.result_file import load
 from microslip.studies.dwell import amplitudes, dwelling
 from microslip_mechanics.problem import Problem
@@ -137,3 +140,18 @@ def test_what_makes_no_sense_is_refused(
     assert status == 2
     assert error
     assert not list(tmp_path.glob("*.nc"))
+
+
+def test_a_dwell_of_one_probe_has_no_empty_panel(small_history: TimeHistory) -> None:
+    alone = dataclasses.replace(
+        small_history,
+        probes=("blade",),
+        displacement=small_history.displacement[:, :1],
+        velocity=small_history.velocity[:, :1],
+    )
+
+    figure = dwell_figure(alone, [0.1, 0.01], 1e-3, "one")
+
+    check_labels(figure)
+    assert len(figure.axes) == 5
+    assert all(axes.lines for axes in figure.axes)

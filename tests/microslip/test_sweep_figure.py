@@ -82,6 +82,26 @@ def test_sweep_figure_has_a_labelled_panel_for_each_thing_to_see(
     assert figure.get_suptitle() == "two-blades"
 
 
+def test_what_a_scene_does_not_have_is_left_out_of_its_sweep_figure(
+    small_history: TimeHistory,
+) -> None:
+    energy = small_history.energy.copy()
+    energy[:, 1], energy[:, 2] = 0.0, 1e-18 * energy[:, 0]
+    smooth = dataclasses.replace(
+        small_history,
+        energy=energy,
+        friction_power=np.zeros_like(small_history.friction_power),
+        normal_force=np.zeros_like(small_history.normal_force),
+    )
+
+    figure = sweeps.sweep_figure(smooth, "two-blades")
+
+    # two blades, one slip, energies
+    assert len(figure.axes) == 4
+    flows = [text.split(":")[0] for text in legend(figure.axes[-1])]
+    assert flows == ["input", "structural damping"]
+
+
 def test_sweep_figure_shows_both_blades_on_one_scale(
     small_history: TimeHistory,
 ) -> None:

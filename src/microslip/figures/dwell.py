@@ -40,13 +40,14 @@ def dwell_figure(
     """
     figure = Figure(figsize=(10.0, 7.8), layout="constrained")
     panels = figure.subplots(3, 2)
-    for axes, colour, place in zip(
-        panels[0], COLOURS, absolute(history.probes), strict=False
-    ):
+    shown = absolute(history.probes)[: len(panels[0])]
+    for axes, colour, place in zip(panels[0], COLOURS, shown, strict=False):
         displacement(axes, history, place, colour)
+    for axes in panels[0][len(shown) :]:
+        axes.remove()
     rows = len(history.time) // max(1, len(distances))
     _orbit(panels[1, 0], history, rows)
-    _slips(panels[1, 1], history, rows)
+    _velocities(panels[1, 1], history, rows)
     _distance(panels[2, 0], distances, tolerance)
     energies(panels[2, 1], history)
     figure.suptitle(literal(title))
@@ -68,10 +69,11 @@ def _orbit(axes: Axes, history: TimeHistory, rows: int) -> None:
     axes.legend(frameon=False, fontsize="small")
 
 
-def _slips(axes: Axes, history: TimeHistory, rows: int) -> None:
-    for colour, style, place in zip(
-        COLOURS, STYLES, relative(history.probes), strict=False
-    ):
+def _velocities(axes: Axes, history: TimeHistory, rows: int) -> None:
+    """Draw relative velocities or, where no probe is one, those of all."""
+    slips = relative(history.probes)
+    places = slips or absolute(history.probes)
+    for colour, style, place in zip(COLOURS, STYLES, places, strict=False):
         axes.plot(
             _since(history, rows),
             history.velocity[-rows:, place],
@@ -80,10 +82,9 @@ def _slips(axes: Axes, history: TimeHistory, rows: int) -> None:
             linewidth=WIDTH * 1.5,
             label=readable(history.probes[place]),
         )
-    title = "Relative velocities in the last period"
-    framed(axes, x="time [ms]", y="velocity [m/s]", title=title)
-    if axes.lines:
-        axes.legend(frameon=False, fontsize="small")
+    name = "Relative velocities" if slips else "Velocities"
+    framed(axes, x="time [ms]", y="velocity [m/s]", title=f"{name} in the last period")
+    axes.legend(frameon=False, fontsize="small")
 
 
 def _distance(axes: Axes, distances: Sequence[float], tolerance: float) -> None:

@@ -26,7 +26,8 @@ def envelope_figure(envelope: Envelope, title: str) -> Figure:
     slips = relative(envelope.probes)
     shrouds = pressed(faces(envelope.contacts), envelope.normal_largest)
     blades, ways = absolute(envelope.probes)[:2], passes(envelope)
-    count = len(blades) + len(slips) + len(shrouds) + 2
+    rubs = bool(envelope.of("friction").any())
+    count = len(blades) + len(slips) + len(shrouds) + int(rubs) + 1
     figure, panels, others = grid_of(count, len(blades) if ways else 0)
     limit = 1.05e3 * float(abs(envelope.highest[:, blades]).max(initial=1e-12))
     limit = max(limit, 1.05e3 * float(abs(envelope.lowest[:, blades]).max(initial=0.0)))
@@ -38,7 +39,8 @@ def envelope_figure(envelope: Envelope, title: str) -> Figure:
         relative_velocity(next(panels), envelope, place)
     for face, places in shrouds.items():
         normal_force(next(panels), envelope, face, places)
-    friction_power(next(panels), envelope)
+    if rubs:
+        friction_power(next(panels), envelope)
     energies(next(panels), envelope)
     for axes, place in zip(others, blades, strict=False):
         amplitude(axes, ways, place, envelope.probes[place])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -24,17 +25,21 @@ from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import TimeHistory
 
 TIME = "time [s]"
+ROUNDING = 1e-12
+"""share of the largest energy below which another is nothing but rounding"""
 
 
 def sweep_figure(history: TimeHistory, title: str) -> Figure:
     """Draw displacements, relative velocities, normal forces, friction and energies.
 
-    Where the cycles of a sweep can be seen, their amplitude against frequency follows.
+    What a scene does not have is left out. Where the cycles of a sweep can be seen,
+    their amplitude against frequency follows.
     """
     slips = relative(history.probes)
     shrouds = pressed(faces(history.contacts), history.normal_force)
     blades, ways = absolute(history.probes)[:2], passes(history)
-    count = len(blades) + len(slips) + len(shrouds) + 2
+    rubs = bool(history.friction_power.any())
+    count = len(blades) + len(slips) + len(shrouds) + int(rubs) + 1
     figure, panels, others = grid_of(count, len(blades) if ways else 0)
     limit = 1.05e3 * float(abs(history.displacement[:, blades]).max(initial=1e-12))
     for colour, place in zip(COLOURS, blades, strict=False):
@@ -45,7 +50,8 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
         relative_velocity(next(panels), history, place)
     for face, places in shrouds.items():
         normal_force(next(panels), history, face, places)
-    friction_power(next(panels), history)
+    if rubs:
+        friction_power(next(panels), history)
     energies(next(panels), history)
     for axes, place in zip(others, blades, strict=False):
         amplitude(axes, ways, place, history.probes[place])
@@ -64,10 +70,10 @@ def pressed(shrouds: dict[str, list[int]], forces: Array) -> dict[str, list[int]
 
 def grid_of(count: int, others: int) -> tuple[Figure, Iterator[Axes], list[Axes]]:
     """Return a figure with panels that share their time axis, and with some others."""
-    lines = (count + 1) // 2 + (others + 1) // 2
+    lines = (count + others + 1) // 2
     figure = Figure(figsize=(10.0, 2.6 * lines), layout="constrained")
     axes = list(figure.subplots(lines, 2, squeeze=False).ravel())
-    panels, last = axes[:count], axes[2 * ((count + 1) // 2) :][:others]
+    panels, last = axes[:count], axes[count : count + others]
     for panel in panels[1:]:
         panel.sharex(panels[0])
     for panel in panels[:-2]:
@@ -122,16 +128,18 @@ def friction_power(axes: Axes, history: TimeHistory) -> None:
 
 def energies(axes: Axes, history: TimeHistory | Envelope) -> None:
     """Draw the energies that flowed, and the closing error of their balance."""
-    flows = ("input", "friction", "normal_damping", "structural_damping")
-    for colour, name in zip(COLOURS, flows, strict=False):
-        if name == "normal_damping" and not history.of(name).any():
+    names = ("input", "friction", "normal_damping", "structural_damping")
+    flows = {name: history.of(name) for name in names}
+    least = ROUNDING * max(float(np.abs(flow).max()) for flow in flows.values())
+    for colour, (name, flow) in zip(COLOURS, flows.items(), strict=False):
+        if np.abs(flow).max() <= least:
             continue
         axes.plot(
             history.time,
-            history.of(name),
+            flow,
             color=colour,
             linewidth=WIDTH * 1.5,
-            label=f"{name.replace('_', ' ')}: {history.of(name)[-1]:.4g} J",
+            label=f"{name.replace('_', ' ')}: {flow[-1]:.4g} J",
         )
     closing = abs(history.closing_error).max()
     title = f"Energy since the start (closing error {closing:.1e} J)"

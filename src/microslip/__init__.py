@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from microslip.api import curve, scene, sweep
+    from microslip.results import figure, load, save
     from microslip_mechanics.element import Element
     from microslip_mechanics.errors import MicroslipError
     from microslip_mechanics.given_loads import BaseMotion, EngineOrder
@@ -24,7 +25,10 @@ __all__ = [
     "EngineOrder",
     "MicroslipError",
     "curve",
+    "figure",
+    "load",
     "reduced_problem",
+    "save",
     "scene",
     "sweep",
     "system",
@@ -34,6 +38,9 @@ HOMES = {
     "curve": "microslip.api",
     "scene": "microslip.api",
     "sweep": "microslip.api",
+    "figure": "microslip.results",
+    "load": "microslip.results",
+    "save": "microslip.results",
     "system": "microslip_mechanics.system",
     "reduced_problem": "microslip_mechanics.reduced_problem",
     "BaseMotion": "microslip_mechanics.given_loads",

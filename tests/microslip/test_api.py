@@ -1,12 +1,14 @@
 """The functions of plain Python, and what they say of arguments of no use."""
 
 import importlib.metadata
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import microslip
+from figure_checks import check_labels
 
 
 @pytest.fixture(scope="module")
@@ -76,6 +78,28 @@ def test_one_override_needs_no_list() -> None:
     single = microslip.scene("duffing", "drive.x=3")
 
     assert single.drive == microslip.scene("duffing", ["drive.x=3"]).drive
+
+
+def test_results_come_back_from_files_and_are_drawn(
+    duffing: Any, tmp_path: Path
+) -> None:
+    curve = microslip.curve(duffing, 4.0, 4.5, harmonics=3)
+    march = microslip.sweep(duffing, 4.0, 7.0, **SWEPT)
+
+    for place, result in enumerate((curve, march)):
+        microslip.save(result, tmp_path / f"{place}.nc")
+        again = microslip.load(str(tmp_path / f"{place}.nc"))
+        assert type(again) is type(result)
+        assert again.probes == result.probes
+        assert again.ending == "complete"
+        check_labels(microslip.figure(again, "duffing"))
+    amplitude = microslip.load(tmp_path / "0.nc").amplitude  # type: ignore[union-attr]
+    np.testing.assert_array_equal(amplitude, curve.amplitude)
+
+
+def test_files_that_are_no_results_are_named(tmp_path: Path) -> None:
+    with pytest.raises(microslip.MicroslipError, match=r"no result file .*none\.nc"):
+        microslip.load(tmp_path / "none.nc")
 
 
 def test_the_package_tells_its_names_and_its_version() -> None:

@@ -1,0 +1,61 @@
+"""Results of plain Python: to files and back, and their pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from matplotlib.figure import Figure
+
+    from microslip.schema import Result
+
+
+def save(result: Result, path: str | PathLike[str]) -> None:
+    """Write a curve or a march as netCDF; ``microslip plot`` draws it.
+
+    Parameters
+    ----------
+    result
+        From :func:`microslip.curve` or :func:`microslip.sweep`.
+    path
+        The file; docs/files.md says what is in it.
+
+    Raises
+    ------
+    MicroslipError
+        If the file cannot be written.
+    """
+    from microslip import store
+
+    store.save(Path(path), store.Stored(result, "", "microslip.save"))
+
+
+def load(path: str | PathLike[str]) -> Result:
+    """Return what :func:`save` or a command has written.
+
+    Raises
+    ------
+    MicroslipError
+        If there is no such file, or it is not a result.
+    """
+    from microslip import result_file
+
+    return result_file.load(Path(path)).result
+
+
+def figure(result: Result, title: str = "") -> Figure:
+    """Return the picture that the command line draws of a curve or a march.
+
+    A notebook shows it; ``figure(result).savefig(path)`` writes it.
+
+    Raises
+    ------
+    ValueError
+        If a march has not come far enough to have anything to draw.
+    """
+    from microslip.figures.result import result_figure
+
+    return result_figure(result, title)

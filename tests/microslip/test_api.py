@@ -86,7 +86,8 @@ def test_results_come_back_from_files_and_are_drawn(
     curve = microslip.curve(duffing, 4.0, 4.5, harmonics=3)
     march = microslip.sweep(duffing, 4.0, 7.0, **SWEPT)
 
-    for place, result in enumerate((curve, march)):
+    both: list[Any] = [curve, march]
+    for place, result in enumerate(both):
         microslip.save(result, tmp_path / f"{place}.nc")
         again = microslip.load(str(tmp_path / f"{place}.nc"))
         assert type(again) is type(result)

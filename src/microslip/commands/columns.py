@@ -7,6 +7,10 @@ from collections.abc import Sequence
 WIDTH = 10
 SHOWN = 3
 """probes in a table"""
+DIGITS = 3
+"""that a column's largest number has at least"""
+NOTHING = 1e-15
+"""largest number of a column, in its unit, that rounding makes of zero"""
 
 
 def headed(names: Sequence[str]) -> str:
@@ -27,3 +31,14 @@ def headed(names: Sequence[str]) -> str:
 def titled(text: str, names: Sequence[str]) -> str:
     """Return a title in the width of the probes' columns."""
     return f"{text:<{(WIDTH + 1) * len(names[:SHOWN]) - 1}}"
+
+
+def decimal(value: float, largest: float, decimals: int, width: int = WIDTH) -> str:
+    """Return a number in a column, whose largest is ``largest``, right aligned.
+
+    It has so many decimals, unless they would leave less than :data:`DIGITS` digits of
+    the largest: then powers of ten.
+    """
+    if NOTHING < abs(largest) < 10.0 ** (DIGITS - 1 - decimals):
+        return f"{value:{width}.{DIGITS}e}"
+    return f"{value:z{width}.{decimals}f}"

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
+from microslip.commands.columns import decimal
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -95,10 +96,11 @@ def _line(fold: FollowedFold, place: int) -> str:
     event, known = curve.event[place], math.isfinite(point.parameter_error)
     meeting = MEETINGS.get(event, "") if known else "not with twice the harmonics"
     note = f"  {event}: {meeting}" if event else ""
+    amplitude = 1e3 * float(curve.amplitude[place].max())
     others = str(point.unstable) if point.unstable >= 0 else "-"
     return (
         f"{curve.parameter[place]:14.6g} {curve.frequency[place] / math.tau:10.4f} "
-        f"{1e3 * curve.amplitude[place].max():10.5f} {others:>17s} "
+        f"{decimal(amplitude, amplitude, 5)} {others:>17s} "
         f"{point.frequency_error:10.1e} {point.parameter_error:10.1e}{note}"
     )
 

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import SHOWN, headed, titled
+from microslip.commands.columns import SHOWN, decimal, headed, titled
 
 if TYPE_CHECKING:
     from microslip_mechanics.response import ResponseCurve
@@ -78,14 +78,15 @@ def _table(curve: ResponseCurve) -> str:
         "    largest",
         f"          [SI] {headed(curve.probes)}  [mJ/period]  multiplier",
     ]
+    energy = curve.friction_energy
     for place in sorted(places):
         values = (
             f"{curve.parameter[place]:14.6g}",
             *(
-                f"{1e3 * amplitude:10.5f}"
-                for amplitude in curve.amplitude[place, :SHOWN]
+                decimal(1e3 * each[place], 1e3 * each.max(), 5)
+                for each in curve.amplitude.T[:SHOWN]
             ),
-            f"{1e3 * curve.friction_energy[place]:z12.6f}",
+            decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12),
             f"{curve.multiplier[place]:11.5f}",
         )
         lines.append(" ".join(values) + f"  {curve.event[place]}")

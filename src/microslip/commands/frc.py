@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import SHOWN, headed, titled
+from microslip.commands.columns import SHOWN, decimal, headed, titled
 
 if TYPE_CHECKING:
     from microslip.experiments import Curve
@@ -121,7 +121,8 @@ def _events(curve: ResponseCurve) -> str:
         if name:
             hertz = curve.frequency[place] / math.tau
             largest = 1e3 * curve.amplitude[place].max()
-            lines.append(f"{name:<16} {hertz:12.6f} Hz {largest:12.6f} mm")
+            size = decimal(largest, largest, 6, 12)
+            lines.append(f"{name:<16} {hertz:12.6f} Hz {size} mm")
     unstable = curve.unstable > 0
     if unstable.any():
         hertz = curve.frequency[unstable] / math.tau
@@ -221,14 +222,15 @@ def _table(traced: Traced) -> str:
         head, units = f"{head}      normal force [N]", f"{units}     least      most"
     lines = [head, units]
     largest = int(curve.amplitude.max(axis=1).argmax())
+    energy = curve.friction_energy
     for place in shown_points(curve, largest):
         values = [
             f"{curve.frequency[place] / math.tau:9.4f}",
             *(
-                f"{1e3 * amplitude:10.5f}"
-                for amplitude in curve.amplitude[place, :SHOWN]
+                decimal(1e3 * each[place], 1e3 * each.max(), 5)
+                for each in curve.amplitude.T[:SHOWN]
             ),
-            f"{1e3 * curve.friction_energy[place]:z12.6f}",
+            decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12),
         ]
         if presses:
             values.append(f"{curve.normal_smallest[place].min():z9.3f}")

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
+from microslip.commands.columns import decimal
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -146,8 +147,9 @@ def _lines(mode: FollowedMode) -> list[str]:
     rows.append(HEADER)
     for point in shown_points(mode):
         note = "  most damped" if point is mode.most_damped else ""
+        amplitude = 1e3 * point.amplitude
         rows.append(
-            f"{1e3 * point.amplitude:9.5f} {point.frequency / math.tau:10.4f} "
+            f"{decimal(amplitude, amplitude, 5, 9)} {point.frequency / math.tau:10.4f} "
             f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
             f"{point.damping_error:10.1e}{note}"
         )

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
+from microslip.commands.columns import decimal
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -69,7 +70,8 @@ def _run(options: argparse.Namespace) -> int:
 def _lines(each: Tracked) -> str:
     rows = [
         f"{each.value:<15} {event.name:<16} {event.frequency / math.tau:15.6f} "
-        f"{1e3 * event.amplitude:15.6f} {event.error:8.1e}"
+        f"{decimal(1e3 * event.amplitude, 1e3 * event.amplitude, 6, 15)} "
+        f"{event.error:8.1e}"
         for event in each.events
     ]
     if not rows:

@@ -1,0 +1,23 @@
+"""Numbers in columns: digits that are left of small ones."""
+
+import pytest
+
+from microslip.commands.columns import decimal
+
+
+@pytest.mark.parametrize(
+    ("value", "largest", "text"),
+    [
+        (0.25, 0.4, "   0.25000"),
+        (-1e-9, 0.4, "   0.00000"),
+        (0.0012, 0.0012, "   0.00120"),
+        (0.00012, 0.0004, " 1.200e-04"),
+        (0.0, 0.0004, " 0.000e+00"),
+        (0.0, 0.0, "   0.00000"),
+        (-1e-22, 6e-22, "   0.00000"),
+    ],
+)
+def test_small_columns_have_powers_of_ten(
+    value: float, largest: float, text: str
+) -> None:
+    assert decimal(value, largest, 5) == text

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any
 
@@ -29,6 +30,8 @@ UNITS = {
     "": {"": 1.0},
 }
 """for each SI unit, the units that may be written and their size in it"""
+NUMBER = re.compile(r"[-+]?(\d[\d_]*\.?\d*|\.\d+)(e[-+]?\d+)?(?![\d.,])", re.I)
+"""at the beginning of a text, before a unit"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,16 +69,19 @@ class Quantity:
         return number
 
     def _with_unit(self, text: str) -> float:
-        first, _, unit = text.strip().partition(" ")
+        stripped = text.strip()
+        found = NUMBER.match(stripped)
+        first = found[0] if found else stripped.partition(" ")[0]
         try:
             number = float(first)
         except ValueError:
             raise ValueError(f"is not a number: give one{self._unit_hint()}") from None
-        if unit.strip() not in UNITS[self.unit]:
+        unit = stripped[len(first) :].strip()
+        if unit not in UNITS[self.unit]:
             raise ValueError(f"has the wrong unit: give a number{self._unit_hint()}")
         if not math.isfinite(number):
             raise ValueError("is not finite: give a finite number")
-        return number * UNITS[self.unit][unit.strip()]
+        return number * UNITS[self.unit][unit]
 
     def _unit_hint(self) -> str:
         known = [f'"{unit}"' for unit in UNITS[self.unit] if unit.isascii() and unit]

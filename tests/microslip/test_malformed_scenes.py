@@ -282,7 +282,7 @@ def test_every_command_reads_scenes_alike(
         ("blade.length=1e400", ("[blade] length", "not finite")),
         ("blade.length=1 kg", ("[blade] length", "1 kg", "unit")),
         ("blade.length='a'\nx", ("[blade] length", "not a number")),
-        ("blade.length=0.2\nwidth=1", ("[blade] length", "not a number")),
+        ("blade.length=0.2\nwidth=1", ("[blade] length", "wrong unit")),
         ("curve.harmonics=512", ("[curve] harmonics = 512", "at most 255")),
         ("curve.samples=1024", ("[curve] samples = 1024", "tolerance", "harmonics")),
         ("curve.tolerance=0", ("[curve] tolerance = 0", "at least 1e-06")),

@@ -1,6 +1,7 @@
 """Harmonic balance against time: a march that begins on an orbit stays on it."""
 
 import functools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -41,16 +42,15 @@ def curve(rig: str) -> tuple[Problem, tuple[PeriodicResponse, ...]]:
     return problem, tuple(responses)
 
 
-def response_near(rig: str, hertz: float, *, harmonics: int) -> PeriodicResponse:
-    """Return the response of a curve that is nearest to a frequency."""
+def response_at(rig: str, hertz: float, *, harmonics: int) -> PeriodicResponse:
+    """Return the response at a frequency, found from the nearest point of its curve."""
     problem, responses = curve(rig)
-    nearest = min(responses, key=lambda each: abs(each.frequency - TURN * hertz))
-    if harmonics == 8:
-        return nearest
+    frequency = TURN * hertz
+    nearest = min(responses, key=lambda each: abs(each.frequency - frequency))
     return periodic_response(
         problem,
         static_equilibrium(problem),
-        nearest,
+        replace(nearest, frequency=frequency),
         harmonics=harmonics,
         samples=128 * harmonics,
     )
@@ -74,11 +74,11 @@ def marched_amplitudes(
     return np.abs(last_harmonic(history))
 
 
-def differences(rig: str, hertz: float, *, harmonics: int) -> Array:
+def differences(rig: str, hertz: float, *, harmonics: int, steps: int = STEPS) -> Array:
     """Return how far the march's amplitudes are from those it began with, relative."""
     problem, _ = curve(rig)
-    response = response_near(rig, hertz, harmonics=harmonics)
-    marched = marched_amplitudes(problem, response)
+    response = response_at(rig, hertz, harmonics=harmonics)
+    marched = marched_amplitudes(problem, response, steps=steps)
     return np.abs(amplitudes(problem, response) / marched - 1.0)
 
 
@@ -97,8 +97,9 @@ def test_eight_harmonics_predict_both_blades_to_one_per_cent(
 def test_sharp_transitions_beyond_the_resonance_take_more_harmonics(
     harmonics: int, highest: float
 ) -> None:
-    # At 135.5 Hz one face barely slips: measured 1.5 %, 0.6 % and 0.1 %.
-    difference = differences("A", 135.5, harmonics=harmonics)
+    # At 135.5 Hz one face barely slips: measured 1.4 %, 0.63 % and 0.08 %, of which
+    # 0.02 % are steps.
+    difference = differences("A", 135.5, harmonics=harmonics, steps=2 * STEPS)
 
     assert difference[BLADES].max() < highest
 
@@ -128,12 +129,12 @@ def test_falling_friction_is_predicted_to_one_per_cent_with_31_harmonics(
 @pytest.mark.parametrize("hertz", [134.5, 135.0])
 def test_the_difference_falls_as_harmonics_and_samples_grow(hertz: float) -> None:
     problem, _ = curve("A")
-    finest = response_near("A", hertz, harmonics=31)
+    finest = response_at("A", hertz, harmonics=31)
     reference = marched_amplitudes(problem, finest, steps=1200)
 
     errors = []
     for harmonics in (1, 8, 15, 31):
-        response = response_near("A", hertz, harmonics=harmonics)
+        response = response_at("A", hertz, harmonics=harmonics)
         found = amplitudes(problem, response)
         errors.append(np.abs(found - reference).max() / reference.max())
 
@@ -146,7 +147,7 @@ def test_the_difference_falls_as_harmonics_and_samples_grow(hertz: float) -> Non
 
 def test_energy_per_cycle_is_that_of_the_march() -> None:
     problem, _ = curve("B")
-    response = response_near("B", 135.0, harmonics=31)
+    response = response_at("B", 135.0, harmonics=31)
     displacement, velocity = response.at(np.zeros(1))
 
     history = dwelled(

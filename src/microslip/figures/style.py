@@ -34,8 +34,10 @@ def plain_logarithmic(axis: Axis) -> None:
 
 
 def legend_above(axes: Axes) -> None:
-    """Put the legend above the lines, in space that is made for it."""
+    """Put the legend, if there is any, above the lines in space made for it."""
     lines = -(-len(axes.get_legend_handles_labels()[0]) // 2)
+    if not lines:
+        return
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + (0.08 + 0.1 * lines) * (high - low))
     axes.legend(frameon=False, loc="upper left", ncols=2, fontsize="small")

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.arc_step import tangent
 from hbm.effort import Effort
 from hbm.fourier import FourierBasis
 from hbm.newton import (
@@ -225,6 +226,23 @@ class AdaptiveBalance:
         if self._tolerance is None:
             return point, self.settled, self.estimate.before
         return self.estimate.corrected, self.estimate.fourier, self.estimate.error
+
+    def reported(
+        self, correction: Correction, scale: Array
+    ) -> tuple[Correction, FourierBasis]:
+        """Return the settled point as it is reported, with the tangent there.
+
+        With more than :data:`MARKED` harmonics it is the point as it was settled.
+        """
+        point, fourier, _ = self.kept(correction.point)
+        estimate, as_settled = self.estimate, (correction, self.settled)
+        if estimate is None or fourier == self.settled or fourier.harmonics > MARKED:
+            return as_settled
+        try:
+            along = tangent(estimate.slope, correction.along, scale)
+        except SingularError:
+            return as_settled
+        return replace(correction, point=point, tangent=along), fourier
 
     @property
     def _exhausted(self) -> bool:

@@ -49,5 +49,5 @@ class Condensed(Protocol):
     ) -> ComplexArray:
         """Return u from y and the loads, shape (orders, dofs).
 
-        Also of several y under one load, if each has the same variable.
+        Also of several y under one load, if each has about the same variable.
         """

@@ -49,7 +49,7 @@ class Curve:
             mark = beginning if before is None else "restart"
             made, after = self._made(correction, "" if correction.joined else mark)
             if self.events and correction.tangent is not None:
-                after = after._replace(growth=self.events.growth(correction))
+                after = self.events.directed(after, metric)
             if self.events and before is not None and correction.joined:
                 for located, name in self.events.between(before, after, metric):
                     yield self._made(located, name)[0]
@@ -69,8 +69,10 @@ class Curve:
             parameter=float(kept[-1]),
         )
         told, finer = self._examined(made, kept, fourier)
-        asks = finer != fourier
-        return told, Settled(correction, told.multipliers, finer, asks)
+        asks, settled = finer != fourier, self.system.settled
+        return told, Settled(
+            correction, told.multipliers, finer, asks, correction, settled
+        )
 
     def examined(self, known: PeriodicResponse, point: Array) -> PeriodicResponse:
         """Return a response with its multipliers; ``point`` is where it lies.

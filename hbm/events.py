@@ -36,10 +36,15 @@ UPRIGHT = 5e-3
 beside the segment"""
 NEAR = 0.4
 """share of a step within which a multiplier +1 is that of a fold in the same step"""
+AROUND = (-0.5, 0.5, -1.5, 1.5)
+"""places about a fold, over the step, at which its curve has slopes of both signs"""
 FLAT = 1e-13
 """change of an amplitude, relative, that may be rounding"""
 REAL = 1e-6
 """imaginary part of a multiplier, over its modulus, below which it is real"""
+ASIDE = 3e-3
+"""part of a step by which a peak may be aside"""
+by_harmonics = attrgetter("harmonics")
 TORUS, BRANCH = "Neimark-Sacker", "branch point"
 
 
@@ -52,8 +57,12 @@ class Settled(NamedTuple):
     """the resolution that they ask for"""
     asks: bool
     """whether that is more than the reported orbit has"""
+    reported: Correction
+    """the point as it is reported, where events are sought"""
+    fourier: FourierBasis
+    """its resolution"""
     growth: float = math.nan
-    """of the largest amplitude along the curve, where events are sought"""
+    """of its largest amplitude along the curve"""
 
 
 class Found(NamedTuple):
@@ -63,6 +72,8 @@ class Found(NamedTuple):
     """along the segment"""
     name: str
     point: Correction
+    fourier: FourierBasis
+    """the resolution with which it was located"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,48 +95,111 @@ class Events:
         """Yield the events between two neighbouring points, in their order."""
         fourier = self.system.fourier
         self.system.fourier = self.system.settled
-        scale, tolerance = metric(before.correction.point), self.control.tolerance
-        loose = self.control.loose if self.control.negligible else 0.0
-        ends = before.correction, after.correction
-        segment = Segment(self.system, *ends, scale, tolerance, loose)
-        growth = before.growth, after.growth
-        found = [*self._turns(segment, growth), *self._changes(segment, before, after)]
-        for _, name, located in _told(found, segment):
-            normal = located.along / metric(located.point) ** 2
-            normal /= np.abs(normal).max()
-            small = segment.small(PRECISION * SURE)
-            share, turns = STRICT if name in SHARP else 1.0, name == "fold"
-            settled = self.system.settle(
-                located, normal, tolerance, small, share=share, across=turns
-            )
-            moved = float(np.linalg.norm((settled.point - located.point) / scale))
-            near = settled.outcome is Outcome.CONVERGED and moved < segment.length
-            if near and (not turns or self._folds(segment)):
-                yield settled, name
+        segment = self._segment(before.correction, after.correction, metric)
+        found = [
+            *self._folded(segment),
+            *self._peaks(before, after, metric),
+            *self._changes(segment, before, after),
+        ]
+        for each in _told(found, segment):
+            self.system.fourier = each.fourier
+            event = self._settled(each, segment, metric)
+            if event is None or (
+                each.name == "fold" and not self._folds(segment, event)
+            ):
+                continue
+            yield event, each.name
         self.system.fourier = fourier
 
-    def _turns(self, segment: Segment, growth: tuple[float, float]) -> Iterator[Found]:
-        """Yield where the curve folds and where its amplitude is largest."""
-        fold = segment.locate(folds)
-        peak = segment.locate(self.growth, growth, falling=True)
-        for name, located in (("fold", fold), ("peak", peak)):
-            if located is not None:
-                yield Found(segment.place(located.point), name, located)
+    def directed(self, settled: Settled, metric: Metric) -> Settled:
+        """Return a settled point with how its largest amplitude grows.
 
-    def _folds(self, segment: Segment) -> bool:
-        """Return whether the curve folds with the resolution that its fold asks for.
+        The tangent where it is reported is known about; where it tells otherwise than
+        that of the curve, the point is solved there.
+        """
+        correction, scale = settled.correction, metric(settled.correction.point)
+        reported, fourier = self.system.reported(correction, scale)
+        growth, solved = self.growth(reported), self.growth(correction)
+        if growth * solved < 0.0:
+            back, self.system.fourier = self.system.fourier, fourier
+            about = self._segment(reported, reported, metric)
+            reported = about.across(reported.point, PRECISION) or reported
+            growth = self.growth(reported)
+            self.system.fourier = back
+        return settled._replace(reported=reported, fourier=fourier, growth=growth)
+
+    def _segment(
+        self, before: Correction, after: Correction, metric: Metric
+    ) -> Segment:
+        loose = self.control.loose if self.control.negligible else 0.0
+        scale = metric(before.point)
+        return Segment(self.system, before, after, scale, self.control.tolerance, loose)
+
+    def _settled(
+        self, found: Found, segment: Segment, metric: Metric
+    ) -> Correction | None:
+        """Return what was located as accurate as it is to be; None if it is lost."""
+        located = found.point
+        normal = located.along / metric(located.point) ** 2
+        normal /= np.abs(normal).max()
+        settled = self.system.settle(
+            located,
+            normal,
+            self.control.tolerance,
+            segment.small(PRECISION * SURE),
+            share=STRICT if found.name in SHARP else 1.0,
+            across=found.name == "fold",
+        )
+        away = (settled.point - located.point) / segment.scale
+        near = float(np.linalg.norm(away)) < segment.length
+        if not near or settled.outcome is not Outcome.CONVERGED:
+            return None
+        return replace(settled, tangent=located.tangent)
+
+    def _peaks(
+        self, before: Settled, after: Settled, metric: Metric
+    ) -> Iterator[Found]:
+        """Yield where the amplitude is largest.
+
+        With the resolution of the points as they are reported, unless that of the curve
+        has it at the same place: what hardly changes an amplitude may well move the
+        place at which it is largest.
+        """
+        growth = before.growth, after.growth
+        if not growth[0] > 0.0 > growth[1]:
+            return
+        ends, solved = (before.reported, after.reported), self.system.fourier
+        settled = before.correction, after.correction
+        coarse = self.growth(settled[0]), self.growth(settled[1])
+        if coarse[0] > 0.0 > coarse[1] and abs(_zero(coarse) - _zero(growth)) < ASIDE:
+            ends, growth = settled, coarse
+        else:
+            self.system.fourier = max(before.fourier, after.fourier, key=by_harmonics)
+        segment = self._segment(*ends, metric)
+        located = segment.locate(self.growth, growth)
+        if located is not None:
+            place = segment.place(located.point)
+            yield Found(place, "peak", located, self.system.fourier)
+        self.system.fourier = solved
+
+    def _folded(self, segment: Segment) -> Iterator[Found]:
+        """Yield where the curve folds."""
+        located = segment.locate(folds)
+        if located is not None:
+            place = segment.place(located.point)
+            yield Found(place, "fold", located, self.system.fourier)
+
+    def _folds(self, segment: Segment, fold: Correction) -> bool:
+        """Return whether the curve folds as finely resolved as its fold is told.
 
         That of the points makes folds of its own where it is hardly enough or changes.
         """
-        before, after, length = segment.before, segment.after, segment.length
-        around = [
-            before.point - length * before.along,
-            before.point,
-            after.point,
-            after.point + length * after.along,
-        ]
-        slopes = segment.slopes(around)
-        return slopes is None or min(slopes) <= 0.0 <= max(slopes)
+        point, self.system.fourier, _ = self.system.kept(fold.point)
+        step = segment.length * fold.along
+        near = PRECISION * segment.length
+        points = [segment.across(point + share * step, near) for share in AROUND]
+        slopes = [folds(each) for each in points if each]
+        return None in points[:2] or min(slopes) <= 0.0 <= max(slopes)
 
     def _changes(
         self, segment: Segment, before: Settled, after: Settled
@@ -140,7 +214,8 @@ class Events:
             kind = crossed(multiplier)
             paired = kind == TORUS
             if located is not None:
-                yield Found(segment.place(located.point), kind, located)
+                place = segment.place(located.point)
+                yield Found(place, kind, located, self.system.fourier)
 
     def _crossing(
         self, segment: Segment, which: int, before: Settled, after: Settled
@@ -177,7 +252,7 @@ class Events:
         It is that of the orbits that are reported, or what their multipliers ask for;
         none if it is that of the curve.
         """
-        own, by_harmonics = self.system.fourier, attrgetter("harmonics")
+        own = self.system.fourier
         finer = max(before.finer, after.finer, key=by_harmonics)
         samples = max(LOCATING.samples, own.samples)
         most = replace(LOCATING, samples=samples, threshold=finer.threshold)
@@ -227,6 +302,11 @@ def _told(found: Sequence[Found], segment: Segment) -> list[Found]:
     return [
         each for each in told if each.name != BRANCH or abs(folds(each.point)) > least
     ]
+
+
+def _zero(growth: tuple[float, float]) -> float:
+    """Return where a growth is zero, over the step, as far as it is linear."""
+    return growth[0] / (growth[0] - growth[1])
 
 
 def excess(multiplier: complex) -> float:

@@ -50,6 +50,8 @@ class Refined(NamedTuple):
     """what further steps would change, over what the last did"""
     beyond: float
     """what still more harmonics would change, over what all steps did"""
+    slope: Linearised
+    """the derivative that the last step had"""
 
 
 def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Refined:
@@ -64,26 +66,32 @@ def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Re
     SingularError
         If the point lies on a fold.
     """
-    residual, slope = system(point)
+    residual, latest = system(point)
     known = system.impulses(harmonics // 2, harmonics)
     before, after, now, sizes = point, point, residual, [_size(residual)]
-    moves = True
+    moves, slope = True, latest
     while moves and (
         len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS)
     ):
+        slope = slope if _served(sizes) else latest
         step = slope.solve(normal, np.append(-now, 0.0))
         before, after = after, after + step
-        now, other = system(after)
+        now, latest = system(after)
         sizes.append(_size(now))
-        slope = slope if sizes[-1] <= CHORD * sizes[-2] else other
         moves = _size(step) > ROUNDING * _size(point[:-1])
     share = system.impulses(harmonics, 2 * harmonics + 1) / known if known else 0.0
     left = _left(sizes) if moves else 1.0
-    return Refined(residual, before, after, left, _beyond(share, harmonics))
+    beyond = _beyond(share, harmonics)
+    return Refined(residual, before, after, left, beyond, slope)
 
 
 def _size(values: Array) -> float:
     return float(np.linalg.norm(values))
+
+
+def _served(sizes: list[float]) -> bool:
+    """Return whether there was a step that left little, from the residuals."""
+    return len(sizes) > 1 and sizes[-1] <= CHORD * sizes[-2]
 
 
 def _left(sizes: list[float]) -> float:

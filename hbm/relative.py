@@ -69,15 +69,15 @@ class RelativeProblem:
         return replace(self, points=self.points._replace(threshold=least))
 
     def first_harmonic(
-        self, relative: ComplexArray, frequency: float, rows: Array
+        self, relative: ComplexArray, frequencies: Array, rows: Array
     ) -> ComplexArray:
         """Return order 1 of linear forms of the motion [m].
 
-        ``relative`` is order 1 of y in several motions, shape ``(motions, rank)``;
-        ``rows`` has shape ``(forms, dofs)``, the result ``(motions, forms)``.
+        ``relative`` is order 1 of y in several motions at about one frequency, shape
+        ``(motions, rank)``; ``rows`` has shape ``(forms, dofs)``, the result
+        ``(motions, forms)``.
         """
-        variable = np.full(len(relative), 1j * frequency)
-        motion = self.condensed.motion(variable, relative, self.force[1:])
+        motion = self.condensed.motion(1j * frequencies, relative, self.force[1:])
         seen: ComplexArray = motion @ rows.T
         return seen
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction
+from hbm.newton import Correction, Linearised
 from hbm.path import Path
 from hbm.refined import Resolved, refined
 from hbm.residual import Balance
@@ -39,6 +39,8 @@ class Estimate:
     """the point after the steps"""
     fourier: FourierBasis
     """its resolution"""
+    slope: Linearised
+    """the derivative of the residual about there"""
 
     @property
     def error(self) -> float:
@@ -105,6 +107,7 @@ class Resolution(ABC):
             self._smoothing(correction, fourier, normal) / size,
             made.corrected,
             finer,
+            made.slope,
         )
 
     def _smoothing(
@@ -160,7 +163,9 @@ class PathResolution(Resolution):
         rank, places = self.rank, [float(point[-1]) for point in points]
         table = np.array([point[rank : 3 * rank] for point in points])
         first = table[:, :rank] - 1j * table[:, rank:]
-        if places.count(places[0]) == len(places):
-            problem, frequency = self._path.at(places[0])
-            return problem.first_harmonic(first, frequency, self._probes)
+        ways = {place: self._path.at(place) for place in places}
+        problem, _ = ways[places[0]]
+        if all(other is problem for other, _ in ways.values()):
+            frequencies = np.array([ways[place][1] for place in places])
+            return problem.first_harmonic(first, frequencies, self._probes)
         return np.vstack([self.phasors([point]) for point in points])

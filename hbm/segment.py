@@ -7,7 +7,7 @@ of a test function is refined by Brent's method, or by bisection where the preci
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -53,17 +53,15 @@ class Segment:
         test: Callable[[Correction], float],
         ends: tuple[float, float] | None = None,
         precision: float = PRECISION,
-        falling: bool = False,
     ) -> Correction | None:
         """Return the point between the two at which ``test`` is zero.
 
         ``ends`` are its values at the two, if they are known better; ``precision`` is
-        over the length of the step; ``falling`` asks for a change from above zero to
-        below. None if it has no change of sign, or if a point between does not
-        converge.
+        over the length of the step. None if it has no change of sign, or if a point
+        between does not converge.
         """
         first, last = ends or (test(self.before), test(self.after))
-        if not first * last < 0.0 or (falling and first < 0.0):
+        if not first * last < 0.0:
             return None
         length = self.length
         if length <= 0.0:
@@ -89,14 +87,13 @@ class Segment:
         except (_LostError, SingularError):
             return None
 
-    def slopes(self, guesses: Sequence[Array]) -> list[float] | None:
-        """Return what is zero at a fold, on the curve across each of some guesses.
+    def across(self, guess: Array, near: float) -> Correction | None:
+        """Return the point of the curve across a guess, with its tangent.
 
-        None if one does not converge.
+        It is known better than to ``near``; None if it does not converge.
         """
-        near = PRECISION * self.length
         try:
-            return [folds(self._at(guess, near)) for guess in guesses]
+            return self._at(guess, near)
         except (_LostError, SingularError):
             return None
 
@@ -128,10 +125,6 @@ class Segment:
         return guess
 
     def _at(self, guess: Array, near: float) -> Correction:
-        """Return the point of the curve across a guess, with its tangent.
-
-        It is known better than to ``near``.
-        """
         direction = self.before.along
         normal = direction / self.scale**2
         found = correct(

@@ -46,6 +46,14 @@ class Line:
         """Return a point that needs nothing more."""
         return correction
 
+    def kept(self, point: Array) -> tuple[Array, object, float]:
+        """Return a point as it is reported, its resolution and its error."""
+        return point, FOURIER, 0.0
+
+    def reported(self, correction: Correction, _: Array) -> tuple[Correction, object]:
+        """Return a point as it is reported, and its resolution."""
+        return correction, FOURIER
+
 
 class Parabola(Line):
     """The curve p = 1 − (x − a)², which folds at a."""
@@ -126,8 +134,8 @@ def found(known: Known, line: Line) -> list[tuple[str, float]]:
             (0.0,),
             along / np.linalg.norm(along),
         )
-        growth = events.growth(solved)
-        ends.append(Settled(solved, known.at(point), FOURIER, False, growth))
+        settled = Settled(solved, known.at(point), FOURIER, False, solved, FOURIER)
+        ends.append(events.directed(settled, np.ones_like))
     between = events.between(ends[0], ends[1], np.ones_like)
     return [(name, located.point[line.component]) for located, name in between]
 

@@ -178,7 +178,8 @@ class Blunt(Resolution):
         self, correction: Correction, fourier: FourierBasis, _: Array
     ) -> Estimate:
         smoothing = 0.1 * fourier.threshold
-        return Estimate(0.0, 0.0, self.sampling, smoothing, correction.point, fourier)
+        point, slope = correction.point, correction.linearised
+        return Estimate(0.0, 0.0, self.sampling, smoothing, point, fourier, slope)
 
 
 def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:

@@ -38,8 +38,10 @@ WAIT = 10
 """points before less is tried again, where more was needed"""
 PERSEVERANCE = 30
 """iterations of Newton after the resolution has been raised"""
-PATIENCE = 3
-"""failures in a row before the resolution is raised"""
+PATIENCE, FEW, PATIENT = 3, 8, 6
+"""failures in a row before the resolution is raised: with fewer harmonics than the
+second the first, else the third; what goes round a corner takes short steps, not more
+"""
 RAISES = 4
 """times that it is raised for failures"""
 NEIGHBOURS, ALIKE = 5, 0.5
@@ -131,7 +133,8 @@ class AdaptiveBalance:
             self._wait = WAIT
         self.fourier = kept
         if self._tolerance is not None:
-            for _ in range(min(times // PATIENCE, RAISES)):
+            patience = PATIENCE if kept.harmonics < FEW else PATIENT
+            for _ in range(min(times // patience, RAISES)):
                 self.fourier, self._wait = self._doubled(True, True), 0
 
     def settle(

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.events import BRANCH
+from hbm.crossings import BRANCH
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Outcome, correct
 from hbm.options import CurveOptions

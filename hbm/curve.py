@@ -10,12 +10,13 @@ import numpy as np
 from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
 from hbm.errors import ContinuationError
-from hbm.events import Events, Settled
+from hbm.events import Events
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction
 from hbm.residual import HarmonicBalance
 from hbm.resolution import PathResolution
+from hbm.settled import Settled
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ONE_SIDED
 from microslip_mechanics.problem import Problem

@@ -5,32 +5,25 @@ Each is located on the curve, and settled as accurately as its points (theory §
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
+from hbm.crossings import BRANCH, Crossings
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome
 from hbm.resolution import PathResolution
-from hbm.segment import PRECISION, ROUGH, ROUGHER, SURE, Segment, folds
+from hbm.segment import PRECISION, SURE, Segment, folds
+from hbm.settled import Settled, by_harmonics
 from hbm.step_control import StepControl
-from microslip_mechanics.arrays import ComplexArray
-from microslip_mechanics.response import MARGIN
 
-LOCATING = FourierBasis(31, 256)
-"""most that is taken, if the curve has no more, to locate a change of stability"""
 STRICT, SHARP = 0.1, ("fold", "peak")
 """share of the error of a point that these events may have: they mark a frequency"""
-LEAP = 0.1
-"""of the change of a multiplier between two points: what is left of its excess where it
-is located, from which on it leaps"""
 UPRIGHT = 5e-3
 """part of the parameter in a unit tangent below which a multiplier +1 is that of a fold
 beside the segment"""
@@ -40,29 +33,8 @@ AROUND = (-0.5, 0.5, -1.5, 1.5)
 """places about a fold, over the step, at which its curve has slopes of both signs"""
 FLAT = 1e-13
 """change of an amplitude, relative, that may be rounding"""
-REAL = 1e-6
-"""imaginary part of a multiplier, over its modulus, below which it is real"""
 ASIDE = 3e-3
 """part of a step by which a peak may be aside"""
-by_harmonics = attrgetter("harmonics")
-TORUS, BRANCH = "Neimark-Sacker", "branch point"
-
-
-class Settled(NamedTuple):
-    """A settled point of a curve, with what its multipliers say and ask for."""
-
-    correction: Correction
-    multipliers: ComplexArray
-    finer: FourierBasis
-    """the resolution that they ask for"""
-    asks: bool
-    """whether that is more than the reported orbit has"""
-    reported: Correction
-    """the point as it is reported, where events are sought"""
-    fourier: FourierBasis
-    """its resolution"""
-    growth: float = math.nan
-    """of its largest amplitude along the curve"""
 
 
 class Found(NamedTuple):
@@ -204,61 +176,11 @@ class Events:
     def _changes(
         self, segment: Segment, before: Settled, after: Settled
     ) -> Iterator[Found]:
-        """Yield where multipliers cross the unit circle, and what that means."""
-        paired = False
-        for which in crossings(before.multipliers, after.multipliers):
-            if paired:  # a conjugate crosses where the one before it does
-                paired = False
-                continue
-            located, multiplier = self._crossing(segment, which, before, after)
-            kind = crossed(multiplier)
-            paired = kind == TORUS
-            if located is not None:
-                place = segment.place(located.point)
-                yield Found(place, kind, located, self.system.fourier)
-
-    def _crossing(
-        self, segment: Segment, which: int, before: Settled, after: Settled
-    ) -> tuple[Correction | None, complex]:
-        """Return where a multiplier crosses the unit circle, if it does, and its value.
-
-        The value is the one next to it that is still outside. A multiplier that leaps
-        over the circle does not cross it: a slider begins to slip there, or sticks for
-        good, and nothing branches.
-        """
-        finer, precision = self._asked(before, after)
-        ends = before.multipliers[which], after.multipliers[which]
-        outside = max(ends, key=abs)
-
-        def growth(correction: Correction) -> float:
-            nonlocal outside  # the bracket shrinks: the last one is the nearest
-            multiplier = self._finest(correction, finer)[which]
-            if excess(multiplier) > 0.0:
-                outside = multiplier
-            return excess(multiplier)
-
-        first, last = map(excess, ends)
-        located = segment.locate(growth, (first, last), precision)
-        if self.recalls and located is not None:
-            leaps = abs(growth(located)) > LEAP * abs(last - first)
-            located = None if leaps else located
-        return located, outside
-
-    def _asked(
-        self, before: Settled, after: Settled
-    ) -> tuple[FourierBasis | None, float]:
-        """Return the resolution of multipliers between two points, and a precision.
-
-        It is that of the orbits that are reported, or what their multipliers ask for;
-        none if it is that of the curve.
-        """
-        own = self.system.fourier
-        finer = max(before.finer, after.finer, key=by_harmonics)
-        samples = max(LOCATING.samples, own.samples)
-        most = replace(LOCATING, samples=samples, threshold=finer.threshold)
-        finer = min(finer, max(own, most, key=by_harmonics), key=by_harmonics)
-        used = finer if finer.harmonics > own.harmonics else None
-        return used, ROUGHER if before.asks or after.asks else ROUGH
+        """Yield where stability changes."""
+        crossings = Crossings(self.system, self.multipliers, self.recalls)
+        for name, located in crossings.between(segment, before, after):
+            place = segment.place(located.point)
+            yield Found(place, name, located, self.system.fourier)
 
     def growth(self, correction: Correction) -> float:
         """Return the change of the largest amplitude along the curve."""
@@ -275,16 +197,6 @@ class Events:
         change = float(sizes[1][place] - sizes[0][place])
         rounding = FLAT * float(sizes[0][place])
         return change / small if abs(change) > rounding else 0.0
-
-    def _finest(
-        self, correction: Correction, finer: FourierBasis | None
-    ) -> ComplexArray:
-        """Return the multipliers at a point, of the orbit with a finer resolution."""
-        point, fourier = correction.point, self.system.fourier
-        if finer is not None:
-            found = self.multipliers.finer(point, finer)
-            point, fourier = (point, fourier) if found is None else (found, finer)
-        return self.multipliers.at(point, fourier)
 
 
 def _told(found: Sequence[Found], segment: Segment) -> list[Found]:
@@ -307,32 +219,3 @@ def _told(found: Sequence[Found], segment: Segment) -> list[Found]:
 def _zero(growth: tuple[float, float]) -> float:
     """Return where a growth is zero, over the step, as far as it is linear."""
     return growth[0] / (growth[0] - growth[1])
-
-
-def excess(multiplier: complex) -> float:
-    """Return by how much the modulus of a multiplier exceeds one."""
-    return float(abs(multiplier) - 1.0 - MARGIN)
-
-
-def crossings(before: ComplexArray, after: ComplexArray) -> range:
-    """Return which Floquet multipliers cross the unit circle between two points.
-
-    A multiplier is known by its place in the order of moduli, the largest first.
-    """
-    return range(*sorted((_outside(before), _outside(after))))
-
-
-def crossed(multiplier: complex) -> str:
-    """Return what happens where a multiplier is on the unit circle.
-
-    At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
-    elsewhere, together with its conjugate, a torus begins.
-    """
-    if abs(multiplier.imag) > REAL * abs(multiplier):
-        return TORUS
-    return BRANCH if multiplier.real > 0.0 else "period doubling"
-
-
-def _outside(multipliers: ComplexArray) -> int:
-    """Return the number of multipliers outside the unit circle."""
-    return int((np.abs(multipliers) > 1.0 + MARGIN).sum())

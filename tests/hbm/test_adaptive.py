@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from hbm.adaptive import PATIENCE, WAIT, AdaptiveBalance
+from hbm.adaptive import PATIENT, WAIT, AdaptiveBalance
 from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
@@ -114,9 +114,9 @@ def test_points_that_fail_go_back_to_what_worked_and_then_to_more() -> None:
 
     system.retreat(1)
     first = system.fourier
-    system.retreat(PATIENCE)
+    system.retreat(PATIENT)
     second = system.fourier
-    system.retreat(10 * PATIENCE)
+    system.retreat(10 * PATIENT)
     third = system.fourier
 
     # Where much was to spare less was tried; it failed, and is not tried for a while.

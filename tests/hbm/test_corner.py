@@ -138,7 +138,10 @@ def test_a_direction_in_which_nothing_is_found_is_tried_once() -> None:
     assert calls <= 25
 
 
-def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back() -> None:
+@pytest.mark.parametrize("tolerance", [1e-2, 8e-3, 2e-3])
+def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back(
+    tolerance: float,
+) -> None:
     """Where its slider begins to slip the tangents of both sides meet head on."""
     scene = load_scene("friction-beam")
     problem = problem_of(scene)
@@ -146,7 +149,7 @@ def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back() -> None:
     options = CurveOptions(
         TURN * curve.lowest,
         TURN * curve.highest,
-        error=curve.tolerance,
+        error=tolerance,
         stability=False,
     )
 
@@ -154,9 +157,12 @@ def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back() -> None:
     points = list(itertools.islice(traced, 400))
     found = np.array([each.frequency for each in points])
 
-    assert found.size < 300  # measured 142; it went to and fro without end
+    assert found.size < 300  # measured 140; it went to and fro without end
     assert found[-1] == TURN * curve.highest
-    # Neither thrown back at a corner, nor folded where harmonics hardly do.
+    # Neither thrown back at a corner, as one tolerance was, nor folded where harmonics
+    # hardly do; where their number changes a point moves by 4e-5.
     back = np.maximum.accumulate(found) / found - 1.0
-    assert back.max() < 1e-5  # measured 5e-6 at a corner that is missed, 1.4e-5 before
+    assert back.max() < 1e-4
+    # Short steps round the corner, not many harmonics: they were 511.
+    assert max(each.harmonics for each in points) <= 127
     assert {each.event for each in points} == {"", "peak"}

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from numpy.polynomial import polynomial
 
-from hbm.events import Events, Settled
+from hbm.events import Events
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Outcome
+from hbm.settled import Settled
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
 from systems import Dense

@@ -1,0 +1,133 @@
+"""Where Floquet multipliers cross the unit circle between two points (theory §6)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hbm.adaptive import AdaptiveBalance
+from hbm.fourier import FourierBasis
+from hbm.multipliers import Multipliers
+from hbm.newton import Correction
+from hbm.segment import ROUGH, ROUGHER, Segment
+from hbm.settled import Settled, by_harmonics
+from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.response import MARGIN
+
+LOCATING = FourierBasis(31, 256)
+"""most that is taken, if the curve has no more, to locate a change of stability"""
+LEAP = 0.1
+"""of the change of a multiplier between two points: what is left of its excess where it
+is located, from which on it leaps"""
+REAL = 1e-6
+"""imaginary part of a multiplier, over its modulus, below which it is real"""
+TORUS, BRANCH = "Neimark-Sacker", "branch point"
+
+
+@dataclass(frozen=True, slots=True)
+class Crossings:
+    """Finds them along a path."""
+
+    system: AdaptiveBalance
+    multipliers: Multipliers
+    recalls: bool
+    """whether a contact has a memory"""
+
+    def between(
+        self, segment: Segment, before: Settled, after: Settled
+    ) -> Iterator[tuple[str, Correction]]:
+        """Yield what happens where a multiplier crosses the circle, and the point."""
+        paired = False
+        for which in crossings(before.multipliers, after.multipliers):
+            if paired:  # a conjugate crosses where the one before it does
+                paired = False
+                continue
+            located, multiplier = self._crossing(segment, which, before, after)
+            kind = crossed(multiplier)
+            paired = kind == TORUS
+            if located is not None:
+                yield kind, located
+
+    def _crossing(
+        self, segment: Segment, which: int, before: Settled, after: Settled
+    ) -> tuple[Correction | None, complex]:
+        """Return where a multiplier crosses the unit circle, if it does, and its value.
+
+        The value is the one next to it that is still outside. A multiplier that leaps
+        over the circle does not cross it: a slider begins to slip there, or sticks for
+        good, and nothing branches.
+        """
+        finer, precision = self._asked(before, after)
+        ends = before.multipliers[which], after.multipliers[which]
+        outside = max(ends, key=abs)
+
+        def growth(correction: Correction) -> float:
+            nonlocal outside  # the bracket shrinks: the last one is the nearest
+            multiplier = self._finest(correction, finer)[which]
+            if excess(multiplier) > 0.0:
+                outside = multiplier
+            return excess(multiplier)
+
+        first, last = map(excess, ends)
+        located = segment.locate(growth, (first, last), precision)
+        if self.recalls and located is not None:
+            leaps = abs(growth(located)) > LEAP * abs(last - first)
+            located = None if leaps else located
+        return located, outside
+
+    def _asked(
+        self, before: Settled, after: Settled
+    ) -> tuple[FourierBasis | None, float]:
+        """Return the resolution of multipliers between two points, and a precision.
+
+        It is that of the orbits that are reported, or what their multipliers ask for;
+        none if it is that of the curve.
+        """
+        own = self.system.fourier
+        finer = max(before.finer, after.finer, key=by_harmonics)
+        samples = max(LOCATING.samples, own.samples)
+        most = replace(LOCATING, samples=samples, threshold=finer.threshold)
+        finer = min(finer, max(own, most, key=by_harmonics), key=by_harmonics)
+        used = finer if finer.harmonics > own.harmonics else None
+        return used, ROUGHER if before.asks or after.asks else ROUGH
+
+    def _finest(
+        self, correction: Correction, finer: FourierBasis | None
+    ) -> ComplexArray:
+        """Return the multipliers at a point, of the orbit with a finer resolution."""
+        point, fourier = correction.point, self.system.fourier
+        if finer is not None:
+            found = self.multipliers.finer(point, finer)
+            point, fourier = (point, fourier) if found is None else (found, finer)
+        return self.multipliers.at(point, fourier)
+
+
+def excess(multiplier: complex) -> float:
+    """Return by how much the modulus of a multiplier exceeds one."""
+    return float(abs(multiplier) - 1.0 - MARGIN)
+
+
+def crossings(before: ComplexArray, after: ComplexArray) -> range:
+    """Return which Floquet multipliers cross the unit circle between two points.
+
+    A multiplier is known by its place in the order of moduli, the largest first.
+    """
+    return range(*sorted((_outside(before), _outside(after))))
+
+
+def crossed(multiplier: complex) -> str:
+    """Return what happens where a multiplier is on the unit circle.
+
+    At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
+    elsewhere, together with its conjugate, a torus begins.
+    """
+    if abs(multiplier.imag) > REAL * abs(multiplier):
+        return TORUS
+    return BRANCH if multiplier.real > 0.0 else "period doubling"
+
+
+def _outside(multipliers: ComplexArray) -> int:
+    """Return the number of multipliers outside the unit circle."""
+    return int((np.abs(multipliers) > 1.0 + MARGIN).sum())

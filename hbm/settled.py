@@ -1,0 +1,30 @@
+"""A settled point of a curve, with what events beside it need."""
+
+from __future__ import annotations
+
+import math
+from operator import attrgetter
+from typing import NamedTuple
+
+from hbm.fourier import FourierBasis
+from hbm.newton import Correction
+from microslip_mechanics.arrays import ComplexArray
+
+by_harmonics = attrgetter("harmonics")
+
+
+class Settled(NamedTuple):
+    """A settled point of a curve, with what its multipliers say and ask for."""
+
+    correction: Correction
+    multipliers: ComplexArray
+    finer: FourierBasis
+    """the resolution that they ask for"""
+    asks: bool
+    """whether that is more than the reported orbit has"""
+    reported: Correction
+    """the point as it is reported, where events are sought"""
+    fourier: FourierBasis
+    """its resolution"""
+    growth: float = math.nan
+    """of its largest amplitude along the curve"""

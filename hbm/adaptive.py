@@ -230,6 +230,16 @@ class AdaptiveBalance:
             return point, self.settled, self.estimate.before
         return self.estimate.corrected, self.estimate.fourier, self.estimate.error
 
+    @property
+    def aside(self) -> float:
+        """Error of the parameter of the settled point, a fold, as it is reported."""
+        if not self._estimates:
+            return math.nan
+        if self.estimate is None or math.isinf(self.estimate.error):
+            return math.inf
+        uncorrected = self.estimate.shift if self._tolerance is None else 0.0
+        return uncorrected + self.estimate.aside
+
     def reported(
         self, correction: Correction, scale: Array
     ) -> tuple[Correction, FourierBasis]:

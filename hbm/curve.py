@@ -52,8 +52,9 @@ class Curve:
             if self.events and correction.tangent is not None:
                 after = self.events.directed(after, metric)
             if self.events and before is not None and correction.joined:
-                for located, name in self.events.between(before, after, metric):
-                    yield self._made(located, name)[0]
+                for event in self.events.between(before, after, metric):
+                    told, _ = self._made(event.correction, event.name)
+                    yield replace(told, parameter_error=event.error)
             yield made
             before = after
 

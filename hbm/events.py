@@ -5,6 +5,7 @@ Each is located on the curve, and settled as accurately as its points (theory §
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -14,6 +15,7 @@ import numpy as np
 from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
 from hbm.crossings import BRANCH, Crossings
+from hbm.event_error import fold_error, peak_error
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome
@@ -29,12 +31,19 @@ UPRIGHT = 5e-3
 beside the segment"""
 NEAR = 0.4
 """share of a step within which a multiplier +1 is that of a fold in the same step"""
-AROUND = (-0.5, 0.5, -1.5, 1.5)
-"""places about a fold, over the step, at which its curve has slopes of both signs"""
 FLAT = 1e-13
 """change of an amplitude, relative, that may be rounding"""
 ASIDE = 3e-3
 """part of a step by which a peak may be aside"""
+
+
+class Event(NamedTuple):
+    """A settled event of a curve."""
+
+    correction: Correction
+    name: str
+    error: float
+    """of the parameter where it lies; NaN if nothing is known of it"""
 
 
 class Found(NamedTuple):
@@ -46,6 +55,8 @@ class Found(NamedTuple):
     point: Correction
     fourier: FourierBasis
     """the resolution with which it was located"""
+    bend: float = math.nan
+    """of a peak or a fold: change, along the segment, of what is zero there"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +74,7 @@ class Events:
 
     def between(
         self, before: Settled, after: Settled, metric: Metric
-    ) -> Iterator[tuple[Correction, str]]:
+    ) -> Iterator[Event]:
         """Yield the events between two neighbouring points, in their order."""
         fourier = self.system.fourier
         self.system.fourier = self.system.settled
@@ -75,12 +86,12 @@ class Events:
         ]
         for each in _told(found, segment):
             self.system.fourier = each.fourier
-            event = self._settled(each, segment, metric)
-            if event is None or (
-                each.name == "fold" and not self._folds(segment, event)
-            ):
+            settled = self._settled(each, segment, metric)
+            if settled is None:
                 continue
-            yield event, each.name
+            error = self._error(each, settled, segment, metric)
+            if error is not None:
+                yield Event(settled, each.name, error)
         self.system.fourier = fourier
 
     def directed(self, settled: Settled, metric: Metric) -> Settled:
@@ -151,7 +162,8 @@ class Events:
         located = segment.locate(self.growth, growth)
         if located is not None:
             place = segment.place(located.point)
-            yield Found(place, "peak", located, self.system.fourier)
+            bend = (growth[0] - growth[1]) / segment.length
+            yield Found(place, "peak", located, self.system.fourier, bend)
         self.system.fourier = solved
 
     def _folded(self, segment: Segment) -> Iterator[Found]:
@@ -159,19 +171,20 @@ class Events:
         located = segment.locate(folds)
         if located is not None:
             place = segment.place(located.point)
-            yield Found(place, "fold", located, self.system.fourier)
+            turned = abs(folds(segment.after) - folds(segment.before))
+            bend = turned / segment.length
+            yield Found(place, "fold", located, self.system.fourier, bend)
 
-    def _folds(self, segment: Segment, fold: Correction) -> bool:
-        """Return whether the curve folds as finely resolved as its fold is told.
-
-        That of the points makes folds of its own where it is hardly enough or changes.
-        """
-        point, self.system.fourier, _ = self.system.kept(fold.point)
-        step = segment.length * fold.along
-        near = PRECISION * segment.length
-        points = [segment.across(point + share * step, near) for share in AROUND]
-        slopes = [folds(each) for each in points if each]
-        return None in points[:2] or min(slopes) <= 0.0 <= max(slopes)
+    def _error(
+        self, found: Found, settled: Correction, segment: Segment, metric: Metric
+    ) -> float | None:
+        """Return the error of an event's parameter; None if it is no event."""
+        if found.name == "fold":
+            return fold_error(self.system, segment, settled, found.bend)
+        if found.name != "peak":
+            return math.nan
+        seen = self.resolution, self.growth
+        return peak_error(self.system, *seen, settled, found.bend, metric)
 
     def _changes(
         self, segment: Segment, before: Settled, after: Settled

@@ -20,9 +20,10 @@ from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 
 SMALLEST_STEP = 1e-3
-LEAST, UNIT, POINTS = 0.01, 0.1, 300
-"""drive at which an arc begins and what counts as one unit of it, over the whole; the
-most points of the arc"""
+LEAST, UNIT = 0.01, 0.1
+"""drive at which an arc begins and what counts as one unit of it, over the whole"""
+PATIENCE = 1000
+"""evaluations after which an arc is given up; those that arrive take some 300"""
 FOURIERS = (FourierBasis(3, 128), FourierBasis(7, 128), FourierBasis(15, 256))
 """coarse resolutions that are tried in turn"""
 SMOOTH = 1e4
@@ -125,13 +126,9 @@ def _along_an_arc(
     balance = ParametricBalance(driven, fourier, mask, lambda _: UNIT, (0.0, 1.0))
     still, _ = driven(LEAST)
     start = HarmonicBalance(still, fourier, mask).point(problem.rest[None, :], LEAST)
-    for last in trace(
-        effort.counted(balance, fourier.harmonics),
-        start,
-        1.0,
-        metric=scale,
-        control=replace(control, most_points=POINTS),
-    ):
+    counted = effort.counted(balance, fourier.harmonics)
+    system = Effort(PATIENCE).counted(counted, 1)
+    for last in trace(system, start, 1.0, metric=scale, control=control):
         point = last.point
     if point[-1] < 1.0:
         raise ContinuationError(f"the drive falls again at {PLACE}", parameter)

@@ -12,7 +12,7 @@ import numpy as np
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Linearised
 from hbm.path import Path
-from hbm.refined import Resolved, refined
+from hbm.refined import Refined, Resolved, refined
 from hbm.residual import Balance
 from microslip_mechanics.arrays import Array, ComplexArray
 
@@ -35,6 +35,10 @@ class Estimate:
     """by the distance of the samples"""
     smoothing: float
     """by friction that is not resolved"""
+    shift: float
+    """change of the parameter by the steps, across a fold"""
+    aside: float
+    """error of the parameter after them"""
     corrected: Array
     """the point after the steps"""
     fourier: FourierBasis
@@ -93,18 +97,22 @@ class Resolution(ABC):
             for right in (correction.residual, low - correction.residual)
         )
         solved = point - newton
-        before, solved, resampled, after, last = self.amplitudes(
-            (point, solved, solved - sampled, made.before, made.corrected)
+        points = (point, solved, solved - sampled, made.before, made.corrected)
+        sizes, places = (
+            self.amplitudes(points),
+            np.array([each[-1:] for each in points]),
         )
-        size = float(before.max(initial=0.0)) or 1.0
-        truncation = made.beyond * _largest(last - resampled)
-        lost = math.isinf(made.left)
-        truncation += math.inf if lost else made.left * _largest(last - after)
+        change, truncation, sampling = _changes(sizes, made)
+        shift, *aside = _changes(places, made)
+        smoothing, moved = self._smoothing(correction, fourier, normal)
+        size = float(sizes[0].max(initial=0.0)) or 1.0
         return Estimate(
-            _largest(last - before) / size,
+            change / size,
             truncation / size,
-            _largest(resampled - solved) / size,
-            self._smoothing(correction, fourier, normal) / size,
+            sampling / size,
+            smoothing / size,
+            shift,
+            sum(aside) + moved,
             made.corrected,
             finer,
             made.slope,
@@ -112,15 +120,16 @@ class Resolution(ABC):
 
     def _smoothing(
         self, correction: Correction, fourier: FourierBasis, normal: Array
-    ) -> float:
-        """Return by how much amplitudes change if friction is resolved."""
+    ) -> tuple[float, float]:
+        """Return what resolved friction changes of amplitudes and the parameter."""
         if fourier.threshold == 0.0:
-            return 0.0
+            return 0.0, 0.0
         change = self._resolved(correction, fourier, normal)
         smooth = correction.point
         sharp, smooth = self.phasors((smooth + change, smooth))
         moved = _largest(np.abs(sharp) - np.abs(smooth))
-        return max(moved, TURNING * _largest(np.abs(sharp - smooth)))
+        moved = max(moved, TURNING * _largest(np.abs(sharp - smooth)))
+        return moved, abs(float(change[-1]))
 
     def _resolved(
         self, correction: Correction, fourier: FourierBasis, normal: Array
@@ -130,6 +139,19 @@ class Resolution(ABC):
         other, _ = self.at(smoother).residual(correction.point)
         slope = (other - correction.residual) / SMOOTHER
         return correction.linearised.solve(normal, np.append(slope, 0.0))
+
+
+def _changes(values: Array, made: Refined) -> tuple[float, float, float]:
+    """Return how values change by steps, and how far they are off after them.
+
+    That is by harmonics, and by samples. The rows of ``values`` are those of a point,
+    of it solved, solved with more samples, before the last step, and after it.
+    """
+    before, solved, resampled, after, last = values
+    truncation = made.beyond * _largest(last - resampled)
+    lost = math.isinf(made.left)
+    truncation += math.inf if lost else made.left * _largest(last - after)
+    return _largest(last - before), truncation, _largest(resampled - solved)
 
 
 def _largest(changes: Array) -> float:

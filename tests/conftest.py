@@ -147,6 +147,7 @@ def small_curve() -> ResponseCurve:
         unstable=np.array([-1.0, 0.0, 1.0, 2.0]),
         event=("", "peak", "fold", ""),
         parameter=2.0 * np.pi * np.array([130.0, 131.0, 133.0, 134.0]),
+        parameter_error=np.array([np.nan, 1e-3, 1e-4, np.nan]),
         along="",
         ending="complete",
     )

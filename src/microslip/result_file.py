@@ -20,6 +20,8 @@ from microslip_mechanics.thinning import thinned
 from microslip_mechanics.time_history import TimeHistory, joined
 
 TEXTS = ("kind", "scene", "command")
+LATER = ("parameter_error",)
+"""what files of earlier versions do not have"""
 CHUNK = 50_000
 """rows that are read at a time"""
 
@@ -164,6 +166,8 @@ def _variable(file: netcdf_file, name: str, dimensions: tuple[str, ...]) -> obje
     sizes = [file.dimensions.get(each) or 0 for each in dimensions]
     if name not in file.variables and 0 in sizes:
         return () if "name" in dimensions else np.zeros(sizes)
+    if name not in file.variables and name in LATER:
+        return np.full(sizes, np.nan)
     data = file.variables[name].data
     return _names(data) if data.dtype.kind == "S" else data.astype(float)
 

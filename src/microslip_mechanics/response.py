@@ -53,6 +53,8 @@ class PeriodicResponse:
     """what the point is located as: peak, fold, …; empty for a point of the trace"""
     parameter: float = np.nan
     """of the scene, along which the point was found; ω itself along frequency"""
+    parameter_error: float = np.nan
+    """estimated one of the parameter at which a peak or a fold lies; NaN for others"""
     shapes: Array | None = None
     """motion of the coordinates of a reduced structure, shape (dofs, coordinates)"""
 
@@ -129,6 +131,8 @@ class ResponseCurve:
     """what each point is located as: peak, fold, …; empty for points of the trace"""
     parameter: Array
     """what the curve is followed along, in SI units; ω itself along frequency"""
+    parameter_error: Array
+    """estimated one of where a peak or a fold lies; NaN for other points, (points,)"""
     along: str
     """name of that parameter; empty along frequency"""
     ending: str
@@ -175,6 +179,7 @@ def response_curve(
         column("unstable"),
         tuple(point.event for point in points),
         column("parameter"),
+        column("parameter_error"),
         along,
         ending,
     )

@@ -138,7 +138,7 @@ def found(known: Known, line: Line) -> list[tuple[str, float]]:
         settled = Settled(solved, known.at(point), FOURIER, False, solved, FOURIER)
         ends.append(events.directed(settled, np.ones_like))
     between = events.between(ends[0], ends[1], np.ones_like)
-    return [(name, located.point[line.component]) for located, name in between]
+    return [(name, located.point[line.component]) for located, name, _ in between]
 
 
 def test_rounding_is_no_growth_of_an_amplitude() -> None:

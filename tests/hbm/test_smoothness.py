@@ -179,7 +179,8 @@ class Blunt(Resolution):
     ) -> Estimate:
         smoothing = 0.1 * fourier.threshold
         point, slope = correction.point, correction.linearised
-        return Estimate(0.0, 0.0, self.sampling, smoothing, point, fourier, slope)
+        errors = 0.0, 0.0, self.sampling, smoothing, 0.0, 0.0
+        return Estimate(*errors, point, fourier, slope)
 
 
 def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:

@@ -123,6 +123,20 @@ def test_file_without_a_variable_is_no_result(
         load(saved)
 
 
+def test_curve_of_an_earlier_version_has_no_errors_of_its_parameter(
+    small_curve: ResponseCurve, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kind, schema = SCHEMAS["frequency response curve"]
+    earlier = {name: row for name, row in schema.items() if name != "parameter_error"}
+    with monkeypatch.context() as patch:
+        patch.setitem(SCHEMAS, "frequency response curve", (kind, earlier))
+        save(tmp_path / "result.nc", Stored(small_curve, SCENE, COMMAND))
+
+    unknown = np.full(len(small_curve.frequency), np.nan)
+    expected = dataclasses.replace(small_curve, parameter_error=unknown)
+    check_same(expected, load(tmp_path / "result.nc").result)
+
+
 def test_every_field_is_a_variable_or_an_attribute(result: Result, saved: Path) -> None:
     names = {field.name for field in dataclasses.fields(result)}
 

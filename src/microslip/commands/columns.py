@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 WIDTH = 10
@@ -42,3 +43,8 @@ def decimal(value: float, largest: float, decimals: int, width: int = WIDTH) -> 
     if NOTHING < abs(largest) < 10.0 ** (DIGITS - 1 - decimals):
         return f"{value:{width}.{DIGITS}e}"
     return f"{value:z{width}.{decimals}f}"
+
+
+def about(error: float, unit: str = "") -> str:
+    """Return the error of a number, to stand behind it; nothing if it is not known."""
+    return f" ± {error:.1g}{unit}" if math.isfinite(error) else ""

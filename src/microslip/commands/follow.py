@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import SHOWN, decimal, headed, titled
+from microslip.commands.columns import SHOWN, about, decimal, headed, titled
 
 if TYPE_CHECKING:
     from microslip_mechanics.response import ResponseCurve
@@ -89,5 +89,6 @@ def _table(curve: ResponseCurve) -> str:
             decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12),
             f"{curve.multiplier[place]:11.5f}",
         )
-        lines.append(" ".join(values) + f"  {curve.event[place]}")
+        event = curve.event[place] + about(curve.parameter_error[place])
+        lines.append(" ".join(values) + f"  {event}")
     return "\n".join(lines)

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import SHOWN, decimal, headed, titled
+from microslip.commands.columns import SHOWN, about, decimal, headed, titled
 
 if TYPE_CHECKING:
     from microslip.experiments import Curve
@@ -122,7 +122,11 @@ def _events(curve: ResponseCurve) -> str:
             hertz = curve.frequency[place] / math.tau
             largest = 1e3 * curve.amplitude[place].max()
             size = decimal(largest, largest, 6, 12)
-            lines.append(f"{name:<16} {hertz:12.6f} Hz {size} mm")
+            aside = about(curve.parameter_error[place] / math.tau)
+            lines.append(
+                f"{name:<16} {hertz:12.6f} Hz{aside:<10} {size} mm"
+                f"{about(100.0 * curve.error[place], ' %')}".rstrip()
+            )
     unstable = curve.unstable > 0
     if unstable.any():
         hertz = curve.frequency[unstable] / math.tau

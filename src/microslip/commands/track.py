@@ -7,14 +7,16 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import decimal
+from microslip.commands.columns import about, decimal
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from microslip.studies.track import Tracked
 
-HEADER = "value           event             frequency [Hz]  amplitude [mm]    error"
+HEADER = (
+    "value           event             frequency [Hz]           amplitude [mm]    error"
+)
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -70,6 +72,7 @@ def _run(options: argparse.Namespace) -> int:
 def _lines(each: Tracked) -> str:
     rows = [
         f"{each.value:<15} {event.name:<16} {event.frequency / math.tau:15.6f} "
+        f"{about(event.frequency_error / math.tau):<10}"
         f"{decimal(1e3 * event.amplitude, 1e3 * event.amplitude, 6, 15)} "
         f"{event.error:8.1e}"
         for event in each.events
@@ -90,12 +93,14 @@ def _keep(
     from microslip.store import save_figure, save_table
     from microslip.studies.axis import axis
 
-    names = (options.key, "event", "frequency_hz", "amplitude_m", "error")
+    numbers = ("frequency_hz", "frequency_error_hz", "amplitude_m", "error")
+    names = (options.key, "event", *numbers)
     rows = [
         (
             each.value,
             event.name,
             event.frequency / math.tau,
+            event.frequency_error / math.tau,
             event.amplitude,
             event.error,
         )

@@ -20,6 +20,8 @@ class Event:
     """peak, fold, branch point, …"""
     frequency: float
     """[rad/s]"""
+    frequency_error: float
+    """estimated [rad/s]; NaN if it is not known"""
     amplitude: float
     """largest of the probes [m]"""
     error: float
@@ -75,6 +77,7 @@ def _events(curve: ResponseCurve) -> tuple[Event, ...]:
         Event(
             name,
             float(curve.frequency[place]),
+            float(curve.parameter_error[place]),
             float(curve.amplitude[place].max()),
             float(curve.error[place]),
         )

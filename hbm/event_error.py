@@ -1,0 +1,79 @@
+"""How far from its true place on a curve a peak or a fold may lie (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from hbm.adaptive import AdaptiveBalance
+from hbm.arc_step import Metric
+from hbm.newton import Correction
+from hbm.resolution import PathResolution
+from hbm.segment import PRECISION, Segment, folds
+
+AROUND = (-0.5, 0.5, -1.5, 1.5)
+"""places about a fold, over the step, at which its curve has slopes of both signs"""
+
+
+def fold_error(
+    system: AdaptiveBalance, segment: Segment, fold: Correction, bend: float
+) -> float | None:
+    """Return the error of a fold's parameter; None if the curve does not fold there.
+
+    That of the points makes folds of its own where its resolution is hardly enough or
+    changes: what counts is the one with which the fold is reported. To the error of
+    that point comes as much as the curve goes on to there, where it is not yet upright.
+
+    Parameters
+    ----------
+    system
+        At the resolution of the segment; is left at that of the fold.
+    segment
+        The step in which the fold was found.
+    fold
+        As it was settled last.
+    bend
+        Change of :func:`~hbm.segment.folds` along the segment.
+    """
+    error = system.aside
+    point, system.fourier, _ = system.kept(fold.point)
+    step, near = segment.length * fold.along, PRECISION * segment.length
+    places = [point + share * step for share in (0.0, *AROUND)]
+    at, *around = [segment.across(place, near) for place in places]
+    slopes = [folds(each) for each in around if each]
+    if None not in around[:2] and not min(slopes) <= 0.0 <= max(slopes):
+        return None
+    return error + folds(at) ** 2 / bend if at else math.inf
+
+
+def peak_error(
+    system: AdaptiveBalance,
+    resolution: PathResolution,
+    growth: Callable[[Correction], float],
+    peak: Correction,
+    bend: float,
+    metric: Metric,
+) -> float:
+    """Return the error of a peak's parameter.
+
+    As far as errors of amplitudes leave open which is the largest, and as far as it
+    lies elsewhere where it is resolved more finely.
+
+    Parameters
+    ----------
+    system, resolution
+        Of the curve.
+    growth
+        Of the largest amplitude along the curve.
+    peak
+        As it was settled last.
+    bend
+        Change of the growth along the segment.
+    metric
+        Of the curve.
+    """
+    point, _, error = system.kept(peak.point)
+    largest = float(resolution.amplitudes([point]).max())
+    doubt = math.sqrt(4.0 * error * largest / bend)
+    finer, _ = system.reported(peak, metric(peak.point))
+    return (doubt + abs(growth(finer)) / bend) * abs(folds(peak))

@@ -28,6 +28,8 @@ class Line:
     fourier = settled = FOURIER
     component = -1
     """that runs from 0 to 1"""
+    aside = 0.0
+    """error of the parameter at a fold"""
 
     def __init__(self, start: float) -> None:
         self.start = start

@@ -111,7 +111,7 @@ def test_a_branch_point_without_a_branch_is_named(
     assert main(["frc", "duffing", *words, "--branches", "-o", curve]) == 0
 
     lines = capsys.readouterr().out.splitlines()
-    places = [line.split()[-4] for line in lines if line.startswith("branch point")]
+    places = [line.split()[2] for line in lines if line.startswith("branch point")]
     missing = [line.split()[-2] for line in lines if line.startswith("no branch is")]
     assert len(places) == 2
     assert missing == (places if barren else [])

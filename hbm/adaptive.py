@@ -34,6 +34,8 @@ SHARPER = 4.0
 """times that a threshold velocity falls where friction is to be resolved better"""
 MARKED = 127
 """harmonics from which an event is no more accurate than any other point"""
+SHORT = 0.01
+"""step from which on less is tried"""
 WAIT = 10
 """points before less is tried again, where more was needed"""
 PERSEVERANCE = 30
@@ -114,11 +116,15 @@ class AdaptiveBalance:
         waves = (reported[orders] / scale[orders]).reshape(fourier.harmonics, 2, rank)
         return self._superharmonics.passed(waves[:, 0] - 1j * waves[:, 1], step)
 
-    def keep(self) -> None:
-        """Let the next point have the resolution that the last one asks for."""
+    def keep(self, step: float = math.inf) -> None:
+        """Let the next point have the resolution that the last one asks for.
+
+        A coarser one only after a step that is longer than what this may move a point:
+        it would not find the way round a corner that the finer one has seen.
+        """
         self._kept, self._wait = self.settled, self._wait - 1
         self._superharmonics.keep()
-        if self.estimate is not None and self._wait <= 0:
+        if self.estimate is not None and self._wait <= 0 and step >= SHORT:
             self.fourier, self._sharpest = self._coarser(self.estimate), 0.0
 
     def retreat(self, times: int) -> None:

@@ -59,7 +59,7 @@ def next_point(
             passed = settler.overlooks(candidate.point, scale, step)
             seen = not passed or step <= control.narrowest
             if (close and smooth and seen) or step <= control.smallest:
-                settler.keep()
+                settler.keep(step)
                 candidate.linearised.forget()
                 if not smooth:
                     candidate = _away(candidate, past.predict(0.0), scale, step)

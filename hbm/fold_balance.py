@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
@@ -102,7 +103,7 @@ class FoldBalance(Unsettled):
         self._settled = correction
         return correction
 
-    def keep(self) -> None:
+    def keep(self, step: float = math.inf) -> None:  # noqa: ARG002
         """Take the null vectors of the last point as borders."""
         if self._settled is not None:
             self.begin(self._settled)

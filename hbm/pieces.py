@@ -13,7 +13,7 @@ from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import correct_at, trace
 from hbm.corner import round_corner
 from hbm.effort import Effort
-from hbm.errors import ContinuationError
+from hbm.errors import PLACE, ContinuationError
 from hbm.homotopy import approaches
 from hbm.newton import Correction
 from hbm.path import Path
@@ -39,7 +39,7 @@ class Pieces:
 
     A curve that folds back and returns to ``start``, that stops, or that does not
     begin, is followed from ``end`` as well; in the last case if Newton's iteration
-    from rest begins it there.
+    from rest begins it there. If both return, what lies between is sought.
     """
 
     path: Path
@@ -52,23 +52,55 @@ class Pieces:
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
-        last: Correction | None = None
+        there: list[float] = []
         stopped: ContinuationError | None = None
         try:
-            for last in self._from(self.start, self.end):
-                yield last
+            yield from self._noted(self._from(self.start, self.end), there)
         except ContinuationError as error:
             stopped = error
-        if stopped is None and (last is None or last.point[-1] == self.end):
+        if stopped is None and there[-1:] in ([], [1.0]):
             return
-        again = FIRST if last is not None else ()
+        back: list[float] = []
+        again = FIRST if there else ()
         try:
-            for last in self._from(self.end, self.start, again):
-                yield last
+            yield from self._noted(self._from(self.end, self.start, again), back)
         except ContinuationError as error:
             raise stopped or error from None
-        if stopped is not None and last is not None and last.point[-1] != self.start:
+        if back[-1:] in ([], [0.0]):
+            return
+        if stopped is not None:
             raise stopped
+        if max(there) < min(back):
+            yield from self._between(max(there))
+
+    def _noted(
+        self, corrections: Iterator[Correction], shares: list[float]
+    ) -> Iterator[Correction]:
+        """Yield corrections, and note the share of the range before each of them."""
+        for each in corrections:
+            shares.append(
+                (float(each.point[-1]) - self.start) / (self.end - self.start)
+            )
+            yield each
+
+    def _between(self, reached: float) -> Iterator[Correction]:
+        """Yield corrections from beyond where curves from both ends turn back.
+
+        ``reached`` is the share of the range up to where the first does.
+        """
+        where = self.start + reached * (self.end - self.start)
+        guess = self._again(where, self.end, iter(LEAPS))
+        last: Correction | None = None
+        if guess is not None:
+            for last in self._cornered(guess, self.end):
+                yield last
+        if last is None or last.point[-1] != self.end:
+            raise ContinuationError(
+                f"the curve turns back at {PLACE}, and that from the other end of the "
+                "range before it comes there: what lies between was not found; a "
+                "smaller tolerance, or more harmonics, may lead round the corner",
+                where,
+            )
 
     def _from(
         self, begin: float, end: float, first: tuple[float, ...] = FIRST

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Protocol
 
 from hbm.newton import Correction, Small
@@ -33,8 +34,8 @@ class Settler(Protocol):
         ``scale`` is the unit of arc of each component.
         """
 
-    def keep(self) -> None:
-        """Learn that the last point is kept."""
+    def keep(self, step: float = math.inf) -> None:
+        """Learn that the last point is kept, and the step that led to it."""
 
     def retreat(self, times: int) -> None:
         """Learn that the last point was not kept, for the n-th time in a row."""
@@ -64,7 +65,7 @@ class Unsettled:
         """Return that it was not."""
         return False
 
-    def keep(self) -> None:
+    def keep(self, step: float = math.inf) -> None:
         """Do nothing."""
 
     def retreat(self, times: int) -> None:

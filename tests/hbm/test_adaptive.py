@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from hbm.adaptive import PATIENT, WAIT, AdaptiveBalance
+from hbm.adaptive import PATIENT, SHORT, WAIT, AdaptiveBalance
 from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
@@ -132,6 +132,20 @@ def test_points_that_fail_go_back_to_what_worked_and_then_to_more() -> None:
         system.keep()
         assert system.fourier == first
     system.keep()
+    assert system.fourier == lower
+
+
+def test_less_is_not_tried_after_a_short_step() -> None:
+    system, guess = adaptive(block(), tolerance=3e-2, start=FourierBasis(31, 1024))
+    correct_at(system, guess, CONTROL, system)
+    lower = system.fourier
+    system.retreat(1)
+
+    for _ in range(WAIT):
+        system.keep(0.5 * SHORT)
+    assert (system.fourier.harmonics, system.fourier.samples) == (31, 1024)
+
+    system.keep(SHORT)
     assert system.fourier == lower
 
 

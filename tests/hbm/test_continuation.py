@@ -292,7 +292,7 @@ class Picky(Unsettled):
             return dataclasses.replace(correction, outcome=Outcome.STALLED)
         return correction
 
-    def keep(self) -> None:
+    def keep(self, _: float = 0.0) -> None:
         self.told.append("keep")
 
     def retreat(self, times: int) -> None:

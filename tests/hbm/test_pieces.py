@@ -140,6 +140,48 @@ def test_a_curve_that_stops_from_both_ends_says_where_it_did_first(
     assert len(kept) == 2
 
 
+@pytest.fixture
+def returned(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> list[tuple[float, float]]:
+    """Return where pieces begin; those from 0 and 1 turn back at 0.4 and 0.7."""
+    corners = {0.0: 0.4, 1.0: 0.7}
+
+    def trace(system: Any, start: Array, end: float, **_: Any) -> Iterator[Correction]:
+        y, place = map(float, start)
+        begun.append((y, place))
+        residual, linearised = system(start)
+        along = np.array([0.0, 1.0])
+        for reached in (corners.get(place, place), place if place in corners else end):
+            point = np.array([y, reached])
+            yield Correction(
+                point, residual, linearised, Outcome.CONVERGED, (0.0,), along
+            )
+
+    monkeypatch.setattr("hbm.pieces.trace", trace)
+    return begun
+
+
+def test_what_lies_between_curves_that_turn_back_is_sought(
+    returned: list[tuple[float, float]],
+) -> None:
+    points = [each.point for each in pieces(0.0, 1.0)]
+
+    assert [place for _, place in returned] == pytest.approx([0.0, 1.0, 0.4001])
+    assert [place for _, place in points] == [0.4, 0.0, 0.7, 1.0, 0.4001, 1.0]
+
+
+def test_what_lies_between_curves_that_turn_back_and_is_not_found_is_told(
+    returned: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+
+    with pytest.raises(ContinuationError, match=r"turns back at parameter 0\.4,"):
+        list(pieces(0.0, 1.0))
+
+    assert [place for _, place in returned] == [0.0, 1.0]
+
+
 def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:

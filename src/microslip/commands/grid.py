@@ -26,8 +26,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="trace the curve over a grid of contact parameters and loads",
         description="Trace the curve of a scene for combinations of friction law, "
         "sigma, threshold velocity, friction coefficient, preload and drive; print how "
-        "each ends. Exit status 1 if less than 97 %% are traced from end to end, where "
-        "a gap of 1 %% of the range does not count.",
+        "each ends. Exit status 1 if less than 97 % are traced from end to end, where "
+        "a gap of 1 % of the range does not count.",
         epilog="example: microslip grid two-blades --set model=A --csv grid.csv",
     )
     arguments.add_scene(parser)

@@ -35,7 +35,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "the curve, find its largest orbit again by shooting, and compare; give every "
         "number a value that is none. Write SCENE-stress.png and SCENE-stress.csv. "
         "Exit status 1 if a value disagrees, or if, of all cases, less than "
-        f"{100.0 * SHARE:g} %% converge in both and agree within 1 %%.",
+        f"{100.0 * SHARE:g} % converge in both and agree within 1 %.",
         epilog="example: microslip stress two-blades --set model=B",
     )
     arguments.add_scene(parser)

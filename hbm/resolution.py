@@ -98,10 +98,8 @@ class Resolution(ABC):
         )
         solved = point - newton
         points = (point, solved, solved - sampled, made.before, made.corrected)
-        sizes, places = (
-            self.amplitudes(points),
-            np.array([each[-1:] for each in points]),
-        )
+        sizes = self.amplitudes(points)
+        places = np.array([each[-1:] for each in points])
         change, truncation, sampling = _changes(sizes, made)
         shift, *aside = _changes(places, made)
         smoothing, moved = self._smoothing(correction, fourier, normal)

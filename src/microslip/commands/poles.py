@@ -11,7 +11,8 @@ from microslip.commands import arguments
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from microslip.studies.poles import Linearised, Question
+    from microslip.studies.pole_question import Question
+    from microslip.studies.poles import Linearised
     from microslip_mechanics.arrays import ComplexArray
 
 HEADER = """\
@@ -58,7 +59,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import shown
-    from microslip.studies.poles import Question, linearised
+    from microslip.studies.pole_question import Question
+    from microslip.studies.poles import linearised
 
     data, picture = arguments.outputs(options, "poles")
     frequency = options.frequency and math.tau * options.frequency

@@ -18,20 +18,14 @@ from hbm.equivalent import (
 )
 from hbm.errors import ContinuationError
 from hbm.poles import NONE, followed, poles
-from microslip.quantity import SceneError
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene, load_scene
-from microslip.scenes.two_blades.tables import TwoBlades
+from microslip.scene_file import Scene
+from microslip.studies.pole_question import Question
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState, static_equilibrium
 from microslip_mechanics.structure import Structure
-
-FRICTION = "friction"
-"""the parameter µd that takes µs along in proportion"""
-SHARES = (0.0, *np.geomspace(1e-3, 10.0**1.5, 28).tolist())
-"""of the scene's friction, from none to sticking"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,64 +54,6 @@ class Linearised:
     """"complete", or why there is no response"""
     linear: Linear | None
     """None if there is no response"""
-
-
-@dataclass(frozen=True, slots=True)
-class Question:
-    """What is varied, and where the response is taken."""
-
-    scene: str
-    overrides: tuple[str, ...]
-    key: str
-    """table and key of the scene, or :data:`FRICTION`"""
-    frequency: float | None = None
-    """of the response [rad/s]; that of its largest amplitude if left out"""
-
-    def at(self, value: str) -> Scene:
-        """Return the scene at one value.
-
-        Raises
-        ------
-        SceneError
-            If the scene does not take it.
-        """
-        if self.key != FRICTION:
-            return load_scene(self.scene, (*self.overrides, f"{self.key}={value}"))
-        dynamic = f"friction.mu_dynamic={value}"
-        load_scene(self.scene, (*self.overrides, dynamic))
-        static = f"friction.mu_static={self._ratio() * float(value)!r}"
-        return load_scene(self.scene, (*self.overrides, dynamic, static))
-
-    def usual_values(self) -> list[str]:
-        """Return values of the friction coefficient from none to sticking.
-
-        Raises
-        ------
-        SceneError
-            If another key is varied: its values must be given.
-        """
-        if self.key != FRICTION:
-            raise SceneError(f"{self.key}: give values of it")
-        self._ratio()
-        scale = load_scene(self.scene, self.overrides).rig.friction.mu_dynamic
-        return [f"{share * scale:.4g}" for share in SHARES]
-
-    def _ratio(self) -> float:
-        """Return µs/µd."""
-        rig = load_scene(self.scene, self.overrides).rig
-        if not isinstance(rig, TwoBlades):
-            raise SceneError(
-                f"{self.scene}: a system has no one friction coefficient: give a key "
-                "and values, such as element.NAME.mu 0.1 0.3 1"
-            )
-        friction = rig.friction
-        if friction.law == "none" or friction.mu_dynamic == 0.0:
-            raise SceneError(
-                f"{self.scene}: [friction] law = {friction.law}, mu_dynamic = "
-                f"{friction.mu_dynamic:g}: there is no friction to vary: give some, or "
-                "another key and its values"
-            )
-        return friction.mu_static / friction.mu_dynamic
 
 
 def linearised(question: Question, values: Sequence[str]) -> Iterator[Linearised]:

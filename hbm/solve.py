@@ -225,11 +225,12 @@ def periodic_response(
     samples: int,
     tolerance: float = 1e-8,
     highest: float | None = None,
+    pruned: bool = True,
 ) -> PeriodicResponse:
     """Return the response at the frequency of ``guess`` with another resolution.
 
-    A sparse structure is reduced anew, up to ``highest`` as in
-    :class:`~hbm.options.CurveOptions`.
+    A sparse structure is reduced anew, up to ``highest``; both that and ``pruned`` are
+    as in :class:`~hbm.options.CurveOptions`.
 
     Raises
     ------
@@ -239,7 +240,9 @@ def periodic_response(
     control = StepControl(tolerance=tolerance * problem.force_scale)
     highest = highest or RESOLVED * guess.frequency
     small, still, shapes = _small(problem, rest, highest)
-    path = along_frequency(small, still, guess.frequency, guess.frequency)
+    path = along_frequency(
+        small, still, guess.frequency, guess.frequency, pruned=pruned
+    )
     balance = path.balance(FourierBasis(harmonics, samples))
     rows = path.problem.map_from(problem.interface.displacement)
     start = balance.point(guess.seen(rows), guess.frequency)

@@ -62,6 +62,11 @@ class Damping:
             return none
         bare = Structure(mass, none, stiffness, names)
         if self.rayleigh is not None:
+            if np.shape(self.rayleigh) != (2,):
+                raise ValueError(
+                    f"rayleigh_damping = {self.rayleigh!r}: give two numbers, of the "
+                    "mass [1/s] and of the stiffness [s]"
+                )
             return Rayleigh(*self.rayleigh).matrix(bare)
         if self.loss_factor is not None:
             _check_all(bare, "loss_factor")
@@ -102,7 +107,7 @@ def _check_all(structure: Structure, name: str) -> None:
 
 
 def _check_dissipates(damping: Matrix, names: tuple[str, ...]) -> None:
-    """Check that a symmetric damping matrix puts no energy in.
+    """Check that a damping matrix puts no energy in; a skew part moves it only.
 
     Raises
     ------
@@ -116,6 +121,7 @@ def _check_dissipates(damping: Matrix, names: tuple[str, ...]) -> None:
             f"damping of {names[place]} is {diagonal[place]:g} N s/m: negative damping "
             "puts energy in, give 0 or more"
         )
+    damping = 0.5 * (damping + damping.T)
     size = abs(damping).max() if diagonal.size else 0.0
     if size == 0.0:
         return

@@ -34,11 +34,14 @@ def engine_order(
     Raises
     ------
     ValueError
-        If a blade is unknown, is several degrees of freedom, or stands there twice.
+        If a blade is unknown, is several degrees of freedom, or stands there twice; if
+        the order is no whole number.
     """
     load = np.zeros(len(names), complex)
     if not np.isfinite(amplitude):
         raise ValueError(f"amplitude {amplitude} N: give a finite one")
+    if order != int(order):
+        raise ValueError(f"engine order {order:g}: give a whole number of maxima")
     for place, blade in enumerate(blades):
         (dof, *more) = selected(names, [blade])
         if more:

@@ -21,11 +21,14 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
         return scipy.sparse.csc_array(given, dtype=float, copy=True)
     try:
         matrix = np.array(given, dtype=float)
+        numbers = np.asarray(given).dtype != bool
     except (TypeError, ValueError):
+        numbers = False
+    if not numbers:
         raise ValueError(
             f"{what} is no matrix of numbers: give rows of equal length, or the "
             "diagonal alone"
-        ) from None
+        )
     if matrix.ndim == 1:
         matrix = np.diag(matrix)
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or matrix.size == 0:

@@ -7,10 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse.linalg import aslinearoperator
 
-from microslip_mechanics.arrays import Matrix
+from microslip_mechanics.arrays import Array, Matrix
 from microslip_mechanics.natural_modes import natural_modes
 from microslip_mechanics.rayleigh import Rayleigh
 from microslip_mechanics.structure import Structure
+
+ROUNDING = 1e-9
+"""over its parts: so little negative stiffness of a mode is rounding"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,9 +46,12 @@ class ModalDamping:
         Raises
         ------
         ValueError
-            If there are more ratios than modes, or a sparse structure moves freely.
+            If there are more ratios than modes, a sparse structure moves freely, or
+            the stiffness is negative along a mode.
         """
         modes = natural_modes(structure, len(self.ratios))
+        if any(self.ratios):
+            _check_held(structure, modes.shapes[:, 0])
         frequencies, rest = modes.frequencies, self._rest(float(modes.frequencies[-1]))
         surplus = np.array(
             [
@@ -67,3 +73,15 @@ class ModalDamping:
         if not last > 0.0:
             return Rayleigh()
         return Rayleigh(stiffness=2.0 * self.ratios[-1] / last)
+
+
+def _check_held(structure: Structure, slowest: Array) -> None:
+    """Check that the stiffness of the slowest mode is not negative."""
+    stiffness = float(slowest @ (structure.stiffness @ slowest))
+    parts = float(np.abs(slowest) @ (abs(structure.stiffness) @ np.abs(slowest)))
+    if stiffness < -ROUNDING * parts:
+        mostly = structure.names[int(np.abs(slowest).argmax())]
+        raise ValueError(
+            f"the stiffness is negative along a motion mostly of {mostly}, of which a "
+            "damping ratio says nothing: give a damping matrix"
+        )

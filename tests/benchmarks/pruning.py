@@ -44,7 +44,7 @@ def _fixed(model: str, harmonics: int) -> None:
     print(
         f"{model:5s} {harmonics:10d} {counts[0]:9d} {some.seconds:11.2f} "
         f"{counts[1]:9d} {every.seconds:13.2f} {every.seconds / some.seconds:7.1f}  "
-        f"{difference(some.curve, every.curve):.1e}",
+        f"{difference(some, every):.1e}",
         flush=True,
     )
 

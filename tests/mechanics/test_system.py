@@ -8,6 +8,7 @@ import pytest
 import scipy.sparse
 
 from microslip_mechanics.element import Element
+from microslip_mechanics.given_loads import EngineOrder
 from microslip_mechanics.laws.area_contact import AreaContact
 from microslip_mechanics.laws.elastic_friction import ElasticFriction
 from microslip_mechanics.laws.jenkins import Jenkins
@@ -168,7 +169,27 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     ),
     "damping ratio of a stiffness that drives": (
         {"stiffness": BUCKLED, "damping_ratio": 0.01},
-        ("puts energy into", "negative eigenvalues"),
+        ("stiffness is negative along a motion mostly of x2", "a damping matrix"),
+    ),
+    "damping ratio of a single unstable mode": (
+        {"stiffness": BUCKLED, "damping_ratio": [0.01]},
+        ("stiffness is negative along a motion mostly of x2", "a damping matrix"),
+    ),
+    "skew damping": (
+        {"damping": [[0.1, 0.2], [-0.2, 0.1]]},
+        ("damping is not symmetric", "only symmetric"),
+    ),
+    "one Rayleigh coefficient": (
+        {"rayleigh_damping": (0.1,)},
+        ("rayleigh_damping = (0.1,)", "give two numbers"),
+    ),
+    "booleans for masses": (
+        {"mass": [True, True]},
+        ("mass is no matrix of numbers",),
+    ),
+    "half an engine order": (
+        {"engine_order": EngineOrder(("x1", "x2"), 1.5, 1.0)},  # type: ignore[arg-type]
+        ("engine order 1.5", "whole number"),
     ),
     "negative ratio": ({"damping_ratio": -0.1}, ("damping_ratio = -0.1", "0 to")),
     "negative Rayleigh": ({"rayleigh_damping": (-1.0, 0.0)}, ("by mass -1",)),

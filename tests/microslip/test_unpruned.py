@@ -57,7 +57,7 @@ def test_the_curve_is_the_same(scene: tuple[str, ...]) -> None:
     one, other = some.curve, every.curve
     assert one.ending == other.ending == "complete"
     # the residual's tolerance is 1e-8 of the loads
-    assert difference(one, other) < 1e-6
+    assert difference(some, every) < 1e-6
     sectors = other.amplitude.shape[1] // one.amplitude.shape[1]
     expected = sectors * one.friction_energy[[0, -1]]
     np.testing.assert_allclose(
@@ -100,15 +100,26 @@ def test_the_full_model_is_its_own_unpruned_one() -> None:
         np.testing.assert_array_equal(mine, its)
 
 
-def test_two_curves_that_differ_are_told_apart(small_curve: ResponseCurve) -> None:
-    largest = small_curve.amplitude.max()
-    changed = small_curve.amplitude.copy()
-    changed[-1, 0] += 1e-3 * largest
+def test_a_curve_that_differs_at_an_end_is_told_apart() -> None:
+    some, every = both("duffing")
+    changed = every.curve.amplitude.copy()
+    changed[-1, 0] += 1e-3 * some.curve.amplitude.max()
 
-    other = replace(small_curve, amplitude=changed)
+    other = replace(every, curve=replace(every.curve, amplitude=changed))
 
-    assert difference(small_curve, small_curve) == 0.0
-    assert difference(small_curve, other) == pytest.approx(1e-3, rel=1e-6)
+    assert difference(some, other) == pytest.approx(1e-3, rel=1e-3)
+
+
+def test_a_curve_that_differs_where_it_is_largest_is_told_apart() -> None:
+    lowest, highest = "17.5", "19.5"
+    sets = [*COARSE[:2], f"curve.lowest={lowest}", f"curve.highest={highest}"]
+    some, every = timed(load_scene("jenkins", sets))
+    largest = some.curve.amplitude.max()
+    weaker = load_scene("jenkins", [*sets, "drive.x=0.4995"])
+    other = replace(every, problem=problem_of(weaker))
+
+    assert difference(some, every) < 1e-9 < 1e-4 < difference(some, other)
+    assert largest > some.curve.amplitude[[0, -1]].max()
 
 
 @pytest.mark.usefixtures("no_picture")
@@ -125,4 +136,8 @@ def test_frc_draws_the_same_curve_without_pruning(
     assert isinstance(every, ResponseCurve)
     assert len(some.contacts) == 2
     assert len(every.contacts) == 8
-    assert difference(some, every) < 1e-6
+    one, other = (
+        np.append(each.amplitude[[0, -1]], each.amplitude.max())
+        for each in (some, every)
+    )
+    np.testing.assert_allclose(other, one, rtol=0.0, atol=1e-6 * one.max())

@@ -77,12 +77,12 @@ def _compared(some: Timed, every: Timed) -> int:
     endings = [each.curve.ending for each in (some, every)]
     if endings != ["complete"] * 2:
         return arguments.ended(next(each for each in endings if each != "complete"))
-    apart = difference(some.curve, every.curve)
+    apart = difference(some, every)
     print(f"unpruned, the curve takes {every.seconds / some.seconds:.1f} x as long")
     same = apart <= AGREED
     print(
-        f"{'agree' if same else 'DISAGREE'}: amplitudes at both ends and at the "
-        f"largest differ by {apart:.1e}"
+        f"{'agree' if same else 'DISAGREE'}: amplitudes at both ends and where the "
+        f"first is largest differ by {apart:.1e}"
     )
     return 0 if same else 1
 

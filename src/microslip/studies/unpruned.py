@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
@@ -13,7 +13,7 @@ import numpy as np
 from hbm.cyclic import along_sector, cyclic_response
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency, along_frequency
-from hbm.solve import RESOLVED, frequency_response
+from hbm.solve import RESOLVED, frequency_response, periodic_response
 from microslip.progress import Watch
 from microslip.rigs import problem_of, sector_of, unpruned_of
 from microslip.scene_file import Scene
@@ -34,6 +34,10 @@ class Timed:
     seconds: float
     """of processor time"""
     curve: ResponseCurve
+    problem: Problem
+    """of which it is the curve"""
+    responses: Sequence[PeriodicResponse]
+    """its points"""
 
 
 def path_of(scene: Scene, problem: Problem | None = None) -> AlongFrequency:
@@ -103,18 +107,53 @@ def _timed(
     began = time.process_time()
     responses, ending = gathered(watch(trace(options)))
     seconds = time.process_time() - began
-    return Timed(seconds, response_curve(problem, responses, ending))
+    curve = response_curve(problem, responses, ending)
+    return Timed(seconds, curve, problem, responses)
 
 
-def difference(one: ResponseCurve, other: ResponseCurve) -> float:
+def difference(some: Timed, every: Timed) -> float:
     """Return by how much the amplitudes of two curves differ at most, relative.
 
-    They are compared at their ends, where both are at the same frequency, and at the
-    largest amplitude.
+    They are compared at both ends, and where the first has its largest amplitude: there
+    an orbit is found from the two points of the second between which it lies.
+
+    Raises
+    ------
+    ContinuationError
+        If the second has none there.
     """
-    count = min(len(one.probes), len(other.probes))
-    rows = [
-        np.append(each.amplitude[[0, -1], :count], each.amplitude.max())
-        for each in (one, other)
-    ]
-    return float(np.abs(rows[1] - rows[0]).max() / np.abs(rows[0]).max())
+    count = min(len(some.curve.probes), len(every.curve.probes))
+    largest = int(some.curve.amplitude.max(axis=1).argmax())
+    there = _unpruned_at(
+        every,
+        float(some.curve.frequency[largest]),
+        float(some.curve.amplitude[largest].max()),
+    )
+    one = some.curve.amplitude[[0, largest, -1], :count]
+    ends = every.curve.amplitude[[0, -1], :count]
+    other = np.insert(ends, 1, there.amplitude[0, :count], axis=0)
+    return float(np.abs(other - one).max() / one.max())
+
+
+def _unpruned_at(every: Timed, frequency: float, amplitude: float) -> ResponseCurve:
+    """Return the unpruned orbit at a frequency [rad/s], as a curve of one point.
+
+    Of several its begins between points nearest to an amplitude [m].
+    """
+    places, sizes = every.curve.frequency, every.curve.amplitude.max(axis=1)
+    low, high = np.minimum(places[:-1], places[1:]), np.maximum(places[:-1], places[1:])
+    inside = np.clip(frequency, places.min(), places.max())
+    sides = np.flatnonzero((low <= inside) & (inside <= high))
+    left = int(sides[np.abs(sizes[sides] - amplitude).argmin()])
+    share = (inside - places[left]) / ((places[left + 1] - places[left]) or 1.0)
+    before, after = every.responses[left : left + 2]
+    between = (1.0 - share) * before.coefficients + share * after.coefficients
+    found = periodic_response(
+        every.problem,
+        static_equilibrium(every.problem),
+        replace(before, frequency=frequency, coefficients=between),
+        harmonics=before.harmonics,
+        samples=before.samples,
+        pruned=False,
+    )
+    return response_curve(every.problem, [found], "complete")

@@ -84,13 +84,21 @@ class RecordFile:
         ``rows`` are the columns of the growing variables, in their order, each of shape
         ``(records, numbers)``; ``states``
         replaces the last of the others before the new records count.
+
+        Raises
+        ------
+        ValueError
+            If the states are not as long as those that they replace.
         """
         count = len(rows[0])
         table = np.concatenate(rows, axis=1)
         place = self._layout.first_record + records * self._layout.record
         self._at(place, table.astype(">f8").tobytes())
         if states is not None:
-            self._at(self._layout.first_record - len(states), states)
+            begin = self._layout.first_record - len(states)
+            if begin not in self._layout.variables.values():
+                raise ValueError("a state is as long as the one before it")
+            self._at(begin, states)
         self._at(RECORDS, struct.pack(">i", records + count))
         return records + count
 

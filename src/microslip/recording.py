@@ -10,6 +10,7 @@ from microslip.result_file import end_of
 from microslip.schema import Growing
 from microslip.store import WrongFileError, begin, told
 from microslip.stream import Head, Stream, rows_of
+from microslip_mechanics.envelope import Envelope, parted
 from microslip_mechanics.time_history import Checkpoint
 
 
@@ -88,7 +89,10 @@ def last_state(path: Path, scene: str) -> tuple[Checkpoint, float]:
     if end.checkpoint is None or not head.rows or "frequency" not in head.growing:
         raise WrongFileError(f"{path} does not tell where its march ended: march anew")
     row = rows_of(path, head, head.rows - 1, 1)
-    return end.checkpoint, float(row["frequency"][0])
+    state = end.checkpoint
+    if isinstance(end, Envelope):
+        state, _ = parted(state)
+    return state, float(row["frequency"][0])
 
 
 def _demand_same(path: Path, head: Head, scene: str) -> None:

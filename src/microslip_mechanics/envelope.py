@@ -102,7 +102,7 @@ def enveloped(
         yield _envelope(cycles[:-1], block, _with(block.checkpoint, begun))
     if block is not None and begun is not None:
         rest = replace(block, iterations=0, divided=0)
-        yield _envelope(begun[None], rest, block.checkpoint)
+        yield _envelope(begun[None], rest, _with(block.checkpoint, begun))
 
 
 def parted(checkpoint: Checkpoint) -> tuple[Checkpoint, Array]:

@@ -11,6 +11,7 @@ import pytest
 
 from microslip.recording import last_state
 from microslip.result_file import load
+from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.store import StoreError
 from microslip_mechanics.envelope import Envelope
@@ -103,18 +104,30 @@ def test_what_a_kill_left_half_written_is_marched_again(
     check_equal(load(path).result, load(tmp_path / "whole.nc").result)
 
 
-def test_last_state_is_that_of_the_last_row(
+def test_last_state_is_that_of_the_last_row_and_of_the_envelope(
     run: Run, quick_scene: Path, tmp_path: Path
 ) -> None:
-    run("sweep", str(quick_scene))
+    dense = ("--set", "march.store_every=1")
+    run("sweep", str(quick_scene), *dense, "-o", "rows")
+    run("sweep", str(quick_scene), *dense, "--envelope", "-o", "cycles")
 
-    scene = load_scene(str(quick_scene)).text
-    state, frequency = last_state(tmp_path / "quick-sweep.nc", scene)
+    scene = load_scene(str(quick_scene), [dense[1]])
+    states = [
+        last_state(tmp_path / f"{name}.nc", scene.text) for name in ("rows", "cycles")
+    ]
 
-    history = load(tmp_path / "quick-sweep.nc").result
+    history = load(tmp_path / "rows.nc").result
     assert isinstance(history, TimeHistory)
-    assert frequency == history.frequency[-1]
-    assert np.abs(state.velocity).max() > 0.0
+    seen = problem_of(scene).probes.rows
+    for state, frequency in states:
+        assert frequency == history.frequency[-1]
+        for mine, its in (
+            (state.displacement, history.displacement[-1]),
+            (state.velocity, history.velocity[-1]),
+        ):
+            scale = np.abs(its).max()
+            np.testing.assert_allclose(seen @ mine, its, rtol=0.0, atol=1e-9 * scale)
+    np.testing.assert_array_equal(states[0][0].memory, states[1][0].memory)
 
 
 def test_what_cannot_go_on_is_told_in_one_line(

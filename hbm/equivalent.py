@@ -48,8 +48,8 @@ class EquivalentContact:
         )
 
     def joined(self, problem: Problem) -> Structure:
-        """Return the structure with these springs and dampers."""
-        rows, structure = problem.interface.displacement, problem.structure
+        """Return the structure, which is not sparse, with these springs and dampers."""
+        rows, structure = problem.interface.displacement, problem.structure.dense
         return replace(
             structure,
             damping=structure.damping + (rows.T * self.damping) @ rows,
@@ -66,7 +66,7 @@ def equivalent_contact(
     of its tangents over the period: what a small motion at another frequency feels (at
     the same one, of what contacts remember).
     """
-    motion = response.coefficients[:3] @ problem.interface.displacement.T
+    motion = response.seen(problem.interface.displacement)[:3]
     force, tangents = _evaluated(problem, motion, response.frequency, response.samples)
     stiffness, damping = tangents.stiffness.copy(), tangents.damping.copy()
     moved, felt = to_complex(motion)[1], to_complex(force)[1]
@@ -154,10 +154,11 @@ def free_structure(problem: Problem, rest: StaticState) -> Structure:
     return _at_rest(problem, rest).only(normal).joined(problem)
 
 
-def stuck_structure(problem: Problem, rest: StaticState) -> Structure:
+def stuck_structure(problem: Problem, rest: StaticState) -> Structure | None:
     """Return the same without any sliding where there is friction.
 
-    Friction that remembers is a spring as long as nothing slides.
+    Friction that remembers is a spring as long as nothing slides. None if nothing can
+    move any more.
     """
     points, rows = problem.interface.points, problem.interface.displacement
     loaded = (rest.normal_force > 0.0) | points.constant_load
@@ -170,6 +171,8 @@ def stuck_structure(problem: Problem, rest: StaticState) -> Structure:
     kept = np.eye(whole.dofs)
     if tied.any():
         kept = scipy.linalg.null_space(rows[tied])
+    if kept.shape[1] == 0:
+        return None
     return Structure(
         kept.T @ whole.mass @ kept,
         kept.T @ whole.damping @ kept,
@@ -181,7 +184,7 @@ def stuck_structure(problem: Problem, rest: StaticState) -> Structure:
 
 def amplitudes(problem: Problem, response: PeriodicResponse) -> Array:
     """Return the first harmonic of each probe [m], shape (probes,)."""
-    seen = response.coefficients[1:3] @ problem.probes.rows.T
+    seen = response.seen(problem.probes.rows)[1:3]
     found: Array = np.hypot(*seen)
     return found
 

@@ -23,6 +23,7 @@ from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_problems import dwelled, last_harmonic, sliding_block
+from sparse_problems import dense, net
 from timedomain.start import Start
 
 TURN = 2.0 * np.pi
@@ -154,7 +155,9 @@ def test_much_friction_ties_the_faces() -> None:
         rest = static_equilibrium(problem)
         response = one_harmonic_response(problem, rest, RANGE)
         found = poles(equivalent_contact(problem, response).joined(problem)).values
-        expected = poles(stuck_structure(problem, rest)).values
+        stuck = stuck_structure(problem, rest)
+        assert stuck is not None
+        expected = poles(stuck).values
         (value,) = expected[(expected.imag > RANGE[0]) & (expected.imag < RANGE[1])]
         apart.append(float(np.abs(found - value).min()))
 
@@ -166,7 +169,9 @@ def test_much_friction_ties_the_faces() -> None:
 def test_stuck_faces_move_as_one_on_very_stiff_springs() -> None:
     problem = rig_problem(model="B")
     rest, rows = static_equilibrium(problem), problem.interface.displacement
-    found = poles(stuck_structure(problem, rest)).values
+    stuck = stuck_structure(problem, rest)
+    assert stuck is not None
+    found = poles(stuck).values
     whole = free_structure(problem, rest)
     tangents = rows[np.arange(len(rows)) % 3 > 0]
 
@@ -185,7 +190,10 @@ def test_without_friction_law_nothing_is_tied() -> None:
     problem = rig_problem(model="B", friction__law="none")
     rest = static_equilibrium(problem)
 
-    assert stuck_structure(problem, rest).dofs == problem.structure.dofs
+    stuck = stuck_structure(problem, rest)
+
+    assert stuck is not None
+    assert stuck.dofs == problem.structure.dofs
 
 
 def test_free_decay_in_time_is_that_of_the_pole() -> None:
@@ -296,3 +304,24 @@ def test_a_curve_that_does_not_pass_a_frequency_is_refused(
 
     with pytest.raises(ContinuationError, match="does not pass 9 Hz"):
         one_harmonic_response(problem, static_equilibrium(problem), DUFFING, TURN * 9.0)
+
+
+def test_a_sparse_structure_has_the_springs_and_dampers_of_a_dense_one() -> None:
+    sparse = net(4, 5)
+    found = []
+    for problem in (sparse, dense(sparse)):
+        rest = static_equilibrium(problem)
+        response = one_harmonic_response(problem, rest, (300.0, 400.0), 350.0)
+        contact = equivalent_contact(problem, response)
+        found.append(
+            (contact.stiffness[1], contact.damping[1], *amplitudes(problem, response))
+        )
+
+    np.testing.assert_allclose(found[0][1:], found[1][1:], rtol=1e-6)
+    assert found[0][0] == pytest.approx(found[1][0], abs=1e-3 * 350.0 * found[1][1])
+
+
+def test_nothing_is_left_of_a_mass_that_friction_ties() -> None:
+    problem = sliding_block(stiffness=100.0)
+
+    assert stuck_structure(problem, static_equilibrium(problem)) is None

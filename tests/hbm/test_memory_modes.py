@@ -107,7 +107,9 @@ def test_without_sliding_it_is_a_spring_and_without_friction_nothing() -> None:
     problem = oscillator()
     rest = static_equilibrium(problem)
 
-    stuck = poles(stuck_structure(problem, rest)).values
+    held = stuck_structure(problem, rest)
+    assert held is not None
+    stuck = poles(held).values
     free = poles(free_structure(problem, rest)).values
 
     assert np.abs(stuck) == pytest.approx([np.sqrt(SPRING + STIFFNESS)])

@@ -166,15 +166,19 @@ def shown_points(curve: ResponseCurve, largest: int, count: int = 11) -> list[in
     return sorted(places | {largest})
 
 
-def quasi_static_energy(curve: ResponseCurve, rate: float) -> float:
+def quasi_static_energy(
+    curve: ResponseCurve, rate: float, span: tuple[float, float]
+) -> float:
     """Return the energy that friction takes out of an infinitely slow upward sweep.
 
     Parameters
     ----------
     curve
-        From one end of the range to the other.
+        Over the sweep's range or more.
     rate
         Logarithmic sweep rate k [1/s].
+    span
+        Frequencies at which the sweep begins and ends [Hz].
 
     Returns
     -------
@@ -182,7 +186,12 @@ def quasi_static_energy(curve: ResponseCurve, rate: float) -> float:
     """
     upward = followed_upwards(curve)
     hertz = curve.frequency[upward] / (2.0 * np.pi)
-    return float(np.trapezoid(curve.friction_energy[upward], hertz) / rate)
+    energy = curve.friction_energy[upward]
+    within = (hertz > span[0]) & (hertz < span[1])
+    ends = np.interp(span, hertz, energy)
+    places = np.concatenate([span[:1], hertz[within], span[1:]])
+    values = np.concatenate([ends[:1], energy[within], ends[1:]])
+    return float(np.trapezoid(values, places) / rate)
 
 
 def followed_upwards(curve: ResponseCurve) -> np.ndarray:

@@ -18,11 +18,13 @@ from hbm.equivalent import (
 )
 from hbm.errors import ContinuationError
 from hbm.poles import NONE, followed, poles
+from hbm.solve import RESOLVED
 from microslip.rigs import problem_of
 from microslip.scene_file import Scene
 from microslip.studies.pole_question import Question
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.reduction import reduced
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState, static_equilibrium
 from microslip_mechanics.structure import Structure
@@ -60,9 +62,10 @@ def linearised(question: Question, values: Sequence[str]) -> Iterator[Linearised
     """Yield the linearised scene for each value; a failure is a result too."""
     for value in values:
         scene = question.at(value)
-        problem = problem_of(scene)
+        problem, limits = problem_of(scene), limits_of(scene)
+        if problem.structure.sparse:
+            problem = reduced(problem, RESOLVED * limits[1]).problem
         rest = static_equilibrium(problem)
-        limits = limits_of(scene)
         try:
             response = one_harmonic_response(problem, rest, limits, question.frequency)
         except ContinuationError as cause:
@@ -77,13 +80,14 @@ def linearised(question: Question, values: Sequence[str]) -> Iterator[Linearised
 def _linear(
     problem: Problem, rest: StaticState, response: PeriodicResponse, error: float
 ) -> Linear:
+    stuck = stuck_structure(problem, rest)
     return Linear(
         equivalent_contact(problem, response).joined(problem),
         response,
         float(amplitudes(problem, response).max(initial=0.0)),
         error,
         poles(free_structure(problem, rest)).values,
-        poles(stuck_structure(problem, rest)).values,
+        np.empty(0, complex) if stuck is None else poles(stuck).values,
     )
 
 

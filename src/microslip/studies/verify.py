@@ -92,7 +92,9 @@ def sweep_agreement(
     return SweepAgreement(
         slower,
         float(energy),
-        quasi_static_energy(curve, sweep.rate * slower),
+        quasi_static_energy(
+            curve, sweep.rate * slower, (scene.sweep.lowest, scene.sweep.highest)
+        ),
         float(np.abs(envelope - predicted).mean() / predicted.mean()),
         float(np.abs(history.closing_error).max() / history.of("input").max()),
         frequency,

@@ -17,6 +17,11 @@ from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction import reduced
 
+FAR = 1.0
+"""displacement [m or rad] from which a body that only contact holds is driven away"""
+HELD = 1e-12
+"""smallest stiffness over the largest, from which a structure holds by itself"""
+
 
 class StaticError(MicroslipError):
     """The preload has no static equilibrium."""
@@ -49,7 +54,7 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
     Raises
     ------
     StaticError
-        If the preload drives a body away: nothing balances it.
+        If the preload drives a body away that only contact holds: nothing balances it.
     ValueError
         If a sparse structure can move freely while all contacts stick.
     """
@@ -62,7 +67,7 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
     load = max(np.abs(problem.preload).max(initial=0.0), np.abs(gradient).max())
     if load == 0.0:
         return StaticState(state, forces, 0.0, 0)
-    pseudo_time = 1e-5
+    pseudo_time, limit = 1e-5, _limit(problem)
     for iteration in range(1, 400):
         matrix = problem.structure.mass / pseudo_time**2 + hessian
         step = np.linalg.solve(matrix, -gradient)
@@ -76,12 +81,19 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
         residual = float(np.abs(gradient).max()) / load
         if residual <= tolerance + _rounding(problem, state) / load:
             return StaticState(state, forces, residual, iteration)
-        if not np.abs(state).max() <= 1.0:
+        if not np.abs(state).max() <= limit:
             break
     raise StaticError(
         f"the static preload (largest load {load:g} N) has no equilibrium in contact "
-        f"after {iteration} steps: check its direction and size, and the contact"
+        f"within {FAR:g} m, after {iteration} steps: check its direction and size, and "
+        "the contact"
     )
+
+
+def _limit(problem: Problem) -> float:
+    """Return the displacement that means that a body is driven away [m]."""
+    sizes = np.linalg.eigvalsh(problem.structure.stiffness)
+    return np.inf if sizes[0] > HELD * sizes[-1] else FAR
 
 
 def _rounding(problem: Problem, state: Array) -> float:

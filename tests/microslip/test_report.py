@@ -117,7 +117,7 @@ def test_a_section_that_fails_says_why_and_the_others_are_made(
 
     assert (status, error) == (1, "")
     text = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
-    assert "[excitation] force = 0: nothing vibrates" in text
+    assert "no load varies: nothing vibrates" in text
     assert "energy until 0.01 s [J]" in text
     assert [each for each in Tags(text).sources if "png" in each]
 

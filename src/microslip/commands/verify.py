@@ -27,6 +27,7 @@ SLOWEST = 1000.0
 class Found:
     """What was found so far; it stays when a march is stopped."""
 
+    probes: tuple[str, ...]
     places: list[int] = field(default_factory=list)
     """of the orbits on the curve"""
     orbits: list[Verdict] = field(default_factory=list)
@@ -105,8 +106,8 @@ def _run(options: argparse.Namespace) -> int:
     problem = problem_of(scene)
     if not problem.drive.any():
         raise SceneError(
-            f"{options.scene}: [excitation] force = 0: nothing vibrates, so there is "
-            "nothing to verify: give a force"
+            f"{options.scene}: no load varies: nothing vibrates, so there is nothing "
+            "to verify: give a drive"
         )
     curve, swept = scene.curve, scene.sweep
     covered = curve.lowest <= swept.lowest and swept.highest <= curve.highest
@@ -123,7 +124,7 @@ def _run(options: argparse.Namespace) -> int:
         print("\n".join(traced.searched.lines()))
     if traced.curve.ending != "complete":
         return arguments.ended(traced.curve.ending)
-    found = Found()
+    found = Found(problem.probes.names)
     try:
         _orbits(options, problem, traced, found)
         _marches(options, problem, traced, found)
@@ -207,7 +208,7 @@ def _report(found: Found) -> None:
     for each in found.orbits:
         print(verify_tables.orbit_row(each))
     if found.marches:
-        print(verify_tables.march_rows(found.marches))
+        print(verify_tables.march_rows(found.marches, found.probes))
     if found.sweeps:
         print(verify_tables.sweep_rows(found.sweeps))
 
@@ -252,7 +253,9 @@ def _verdict(options: argparse.Namespace, found: Found) -> int:
     print(verify_tables.orbits_said(found.orbits))
     agrees = not (too_many(found.orbits) or any(each.cause for each in found.orbits))
     if found.marches:
-        said, stays = verify_tables.marches_said(found.marches, options.tolerance)
+        said, stays = verify_tables.marches_said(
+            found.marches, found.probes, options.tolerance
+        )
         print(said)
         agrees &= stays
     slows = falls(found.sweeps)

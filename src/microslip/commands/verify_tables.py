@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from microslip.commands.columns import SHOWN, headed, titled
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -18,8 +20,8 @@ frequency     amplitude [mm]        largest   estimated error      multiplier
      [Hz]    balance   shooting  difference  balance shooting   balance shooting"""
 MARCHES = """\
 steady state: march started on the orbit that harmonic balance found
-frequency  amplitude [mm]   deviation [%]                   distance from orbit  drift
-     [Hz]  excited blade     excited  follower   element       first      last"""
+frequency  amplitude  {deviation}  distance from orbit  drift
+     [Hz]       [mm]  {heads}       first      last"""
 SWEEPS = """\
 swept sine beside the curve's prediction for an infinitely slow one
   slower   energy of friction [J]  predicted [J]  difference  envelope  closing error"""
@@ -42,12 +44,14 @@ def orbit_row(verdict: Verdict) -> str:
     )
 
 
-def march_rows(marches: Sequence[Agreement]) -> str:
-    """Return the marches as a table."""
-    lines = [MARCHES]
+def march_rows(marches: Sequence[Agreement], probes: Sequence[str]) -> str:
+    """Return the marches as a table; the amplitude is that of the first probe."""
+    places = _watched(probes)
+    names = [probes[place] for place in places]
+    lines = [MARCHES.format(deviation=titled("off by [%]", names), heads=headed(names))]
     lines += [
-        f"{march.frequency / math.tau:9.4f}  {1e3 * march.predicted[0]:13.6f}  "
-        + " ".join(f"{100.0 * deviation:9.4f}" for deviation in march.deviation[:3])
+        f"{march.frequency / math.tau:9.4f} {1e3 * march.predicted[0]:10.6f}  "
+        + " ".join(f"{100.0 * march.deviation[each]:10.4f}" for each in places[:SHOWN])
         + f"  {march.first_distance:10.1e}{march.last_distance:10.1e}"
         f"{march.drift:9.1e}"
         f"{'  unstable: need not stay' if march.unstable > 0 else ''}"
@@ -100,7 +104,7 @@ def _shared(verdicts: Sequence[Verdict]) -> list[str]:
     count, most = len(verdicts), beyond(verdicts)
     if too_many(verdicts):
         share = f"{len(most)} of {count} orbits"
-        return [f"DISAGREE: {share} differ by more than both estimates, not 1 in 10"]
+        return [f"DISAGREE: {share} differ by more than both estimates, not 1 in 4"]
     pairs = [each.comparison for each in verdicts if each.comparison is not None]
     if not pairs or any(verdict.cause for verdict in verdicts):
         return []
@@ -113,8 +117,15 @@ def _shared(verdicts: Sequence[Verdict]) -> list[str]:
     ]
 
 
-def marches_said(marches: Sequence[Agreement], tolerance: float) -> tuple[str, bool]:
+def marches_said(
+    marches: Sequence[Agreement], probes: Sequence[str], tolerance: float
+) -> tuple[str, bool]:
     """Return whether the marches agree, in words and as such."""
+    places = _watched(probes)
+
+    def deviation(march: Agreement) -> float:
+        return float(march.deviation[places].max())
+
     held = [march for march in marches if march.unstable <= 0]
     worst = max(held or marches, key=deviation)
     stays = deviation(worst) <= tolerance
@@ -127,6 +138,11 @@ def marches_said(marches: Sequence[Agreement], tolerance: float) -> tuple[str, b
     return said, stays
 
 
-def deviation(march: Agreement) -> float:
-    """Return the largest deviation among blades and friction element."""
-    return float(march.deviation[:3].max())
+def _watched(probes: Sequence[str]) -> list[int]:
+    """Return the places of the motions that are compared: relative ones if no others.
+
+    A relative motion is small beside the two that it is the difference of.
+    """
+    from microslip.figures.style import absolute
+
+    return absolute(probes) or list(range(len(probes)))

@@ -59,7 +59,7 @@ def agreement_figure(
     )
     _differences(panels[0, 1], found)
     if sweeps:
-        _envelopes(panels[1, 0], curve, sweeps)
+        _envelopes(panels[1, 0], parted(curve), sweeps)
         _energy(panels[1, 1], energies)
     figure.suptitle(literal(title))
     return figure

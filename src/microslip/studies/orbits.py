@@ -68,7 +68,7 @@ def verdicts(
 def beyond(found: Sequence[Verdict]) -> list[Verdict]:
     """Return those whose amplitudes differ by more than both estimates.
 
-    One in ten may, since estimates are no bounds; see :func:`too_many`.
+    A quarter may, since estimates are no bounds; see :func:`too_many`.
     """
     return [
         each

@@ -22,6 +22,9 @@ from timedomain.start import (
     stored_energy,
 )
 
+SAME = 1e-9
+"""relative difference of steps that rounding makes"""
+
 
 class ReferenceMarch:
     """A march by average acceleration under way: operators, state and meters."""
@@ -47,8 +50,20 @@ class ReferenceMarch:
         self._measure(self._factors(np.zeros(1))[0], 0.0)
 
     def resume(self, end: Checkpoint) -> int:
-        """Go back to the end of a block; return the steps until there."""
-        steps, self._stored_at_start = restore(self._state, self._meters, end)
+        """Go back to the end of a block; return the steps until there.
+
+        Raises
+        ------
+        ValueError
+            If that march was one of another problem or with other steps.
+        """
+        steps, step, stored = restore(self._state, self._meters, end)
+        if abs(step - self._step) > SAME * step:
+            raise ValueError(
+                f"a march with steps of {step:g} s cannot go on with steps of "
+                f"{self._step:g} s: give the same time step"
+            )
+        self._stored_at_start = stored
         return steps
 
     def block(self, first: int, count: int) -> TimeHistory:
@@ -69,7 +84,11 @@ class ReferenceMarch:
             if done % stride == 0:
                 store(self._meters, points, self._state, rows[done // stride - 1])
         end = checkpoint(
-            self._state, self._meters, first + count, self._stored_at_start
+            self._state,
+            self._meters,
+            first + count,
+            self._step,
+            self._stored_at_start,
         )
         return self._table(times[stride - 1 :: stride], rows, iterations, divided, end)
 

@@ -122,18 +122,22 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
     )
 
 
-def checkpoint(state: State, meters: Meters, steps: int, stored: float) -> Checkpoint:
-    """Return where a march stands after so many steps.
+def checkpoint(
+    state: State, meters: Meters, steps: int, step: float, stored: float
+) -> Checkpoint:
+    """Return where a march stands after so many steps [s].
 
     ``stored`` is the energy [J] that was stored at its start.
     """
     kept = [array.ravel() for array in _kept(state, meters)]
-    memory = np.concatenate([[steps, stored], *kept])
+    memory = np.concatenate([[steps, stored, step], *kept])
     return Checkpoint(state.displacement.copy(), state.velocity.copy(), memory)
 
 
-def restore(state: State, meters: Meters, end: Checkpoint) -> tuple[int, float]:
-    """Put state and meters to where a march stood; return its steps and ``stored``.
+def restore(state: State, meters: Meters, end: Checkpoint) -> tuple[int, float, float]:
+    """Put state and meters to where a march stood; return what else it kept.
+
+    These are its number of steps, their length [s] and ``stored``.
 
     Raises
     ------
@@ -141,8 +145,9 @@ def restore(state: State, meters: Meters, end: Checkpoint) -> tuple[int, float]:
         If that march had other degrees of freedom or contacts.
     """
     arrays = (state.displacement, state.velocity, *_kept(state, meters))
-    refill(arrays, np.concatenate([end.displacement, end.velocity, end.memory[2:]]))
-    return int(end.memory[0]), float(end.memory[1])
+    refill(arrays, np.concatenate([end.displacement, end.velocity, end.memory[3:]]))
+    steps, stored, step = end.memory[:3]
+    return int(steps), float(step), float(stored)
 
 
 def refill(arrays: Sequence[NDArray[Any]], numbers: Array) -> None:

@@ -31,7 +31,10 @@ class Truncation(NamedTuple):
     damping: float
     """largest ratio of damping to stiffness of what is left out [s]"""
     energy: Array
-    """left out, twice, of responses to preload, drive, M T and C T; (loads, loads)"""
+    """left out, twice, of responses to preload, drive, M T and C T; (loads, loads)
+
+    The drive is two loads if it is complex.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,16 +67,18 @@ class Reduction:
         load
             Of the load on it by the drive [N].
         """
-        kept, rank = self.truncation, len(self.truncation.energy) // 2 - 1
+        kept = self.truncation
+        rank = (len(kept.energy) - 2) // 2
         if not frequency < kept.limit:
             return np.inf, np.inf
         ratio = (frequency / kept.limit) ** 2
         loss = frequency * kept.damping
         share = (1.0 + loss / (1.0 - ratio)) ** 3 * (ratio + loss) ** 2 / (1.0 - ratio)
         inertia = np.vstack([frequency**2 * np.eye(rank), frequency * np.eye(rank)])
-        moved = inertia.T @ np.abs(kept.energy[2:, 2:]) @ inertia
+        first = len(kept.energy) - 2 * rank
+        moved = inertia.T @ np.abs(kept.energy[first:, first:]) @ inertia
         stiffness = share * float(np.linalg.norm(moved, 2)) if rank else 0.0
-        drive = share * float(kept.energy[1, 1])
+        drive = share * float(kept.energy.diagonal()[1:first].sum())
         return stiffness, float(np.sqrt(stiffness * drive))
 
 

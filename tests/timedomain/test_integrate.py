@@ -1,6 +1,7 @@
 """The march as a whole: divided steps, blocks, rows, options."""
 
 import dataclasses
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -246,6 +247,18 @@ def test_march_goes_on_from_a_checkpoint_as_if_it_had_never_stopped(stop: int) -
         scale = np.abs(theirs).max()
         np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-12 * scale)
     assert part.stored_at_start == expected.stored_at_start
+
+
+@pytest.mark.parametrize("method", ["fast", "reference"])
+def test_march_does_not_go_on_with_another_step(
+    method: Literal["fast", "reference"],
+) -> None:
+    dwell = Dwell(3.0, 1.0)
+    block = next(integrate(oscillator(), dwell, MarchOptions(0.01, method=method)))
+    half = MarchOptions(0.005, method=method)
+
+    with pytest.raises(ValueError, match="cannot go on with steps of"):
+        next(integrate(oscillator(), dwell, half, start=block.checkpoint, block=0.1))
 
 
 def test_march_does_not_go_on_from_that_of_another_problem() -> None:

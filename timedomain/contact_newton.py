@@ -204,7 +204,8 @@ def _assemble(
             local.by_gap,
             local.by_slip,
         )
-        scale = max(scale, abs(local.lines[point, 0]) + abs(local.lines[point, 1]))
+        line = local.lines[point]
+        scale = max(scale, abs(line[0]) + abs(line[1]) + abs(line[2]))
         if answer.scalar >= 0.0:
             for axis in range(3):
                 local.by_slip[point, axis, 0] += (

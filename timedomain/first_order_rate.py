@@ -114,9 +114,10 @@ def jacobian(system: System, time: float, state: Array, matrix: Array) -> None:
             _slide_tangents(system, point, slip, state, matrix)
     loads = _loads(system, time)
     unit = system.motion**2 / system.energy
-    drag = np.dot(system.damping, moving)
+    # of vᵀ C v, where C has Coriolis terms too
+    drag = np.dot(system.damping, moving) + np.dot(moving, system.damping)
     for mode in range(modes):
-        matrix[-2, modes + mode] += 2.0 * unit * drag[mode]
+        matrix[-2, modes + mode] += unit * drag[mode]
         matrix[-1, modes + mode] = unit * loads[mode]
 
 

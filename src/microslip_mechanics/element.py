@@ -60,18 +60,23 @@ def interface_of(elements: Sequence[Element], names: tuple[str, ...]) -> Interfa
     laws: list[PointLaw] = []
     lines: list[Array] = []
     points: list[str] = []
+    taken: set[str] = set()
     for place, (element, name) in enumerate(
         zip(elements, _named(elements), strict=True)
     ):
-        if name in points:
+        rows, directions = _resolved(element, name, names)
+        own = [name]
+        if len(rows) > 1:
+            own = [f"{name}-{number}" for number in range(1, len(rows) + 1)]
+        if taken.intersection([name, *own]):
             raise ValueError(
                 f"two elements are named {name}: name element {place + 1} differently"
             )
-        rows, directions = _resolved(element, name, names)
-        for number, row in enumerate(rows, start=1):
+        taken.update([name, *own])
+        points.extend(own)
+        for row in rows:
             laws.append(row.point)
             lines.extend(_lines(row, directions, len(names)))
-            points.append(name if len(rows) == 1 else f"{name}-{number}")
     shown = np.array(lines).reshape(-1, len(names))
     return Interface(contact_table(laws), shown, tuple(points))
 

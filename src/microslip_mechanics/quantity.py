@@ -135,8 +135,12 @@ def check_quantities(made: Any, name: str) -> None:  # noqa: ANN401  (a dataclas
     """
     for each in fields(made):
         kind, value = each.metadata.get("quantity"), getattr(made, each.name)
-        if kind is None or isinstance(value, bool) or value is each.default:
+        if kind is None or value is each.default or isinstance(each.default, bool):
             continue
+        if isinstance(value, bool):
+            raise ValueError(  # noqa: TRY004  (as below)
+                f"{name}: {each.name} = {value}: give a number"
+            )
         if isinstance(value, str):
             raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
                 f"{name}: {each.name} = {value!r} is a text: give a number in SI units"

@@ -11,6 +11,7 @@ from microslip_mechanics.contact.law import ContactPoints, contact_force
 from microslip_mechanics.contact.memory import beyond_motion, remembers, traction
 from microslip_mechanics.element import interface_of
 from microslip_mechanics.laws.catalogue import LAWS, law_name
+from microslip_mechanics.laws.jenkins import Jenkins
 
 STEP = 1e-6
 
@@ -88,3 +89,8 @@ def test_tangents_of_what_remembers_are_central_differences(case: str) -> None:
                 np.testing.assert_allclose(
                     exact[:, column], slope, atol=1e-6 * size, rtol=1e-6
                 )
+
+
+def test_true_is_no_number() -> None:
+    with pytest.raises(ValueError, match="stiffness = True: give a number"):
+        Jenkins(stiffness=True, limit=1.0)

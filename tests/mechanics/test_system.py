@@ -11,6 +11,7 @@ from microslip_mechanics.element import Element
 from microslip_mechanics.given_loads import EngineOrder
 from microslip_mechanics.laws.area_contact import AreaContact
 from microslip_mechanics.laws.elastic_friction import ElasticFriction
+from microslip_mechanics.laws.iwan import Iwan
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
@@ -20,6 +21,7 @@ MASS, STIFFNESS = [1.0, 2.0], [[30.0, -10.0], [-10.0, 10.0]]
 BUCKLED = [[30.0, -10.0], [-10.0, 3.0]]
 """with a motion, mostly of the second mass, that this stiffness drives away"""
 SLIDER = Jenkins(20.0, 1.0)
+IWAN = Iwan(1.0, 20.0, -0.5, 0.1, sliders=3)
 
 
 def made(**changes: Any) -> Any:
@@ -244,6 +246,24 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
             ]
         },
         ("two elements are named a",),
+    ),
+    "elements of several points named alike": (
+        {
+            "elements": [
+                Element(IWAN, between=("x1", "ground"), name="a"),
+                Element(IWAN, between=("x2", "ground"), name="a"),
+            ]
+        },
+        ("two elements are named a: name element 2",),
+    ),
+    "an element named like a point of another": (
+        {
+            "elements": [
+                Element(SLIDER, between=("x1", "ground"), name="a-2"),
+                Element(IWAN, between=("x2", "ground"), name="a"),
+            ]
+        },
+        ("two elements are named a: name element 2",),
     ),
     "factor that is no number": (
         between({"x1": float("nan")}, "ground"),

@@ -194,11 +194,21 @@ def test_frc_knows_the_stability_of_contacts_that_remember(run: Run) -> None:
     assert "every point is stable" in output
 
 
-def test_sweep_says_that_what_remembers_has_no_estimated_error(run: Run) -> None:
+@pytest.mark.parametrize("rigid", [False, True])
+def test_sweep_says_that_what_remembers_or_is_rigid_has_no_estimated_error(
+    rigid: bool, run: Run, tmp_path: Path
+) -> None:
     short = ("sweep.end=0.2", "sweep.duration=0.3", "march.time_step=1e-3")
     sets = [word for each in short for word in ("--set", each)]
+    scene = "jenkins"
+    if rigid:
+        text = built_in_text("jenkins").replace('"jenkins"', '"rigid-coulomb"')
+        text = text.replace('between = ["x", "ground"]', 'tangents = [["x", "ground"]]')
+        text = text.replace('stiffness = "5 kN/m"\nlimit = "1 N"', "load = 2\nmu = 0.5")
+        scene = str(tmp_path / "rigid.toml")
+        Path(scene).write_text(text)
 
-    status, output, error = run("sweep", "jenkins", *sets)
+    status, output, error = run("sweep", scene, *sets)
 
     assert (status, error) == (0, "")
     assert "0.001 s, and no tolerance: no error is estimated" in output

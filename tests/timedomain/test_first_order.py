@@ -34,6 +34,21 @@ def in_contact(problem: Problem) -> Start:
     return Start(rest, 1e-3 * draw.normal(size=rest.size))
 
 
+def turning(problem: Problem, coriolis: float) -> Problem:
+    """Return a problem with Coriolis terms [N s/m] between neighbouring motions."""
+    structure = problem.structure
+    across = np.triu(np.ones((structure.dofs, structure.dofs)), 1)
+    across = (
+        coriolis
+        * (across - across.T)
+        * np.sqrt(np.outer(structure.mass.diagonal(), structure.mass.diagonal()))
+    )
+    turned = dataclasses.replace(
+        structure, damping=structure.damping + across, gyroscopic=True
+    )
+    return dataclasses.replace(problem, structure=turned)
+
+
 def rate_of(form: FirstOrder, time: float, state: Array) -> Array:
     rate = np.empty_like(state)
     flow(form.system, time, state, rate)
@@ -82,13 +97,16 @@ def test_the_load_is_that_of_the_swept_sine(time: float) -> None:
     assert rate[1] == pytest.approx(load / 0.1, rel=1e-9)
 
 
+@pytest.mark.parametrize("coriolis", [0.0, 3.0])
 @pytest.mark.parametrize(
     "variant", [{}, {"model": "A"}, {"model": "B", "friction__law": "gkf"}]
 )
 def test_the_jacobian_is_the_derivative_of_the_rate(
-    variant: dict[str, object],
+    variant: dict[str, object], coriolis: float
 ) -> None:
     problem = rig_problem(**variant)
+    if coriolis:
+        problem = turning(problem, coriolis)
     form = formed(problem)
     state = form.state(in_contact(problem))
     matrix = np.empty((state.size, state.size))
@@ -104,6 +122,19 @@ def test_the_jacobian_is_the_derivative_of_the_rate(
         difference = (ahead - back) / 2e-10
         size = np.abs(matrix[:, column]).max() + 1.0
         assert np.abs(matrix[:, column] - difference).max() < 1e-3 * size
+    # the row of the energy, which is small beside those of the motion
+    speeds = slice((state.size - 3) // 2, state.size - 3)
+    drained = np.array(
+        [
+            rate_of(form, 0.007, state + step)[-2]
+            - rate_of(form, 0.007, state - step)[-2]
+            for step in 1e-8 * np.eye(state.size)[speeds]
+        ]
+    )
+    size = np.abs(matrix[-2, speeds]).max()
+    np.testing.assert_allclose(
+        matrix[-2, speeds], 0.5e8 * drained, rtol=0.0, atol=1e-4 * size
+    )
 
 
 def slider() -> Problem:

@@ -56,7 +56,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
-    from microslip_mechanics.contact.memory import remembers
+    from microslip_mechanics.contact.memory import beyond_motion
 
     data, picture = _places(options)
     scene = load_scene(options.scene, options.overrides)
@@ -79,9 +79,9 @@ def _run(options: argparse.Namespace) -> int:
     closed = _show(options, data, picture)
     unit = "cycles" if envelope else "times"
     print(f"{recording.rows} {unit} in {data}, picture in {picture}")
-    if options.tolerance and remembers(problem.interface.points).any():
+    if options.tolerance and beyond_motion(problem.interface.points):
         print(
-            "contacts that remember are marched with the scene's steps, "
+            "contacts that remember or are rigid are marched with the scene's steps, "
             f"{scene.march.time_step:g} s, and no tolerance: no error is estimated"
         )
     if ending == "complete" and not closed:

@@ -26,8 +26,8 @@ from microslip_mechanics.jit import bare_kernel, kernel
 from microslip_mechanics.problem import Problem
 
 SMALLEST = 0.004
-"""part of a stuck mode in the inertia of y, over its frequency, relative to the largest
-of all modes; what has less is left out"""
+"""root of a stuck mode's part in the inertia of y, over the square of its frequency,
+relative to the largest of all modes; what has less is left out"""
 
 BEYOND = 1e150
 """modulus of half a period's multiplier that counts as any larger one"""

@@ -37,7 +37,7 @@ class PeriodicOrbit:
     are left out.
     """
     multiplier_error: Array
-    """how far extrapolation moved them, of the same shape"""
+    """how far they are from those of the coarser steps, of the same shape"""
     stuck: NDArray[np.bool_]
     """points that remember and never slip, shape (points,)"""
     friction_energy: float

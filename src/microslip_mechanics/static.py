@@ -36,7 +36,7 @@ class StaticState:
     normal_force: Array
     """[N], shape (points,)"""
     residual: float
-    """largest unbalanced force over the largest preload"""
+    """largest unbalanced force over the largest load"""
     iterations: int
 
 

@@ -13,8 +13,8 @@ from microslip_mechanics.time_history import TimeHistory
 def thinned(history: TimeHistory, stride: int) -> TimeHistory:
     """Return two rows for each ``stride`` rows: their least and their largest values.
 
-    Energies are those at the stretch's end, so that their balance holds; times are
-    those of its first and of its last row.
+    Energies and errors are those at the stretch's end, so that their balance holds;
+    times are those of its first and of its last row.
     """
     starts = np.arange(0, len(history.time), stride)
     ends = np.append(starts[1:], len(history.time)) - 1
@@ -36,6 +36,9 @@ def thinned(history: TimeHistory, stride: int) -> TimeHistory:
         energy=last(history.energy),
         frequency=last(history.frequency),
         level=last(history.level),
+        energy_error=last(history.energy_error),
+        peak_error=last(history.peak_error),
+        work_difference=last(history.work_difference),
     )
 
 

@@ -13,6 +13,10 @@ from microslip_mechanics.time_history import TimeHistory, joined
 def long(history: TimeHistory, rows: int) -> TimeHistory:
     """Return a history of many rows, all different."""
     draw = np.random.default_rng(5)
+    none = np.zeros(len(history.time))
+    history = dataclasses.replace(
+        history, energy_error=none, peak_error=none, work_difference=none
+    )
     made: dict[str, Any] = {
         field.name: draw.normal(size=(rows, *values.shape[1:]))
         for field in dataclasses.fields(history)
@@ -49,6 +53,9 @@ def test_extremes_of_each_stretch_stay(
             np.testing.assert_array_equal(shown[place], part.min(axis=0))
             np.testing.assert_array_equal(shown[place + 1], part.max(axis=0))
         np.testing.assert_array_equal(few.energy[place], whole.energy[stretch][-1])
+    for name in ("energy_error", "peak_error", "work_difference"):
+        assert getattr(few, name).shape == few.time.shape
+        assert getattr(few, name)[-1] == getattr(whole, name)[-1]
     assert few.time[-1] == whole.time[-1]
     np.testing.assert_allclose(few.closing_error[-1], whole.closing_error[-1])
 

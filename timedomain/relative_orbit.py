@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints, contact_force, edge, rubs
+from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
@@ -30,8 +31,19 @@ class RelativeOrbit:
 
     @classmethod
     def of(cls, problem: Problem, response: PeriodicResponse) -> RelativeOrbit:
-        """Return the relative motion of a response of the whole structure."""
+        """Return the relative motion of a response of the whole structure.
+
+        Raises
+        ------
+        ValueError
+            If what a contact carries does not follow from the motion at a moment.
+        """
         interface = problem.interface
+        if beyond_motion(interface.points):
+            raise ValueError(
+                "a contact remembers or is rigid: small motions about the orbit are "
+                "not those of a linear equation in the motion alone"
+            )
         basis, _ = interface.relative_motion()
         seen = response.seen(interface.displacement)
         motion = replace(response, coefficients=seen, shapes=None)

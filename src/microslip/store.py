@@ -132,12 +132,8 @@ def save_table(
     StoreError
         If the file cannot be written.
     """
-    try:
-        with path.open("w", encoding="utf-8", newline="") as file:
-            csv.writer(file).writerows([names, *rows])
-    except OSError as error:
-        reason = error.strerror or error
-        raise StoreError(f"{path} cannot be written: {reason}") from None
+    with told(path), path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows([names, *rows])
 
 
 def _about(result: Result, *, scene: str, command: str) -> dict[str, Value]:

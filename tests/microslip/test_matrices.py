@@ -135,19 +135,15 @@ def test_matrices_come_back_from_each_format(
     assert found.damping.nnz == 0
 
 
-def test_formats_go_together_and_names_come_from_a_text_file(tmp_path: Path) -> None:
-    listed = tmp_path / "names.txt"
-    listed.write_text("root\nmiddle\ntip.y\ntip.z\n")
+def test_formats_go_together(tmp_path: Path) -> None:
     files = MatrixFiles(
         market(tmp_path, "stiffness", STIFFNESS),
         matlab(tmp_path, "mass", MASS),
         sparse_archive(tmp_path, "damping", DAMPING),
-        MatrixSource(listed),
     )
 
     found = read_structure(files)
 
-    assert found.names == ("root", "middle", "tip.y", "tip.z")
     np.testing.assert_allclose(found.damping.toarray(), DAMPING, rtol=1e-15)
 
 
@@ -384,27 +380,6 @@ def test_matrices_that_are_no_structure_are_refused(
     )
 
     with pytest.raises(MatrixFileError, match=message):
-        read_structure(files)
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("a\nb\n", "2 names, but the stiffness has 4 rows: give one name a line"),
-        ("a\nb\nc\na\n", "a stands there twice: give each name once"),
-    ],
-)
-def test_names_that_do_not_go_with_the_rows_are_refused(
-    text: str, message: str, tmp_path: Path
-) -> None:
-    (tmp_path / "names.txt").write_text(text)
-    files = MatrixFiles(
-        market(tmp_path, "stiffness", STIFFNESS),
-        market(tmp_path, "mass", MASS),
-        names=MatrixSource(tmp_path / "names.txt"),
-    )
-
-    with pytest.raises(MatrixFileError, match=f"names.txt: {message}$"):
         read_structure(files)
 
 

@@ -139,23 +139,15 @@ def _keep(
 
 def _write(path: Path, key: str, found: list[Linearised], lines: ComplexArray) -> None:
     """Write a row for each pole of each value."""
-    import csv
-
-    from microslip.store import StoreError
+    from microslip.store import save_table
 
     names = (
         *(key, "branch", "frequency_hz", "damping_ratio", "real_1_s", "imag_rad_s"),
         *("response_frequency_hz", "response_amplitude_m", "response_error"),
         "friction_energy_j",
     )
-    try:
-        with path.open("w", encoding="utf-8", newline="") as file:
-            rows = csv.writer(file)
-            rows.writerow(names)
-            for each, poles in zip(found, lines, strict=True):
-                rows.writerows(_rows(each, poles))
-    except OSError as error:
-        raise StoreError(f"{path} cannot be written: {error.strerror}") from None
+    pairs = zip(found, lines, strict=True)
+    save_table(path, names, (row for pair in pairs for row in _rows(*pair)))
 
 
 def _rows(each: Linearised, poles: ComplexArray) -> list[list[object]]:

@@ -10,7 +10,6 @@ import scipy.sparse
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
 from microslip.matrices.source import MatrixSource
-from microslip.matrices.text_table import text_of
 from microslip_mechanics.arrays import Matrix
 from microslip_mechanics.structure import Structure
 
@@ -31,12 +30,10 @@ class MatrixFiles:
     """Files of the three matrices of a structure."""
 
     stiffness: MatrixSource
-    """its file gives the names and their order"""
+    """its file gives the names and their order; ``1``, ``2``, … if it has none"""
     mass: MatrixSource
     damping: MatrixSource | None = None
     """none if left out: zero"""
-    names: MatrixSource | None = None
-    """text file with one name a line; ``1``, ``2``, … if no file has names"""
 
 
 def read_structure(files: MatrixFiles) -> Structure:
@@ -50,7 +47,8 @@ def read_structure(files: MatrixFiles) -> Structure:
         If a file is malformed or does not go with the others.
     """
     stiffness = files.stiffness.read(USUAL["stiffness"])
-    names = _names(files, stiffness)
+    count = stiffness.matrix.shape[0]
+    names = stiffness.names or tuple(str(row + 1) for row in range(count))
     mass = _beside(files.mass, "mass", stiffness, names)
     damping = scipy.sparse.csc_array(stiffness.matrix.shape)
     if files.damping is not None:
@@ -83,22 +81,3 @@ def _beside(
             f"{len(names)}: give matrices of the same model",
         )
     return found.matrix
-
-
-def _names(files: MatrixFiles, stiffness: LabelledMatrix) -> tuple[str, ...]:
-    """Return the names of all rows."""
-    count = stiffness.matrix.shape[0]
-    if files.names is None:
-        return stiffness.names or tuple(str(row + 1) for row in range(count))
-    path = files.names.path
-    names = tuple(line.strip() for line in text_of(path).splitlines() if line.strip())
-    if len(names) != count:
-        raise MatrixFileError(
-            path,
-            f"{len(names)} names, but the stiffness has {count} rows: "
-            "give one name a line",
-        )
-    if len(set(names)) < count:
-        again = next(name for name in names if names.count(name) > 1)
-        raise MatrixFileError(path, f"{again} stands there twice: give each name once")
-    return names

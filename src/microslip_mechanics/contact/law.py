@@ -52,7 +52,7 @@ class ContactPoints(NamedTuple):
     clamped: NDArray[np.bool_]
     """whether a pulling normal force is set to zero"""
     friction: NDArray[np.int64]
-    """FRICTIONLESS, COULOMB, GENERAL_KINETIC, TANH, ELASTIC, BRISTLE, RIGID or PUSHED"""
+    """FRICTIONLESS, COULOMB, GENERAL_KINETIC, TANH, ELASTIC, BRISTLE, RIGID, PUSHED"""
     dynamic: Array
     """µd"""
     static: Array

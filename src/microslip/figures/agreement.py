@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,6 +19,8 @@ from microslip.figures.style import COLOURS, WIDTH, absolute, framed, literal, r
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import ResponseCurve
 
+DOTS: dict[str, Any] = {"linestyle": "", "marker": "o", "ms": 4, "clip_on": False}
+"""whole at the ends of the axes, too"""
 SMALLEST = 1e-9
 """relative difference that is drawn"""
 
@@ -53,7 +56,7 @@ def agreement_figure(
     panels = figure.subplots(rows, 2, squeeze=False)
     frequency_response(panels[0, 0], parted(curve))
     for place, colour in zip(absolute(curve.probes), COLOURS, strict=False):
-        panels[0, 0].plot(found[0], 1e3 * found[1][:, place], "o", color=colour, ms=4)
+        panels[0, 0].plot(found[0], 1e3 * found[1][:, place], color=colour, **DOTS)
     panels[0, 0].set_title(
         "Curve, and orbits found by shooting (dots)", loc="left", fontsize="medium"
     )
@@ -71,13 +74,14 @@ def _differences(axes: Axes, found: tuple[Array, Array, Array, Array]) -> None:
     hertz, _, difference, admitted = (each[order] for each in found)
     shown = 100.0 * np.maximum(difference, SMALLEST)
     fails = difference > admitted
-    axes.semilogy(hertz, 100.0 * admitted, "_", color="k", ms=8, label="admitted")
+    bars = {**DOTS, "marker": "_", "ms": 8}
+    axes.semilogy(hertz, 100.0 * admitted, color="k", label="admitted", **bars)
     for which, colour, name in (
         (~fails, COLOURS[0], "difference"),
         (fails, COLOURS[1], "too much"),
     ):
         if which.any():
-            axes.plot(hertz[which], shown[which], "o", color=colour, ms=4, label=name)
+            axes.plot(hertz[which], shown[which], color=colour, label=name, **DOTS)
     framed(
         axes,
         x=FREQUENCY,

@@ -114,6 +114,25 @@ def test_sweep_figure_shows_both_blades_on_one_scale(
 
 
 @pytest.mark.parametrize("panel", ["sweep", "curve"])
+def test_the_three_largest_motions_have_panels_where_there_are_no_relative_ones(
+    small_history: TimeHistory,
+) -> None:
+    sizes = np.array([1.0, 0.1, 3.0, 2.0])
+    count = len(small_history.time)
+    history = dataclasses.replace(
+        small_history,
+        probes=("x1", "x2", "x3", "x4"),
+        displacement=np.tile(sizes, (count, 1)),
+        velocity=np.zeros((count, 4)),
+    )
+
+    figure = sweeps.sweep_figure(history, "a title")
+
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    shown = [title for title in titles if title.startswith("Displacement")]
+    assert shown == [f"Displacement, {name}" for name in ("x1", "x3", "x4")]
+
+
 def test_legend_of_energies_lies_above_their_lines(
     axes: Axes, panel: str, small_history: TimeHistory, small_curve: ResponseCurve
 ) -> None:

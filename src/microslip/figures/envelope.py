@@ -10,8 +10,8 @@ from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
-    absolute,
     faces,
+    foremost,
     framed,
     literal,
     readable,
@@ -25,12 +25,13 @@ def envelope_figure(envelope: Envelope, title: str) -> Figure:
     """Draw ranges of each cycle over time, energies, and amplitude over frequency."""
     slips = relative(envelope.probes)
     shrouds = pressed(faces(envelope.contacts), envelope.normal_largest)
-    blades, ways = absolute(envelope.probes)[:2], passes(envelope)
+    sides = abs(envelope.highest), abs(envelope.lowest)
+    sizes = np.maximum(*sides).max(axis=0, initial=0.0)
+    blades, ways = foremost(envelope.probes, sizes), passes(envelope)
     rubs = bool(envelope.of("friction").any())
     count = len(blades) + len(slips) + len(shrouds) + int(rubs) + 1
     figure, panels, others = grid_of(count, len(blades) if ways else 0)
-    limit = 1.05e3 * float(abs(envelope.highest[:, blades]).max(initial=1e-12))
-    limit = max(limit, 1.05e3 * float(abs(envelope.lowest[:, blades]).max(initial=0.0)))
+    limit = 1.05e3 * float(sizes[blades].max(initial=1e-12))
     for colour, place in zip(COLOURS, blades, strict=False):
         axes = next(panels)
         displacement(axes, envelope, place, colour)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+from microslip_mechanics.arrays import Array
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Okabe and Ito's palette: told apart by colour-blind readers too"""
@@ -48,6 +50,18 @@ def absolute(probes: Iterable[str]) -> list[int]:
     return [place for place, name in enumerate(probes) if "-to-" not in name]
 
 
+def foremost(probes: Sequence[str], sizes: Array) -> list[int]:
+    """Return the places of the motions that have panels of their own, in their order.
+
+    Beside relative motions, which have theirs too, they are the first two, else the
+    three of largest ``sizes``, shape (probes,).
+    """
+    places = absolute(probes)
+    if len(places) < len(probes):
+        return places[:2]
+    return sorted(sorted(places, key=lambda place: -sizes[place])[:3])
+
+
 def relative(probes: Iterable[str]) -> list[int]:
     """Return the places of the probes that are relative motions, "this-to-that"."""
     return [place for place, name in enumerate(probes) if "-to-" in name]
@@ -57,7 +71,7 @@ def faces(contacts: Iterable[str]) -> dict[str, list[int]]:
     """Return the places of the contact points of each face, "B1" being on face B."""
     found: dict[str, list[int]] = {}
     for place, name in enumerate(contacts):
-        found.setdefault(name.rstrip("0123456789"), []).append(place)
+        found.setdefault(name.rstrip("0123456789").rstrip("-"), []).append(place)
     return found
 
 

@@ -12,8 +12,8 @@ from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
-    absolute,
     faces,
+    foremost,
     framed,
     legend_above,
     literal,
@@ -37,11 +37,12 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
     """
     slips = relative(history.probes)
     shrouds = pressed(faces(history.contacts), history.normal_force)
-    blades, ways = absolute(history.probes)[:2], passes(history)
+    sizes = abs(history.displacement).max(axis=0, initial=0.0)
+    blades, ways = foremost(history.probes, sizes), passes(history)
     rubs = bool(history.friction_power.any())
     count = len(blades) + len(slips) + len(shrouds) + int(rubs) + 1
     figure, panels, others = grid_of(count, len(blades) if ways else 0)
-    limit = 1.05e3 * float(abs(history.displacement[:, blades]).max(initial=1e-12))
+    limit = 1.05e3 * float(sizes[blades].max(initial=1e-12))
     for colour, place in zip(COLOURS, blades, strict=False):
         axes = next(panels)
         displacement(axes, history, place, colour)

@@ -113,7 +113,6 @@ def test_sweep_figure_shows_both_blades_on_one_scale(
     assert limits[0] == pytest.approx((-1.05 * largest, 1.05 * largest))
 
 
-@pytest.mark.parametrize("panel", ["sweep", "curve"])
 def test_the_three_largest_motions_have_panels_where_there_are_no_relative_ones(
     small_history: TimeHistory,
 ) -> None:
@@ -133,6 +132,7 @@ def test_the_three_largest_motions_have_panels_where_there_are_no_relative_ones(
     assert shown == [f"Displacement, {name}" for name in ("x1", "x3", "x4")]
 
 
+@pytest.mark.parametrize("panel", ["sweep", "curve"])
 def test_legend_of_energies_lies_above_their_lines(
     axes: Axes, panel: str, small_history: TimeHistory, small_curve: ResponseCurve
 ) -> None:

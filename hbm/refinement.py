@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 
 from hbm.symmetry import Symmetry
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.law import ContactPoints, contact_force, edge
 from microslip_mechanics.jit import bare_kernel
 
 GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
+BESIDE = 1e-9
+"""of a cell's way: how far from the edge both sides of a jump are looked at"""
 
 
 class Samples(NamedTuple):
@@ -55,8 +57,14 @@ def refine(
 ) -> None:
     """Replace the trapezoidal rule in one cell by Gauss rules between its events.
 
-    What a node sees is shared out to the two samples as a linear function would be.
+    What a node sees is shared out to the two samples as a linear function would be. A
+    force that jumps as the faces touch has a tangent there alone.
     """
+    if points.damping[point] != 0.0:
+        _jump(
+            points, point, displacement, velocity, work, made, first, last, place,
+            after, symmetry,
+        )  # fmt: skip
     wraps = place + 1 == made.forces.shape[1] // 2 and symmetry.signs.size > 0
     target = 0 if wraps else after
     for piece in range(-2, 3 * (events.size - 1)):
@@ -90,6 +98,63 @@ def refine(
             point, work, made, first, last, target, far,
             far - blur * (1.0 - 2.0 * share), wraps, symmetry,
         )  # fmt: skip
+
+
+@bare_kernel
+def _jump(
+    points: ContactPoints,
+    point: int,
+    displacement: Array,
+    velocity: Array,
+    work: Work,
+    made: Samples,
+    first: int,
+    last: int,
+    place: int,
+    after: int,
+    symmetry: Symmetry,
+) -> None:
+    """Add the tangent of a force that jumps where contact begins or ends in a cell.
+
+    The place of the jump moves by −δw/w′ with the normal motion w: its integral is that
+    of a tangent by displacement of the jump over |w′|, at that place alone.
+    """
+    row, touch = 3 * point, edge(points, point)
+    before, behind = displacement[row, place] - touch, displacement[row, after] - touch
+    if (before > 0.0) == (behind > 0.0):
+        return
+    share, way = before / (before - behind), abs(behind - before)
+    for axis in range(3):
+        work.moved[axis] = (1.0 - share) * displacement[row + axis, place] + (
+            share * displacement[row + axis, after]
+        )
+        work.moving[axis] = (1.0 - share) * velocity[row + axis, place] + (
+            share * velocity[row + axis, after]
+        )
+    work.moved[0] = touch - BESIDE * way
+    contact_force(
+        points, point, work.moved, work.moving, work.force,
+        work.by_displacement, work.by_velocity,
+    )  # fmt: skip
+    apart, one, two = work.force[0], work.force[1], work.force[2]
+    work.moved[0] = touch + BESIDE * way
+    contact_force(
+        points, point, work.moved, work.moving, work.force,
+        work.by_displacement, work.by_velocity,
+    )  # fmt: skip
+    work.by_displacement[:] = 0.0
+    work.by_velocity[:] = 0.0
+    work.by_displacement[0, 0] = (work.force[0] - apart) / way
+    work.by_displacement[1, 0] = (work.force[1] - one) / way
+    work.by_displacement[2, 0] = (work.force[2] - two) / way
+    wraps = place + 1 == made.forces.shape[1] // 2 and symmetry.signs.size > 0
+    _deposit(
+        point, work, made, first, last, place, 1.0 - share, 0.0, False, symmetry,
+    )  # fmt: skip
+    _deposit(
+        point, work, made, first, last, 0 if wraps else after, share, 0.0, wraps,
+        symmetry,
+    )  # fmt: skip
 
 
 @bare_kernel

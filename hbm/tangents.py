@@ -1,7 +1,8 @@
 """Contact tangents over the steps of a period, cut where contacts change (theory §6).
 
 Steps begin and end where a point touches, lifts off, begins to slide, sticks or turns.
-Each interval is carried in two steps with the tangents
+A force that jumps there is a step of next to no length, as stiff as its jump over the
+speed asks. Each interval is carried in two steps with the tangents
 
     A₁,₂ = A₀ ∓ 4 A₁ ,    A₀ = ∫ A ds ,    A₁ = ∫ (s − ½) A ds ,    0 ≤ s ≤ 1 ,
 
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 from hbm.aft import AlternatingFrequencyTime
 from hbm.contact_path import Path, events, last_path, place
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.law import ContactPoints, contact_force, edge
 from microslip_mechanics.jit import bare_kernel, kernel
 
 COARSE, FINE = 48, 96
@@ -35,6 +36,11 @@ STIFF = 1.0
 """damping of a point that sticks, times :data:`BRIEF`, over its inertia"""
 SHORTEST = 1.0 / 2048.0
 """of a period: what is shorter is not halved"""
+
+SUDDEN = 1e-9
+"""of a sample: length of the step in which a force jumps"""
+BESIDE = 1e-5
+"""of a sample: how far from an edge of intervals both sides are looked at"""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 _INSIDE = 0.5 * (1.0 + _NODES)
@@ -129,6 +135,7 @@ def _integrated(
     _moments(points, path, edges[0], edges[1] - edges[0], moments)
     _catches(moments, inertia, BRIEF / SHORTEST * shortest * path.length, held)
     for interval in range(edges.size - 1):
+        count = _jumps(points, path, edges[interval], basis, elastic, lengths, count)
         begin, waiting = edges[interval], 1
         ends[0] = edges[interval + 1]
         while waiting > 0:
@@ -150,6 +157,63 @@ def _integrated(
             sticks[count : count + 2] = begins
             begin, waiting, count = ends[waiting - 1], waiting - 1, count + 2
     return lengths[:count], elastic[:count], viscous[:count], sticks[:count]
+
+
+@kernel
+def _jumps(
+    points: ContactPoints,
+    path: Path,
+    at: float,
+    basis: Array,
+    elastic: Array,
+    lengths: Array,
+    count: int,
+) -> int:
+    """Add a step if forces jump where points touch or part; return the steps so far.
+
+    The moment of the jump moves by −δw/ẇ with the normal motion w, so that it changes
+    the momentum like a stiffness of jump/|ẇ| that acts at that moment alone.
+    """
+    if count == 0 or count == lengths.size:
+        return count
+    length, found = SUDDEN * path.length, False
+    jump, work = np.zeros(3), np.zeros((4, 3))
+    for point in range(points.load.size):
+        if points.damping[point] == 0.0 or not _jump(
+            points, point, path, at, work, jump
+        ):
+            continue
+        found = True
+        rows = basis[3 * point : 3 * point + 3]
+        elastic[count] += np.outer(np.dot(rows.T, jump / length), rows[0])
+    lengths[count] = length if found else lengths[count]
+    return count + (1 if found else 0)
+
+
+@kernel
+def _jump(
+    points: ContactPoints, point: int, path: Path, at: float, work: Array, jump: Array
+) -> bool:
+    """Write the jump of a point's force as it closes, over its normal speed [N s/m].
+
+    Return whether it touches or parts there.
+    """
+    moved, moving = work[0], work[1]
+    tangents = np.zeros((2, 3, 3))
+    jump[:] = 0.0
+    speed, pressed = 0.0, 0
+    for side in (-1.0, 1.0):
+        place(path, point, at + side * BESIDE, moved, moving)
+        contact_force(points, point, moved, moving, work[2], tangents[0], tangents[1])
+        inside = moved[0] > edge(points, point)
+        pressed += 1 if inside else 0
+        speed += 0.5 * abs(moving[0])
+        for axis in range(3):
+            jump[axis] += work[2, axis] if inside else -work[2, axis]
+    if pressed != 1 or speed == 0.0:
+        return False
+    jump /= speed
+    return True
 
 
 @kernel

@@ -257,6 +257,8 @@ class AdaptiveBalance:
         estimate, as_settled = self.estimate, (correction, self.settled)
         if estimate is None or fourier == self.settled or fourier.harmonics > MARKED:
             return as_settled
+        if fourier.doubled.harmonics > 2 * self._most + 1:  # points have no more room
+            return as_settled
         try:
             along = tangent(estimate.slope, correction.along, scale)
         except SingularError:

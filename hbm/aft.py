@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -254,4 +255,14 @@ class AlternatingFrequencyTime:
         seen = self._fourier.samples // (2 if half else 1)
         forces = self._traces.regular.force + self._traces.extra.force
         period = 2.0 * np.pi / frequency
-        return contact_cycle(self._points, self._moved, forces, seen, period)
+        cycle = contact_cycle(self._points, self._moved, forces, seen, period)
+        if not half:
+            return cycle
+        # in the other half a point does what its mirror image did in this one
+        image = self._symmetry.partners[::3] // 3
+        smallest, largest = cycle.normal_smallest, cycle.normal_largest
+        return replace(
+            cycle,
+            normal_smallest=np.minimum(smallest, smallest[image]),
+            normal_largest=np.maximum(largest, largest[image]),
+        )

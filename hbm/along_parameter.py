@@ -14,6 +14,7 @@ from hbm.parametric import ParametricBalance
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.rigid import with_pushes
 from hbm.stability import SmallMotions, small_motions
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState, static_equilibrium
 
@@ -49,6 +50,7 @@ class AlongParameter:
         self._limits = min(start, end), max(start, end)
         self._last: tuple[Problem, RelativeProblem, StaticState] | None = None
         self._motions: tuple[Problem, SmallMotions] | None = None
+        self._basis: Array | None = None
         self._past: dict[float, RelativeProblem] = {}
         values = (start, 0.5 * (start + end), end)
         seen = [moving(self._whole(value), frequency) for value in values]
@@ -108,7 +110,8 @@ class AlongParameter:
             if not _alike(problem, earlier):
                 known = rest = None
         rest = rest or static_equilibrium(problem)
-        made = relative_problem(problem, rest, known)
+        made = relative_problem(problem, rest, known, self._basis)
+        self._basis = made.basis if self._basis is None else self._basis
         self._last = problem, made, rest
         return with_pushes(made, self._frequency)
 

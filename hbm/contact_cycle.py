@@ -48,7 +48,7 @@ def contact_cycle(
     forces
         Of the points [N], the same shape.
     seen
-        Number of samples that tell all.
+        Number of samples that tell the energies.
     period
         [s].
     """

@@ -65,7 +65,7 @@ class FoldCurve:
         self._problem, self._path, self._options = problem, path, options
         self._fourier = _resolution(options, known)
         self._control = options.control(problem.force_scale)
-        finer = FourierBasis(2 * self._fourier.harmonics + 1, 2 * self._fourier.samples)
+        finer = self._fourier.doubled
         self._system, self._balance = self._planned(self._fourier)
         self._finer, _ = self._planned(finer)
         self._missing = (finer.coefficients - self._fourier.coefficients) * path.rank

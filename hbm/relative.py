@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.linalg
 from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
@@ -114,15 +115,22 @@ class RelativeProblem:
 
 
 def relative_problem(
-    problem: Problem, rest: StaticState, known: RelativeProblem | None = None
+    problem: Problem,
+    rest: StaticState,
+    known: RelativeProblem | None = None,
+    like: Array | None = None,
 ) -> RelativeProblem:
     """Return the problem in relative coordinates; ``rest`` is its equilibrium.
 
-    ``known`` is one of the same structure and contact geometry, if there is one.
+    ``known`` is one of the same structure and contact geometry, if there is one;
+    ``like`` is a basis of others, to which that of the problem is turned.
     """
     condensed: Condensed
     if known is None:
         basis, selection = problem.interface.relative_motion()
+        if like is not None and like.shape == basis.shape:
+            turn, _ = scipy.linalg.orthogonal_procrustes(basis, like)
+            basis, selection = basis @ turn, turn.T @ selection
         condensed = condense(problem, selection)
     else:
         basis, selection, condensed = known.basis, known.selection, known.condensed
@@ -158,7 +166,7 @@ def held_mean_positions(problem: RelativeProblem) -> Array:
     held = problem.condensed.stiffness + contact.spectra(0)[0][:, :, 0]
     sizes, directions = np.linalg.eigh((held + held.T) / 2.0)
     largest = max(float(sizes[-1]), np.finfo(float).tiny)
-    loose = directions[:, sizes <= 1e-11 * largest]
+    loose = directions[:, np.abs(sizes) <= 1e-11 * largest]
     if sizes[-1] <= 0.0:
         largest = float(np.abs(np.diag(problem.condensed.mass)).max())
     gauge: Array = largest * 1e-6 * loose @ loose.T

@@ -68,11 +68,14 @@ class HarmonicBalance:
     def with_problem(self, problem: RelativeProblem) -> HarmonicBalance:
         """Return the same for other contacts and loads in the same coordinates.
 
-        Both share the buffers of the contacts.
+        Both share the buffers of the contacts, if they see the same motion.
         """
         other = copy.copy(self)
         problem = problem.smoothed(self.fourier.threshold)
-        other.contact = self.contact.with_points(problem.points, problem.offset)
+        if np.array_equal(problem.basis, self.problem.basis):
+            other.contact = self.contact.with_points(problem.points, problem.offset)
+        else:
+            other.contact = problem.contact(self.fourier)
         other._take(problem)
         return other
 

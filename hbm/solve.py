@@ -184,7 +184,7 @@ def parameter_response(
         If the frequency is not positive.
     """
     path = AlongParameter(problem_at, frequency, options.start, options.end)
-    tracer = Tracer(problem_at(options.end), path, options)
+    tracer = Tracer(_driven(problem_at, options), path, options)
     with threadpool_limits(1, "blas"):
         yield from tracer.responses()
 
@@ -213,7 +213,8 @@ def fold_curve(
     """
     path = AlongParameter(problem_at, fold.frequency, options.start, options.end)
     with threadpool_limits(1, "blas"):
-        yield from FoldCurve(problem_at(options.end), path, options, fold).points()
+        problem = _driven(problem_at, options)
+        yield from FoldCurve(problem, path, options, fold).points()
 
 
 def periodic_response(
@@ -282,6 +283,15 @@ def settled_response(
         found = correct_at(tracer.system, start, tracer.control, tracer.system)
         made = next(tracer.curve.followed([found], tracer.pieces.metric))
     return replace(made, shapes=shapes)
+
+
+def _driven(problem_at: Callable[[float], Problem], options: CurveOptions) -> Problem:
+    """Return the problem at the end of a range, at its beginning if nothing drives it.
+
+    Its loads say what is large.
+    """
+    last = problem_at(options.end)
+    return last if last.drive.any() else problem_at(options.start)
 
 
 def _most(options: CurveOptions) -> float:

@@ -26,8 +26,8 @@ from microslip_mechanics.jit import bare_kernel, kernel
 from microslip_mechanics.problem import Problem
 
 SMALLEST = 0.004
-"""root of a stuck mode's part in the inertia of y, over the square of its frequency,
-relative to the largest of all modes; what has less is left out"""
+"""root of a stuck mode's part in the inertia of y, by mass or by dashpots, over its
+frequency, relative to the largest of all modes; what has less is left out"""
 
 BEYOND = 1e150
 """modulus of half a period's multiplier that counts as any larger one"""
@@ -173,7 +173,11 @@ def small_motions(problem: Problem) -> SmallMotions:
     squares, shapes = scipy.linalg.eigh(*stuck)
     inertia = static.T @ structure.mass @ static
     coupling = shapes.T @ free.T @ structure.mass @ static
-    part = (coupling.T * scipy.linalg.solve(inertia, coupling.T)).sum(axis=0)
+    dashpots = shapes.T @ free.T @ structure.damping @ static
+    part: Array = sum(
+        (each.T * scipy.linalg.solve(inertia, each.T)).sum(axis=0) / scale
+        for each, scale in ((coupling, 1.0), (dashpots, squares))
+    )
     weight = np.sqrt(np.maximum(part, 0.0) / squares)
     kept = weight >= SMALLEST * weight.max(initial=0.0)
     if structure.gyroscopic:  # Coriolis terms couple modes that inertia does not

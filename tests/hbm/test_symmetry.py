@@ -70,6 +70,10 @@ def test_half_a_period_says_all_of_the_rig(model: str, law: str, samples: int) -
             np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-10 * unit)
         seen, cycle = (each.cycle(moved, FREQUENCY) for each in (one, other))
         assert seen.friction == pytest.approx(cycle.friction, rel=1e-9)
+        for name in ("normal_smallest", "normal_largest"):
+            found, exact = getattr(seen, name), getattr(cycle, name)
+            unit = np.abs(cycle.normal_largest).max()
+            np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-9 * unit)
 
 
 @pytest.mark.parametrize("share", [-0.9, -0.5, -0.1, 0.1, 0.5])

@@ -49,7 +49,8 @@ def read_force(path: Path) -> Force:
         if not text or text.startswith("#"):
             continue
         row = _row(text)
-        if row is None and not (header and not re.match(r"[-+.\d]", text)):
+        named = header and not re.match(r"[-+.\d]|nan\b|inf", text, re.IGNORECASE)
+        if row is None and not named:
             raise SceneError(f"{path}, line {number}: {_cut(text)}: {COLUMNS}")
         header = False
         if row is not None:

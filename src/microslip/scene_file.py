@@ -132,7 +132,11 @@ def _inner(place: dict[str, typing.Any], table: str, override: str) -> typing.An
     elements = place.get("element")
     if table != "element" or not isinstance(elements, list):
         return place.setdefault(table, {})
-    named = {each.get("name"): each for each in elements if isinstance(each, dict)}
+    named = {
+        each.get("name", f"element-{number}"): each
+        for number, each in enumerate(elements, start=1)
+        if isinstance(each, dict)
+    }
     name = override.split(".")[1]
     if name not in named:
         raise SceneError(

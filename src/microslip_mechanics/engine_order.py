@@ -40,6 +40,8 @@ def engine_order(
     load = np.zeros(len(names), complex)
     if not np.isfinite(amplitude):
         raise ValueError(f"amplitude {amplitude} N: give a finite one")
+    if not len(blades):
+        raise ValueError("engine order: no blades: give one or more")
     if order != int(order):
         raise ValueError(f"engine order {order:g}: give a whole number of maxima")
     for place, blade in enumerate(blades):

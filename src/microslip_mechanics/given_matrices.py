@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -53,7 +54,8 @@ def dof_names(given: Sequence[str] | None, count: int) -> tuple[str, ...]:
             f"there are {len(names)} names, but mass has shape ({count}, {count}): "
             "give one name for each degree of freedom"
         )
-    twice = {name for name in names if names.count(name) > 1 or name == "ground"}
+    counts = Counter(names)
+    twice = {name for name in names if counts[name] > 1 or name == "ground"}
     if twice:
         raise ValueError(
             f"names of degrees of freedom: {', '.join(sorted(twice))} stands twice or "

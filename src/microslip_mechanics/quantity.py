@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 import re
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any
@@ -54,7 +55,7 @@ class Quantity:
         return number
 
     def _number(self, value: object) -> float:
-        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        if isinstance(value, bool) or not isinstance(value, (numbers.Real, str)):
             raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
                 f"is not a number: give one{self._unit_hint()}"
             )
@@ -69,7 +70,7 @@ class Quantity:
         return number
 
     def _with_unit(self, text: str) -> float:
-        stripped = text.strip()
+        stripped = text.strip().replace("\u03bc", "µ")  # the Greek letter for the sign
         found = NUMBER.match(stripped)
         first = found[0] if found else stripped.partition(" ")[0]
         try:

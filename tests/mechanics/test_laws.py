@@ -94,3 +94,8 @@ def test_tangents_of_what_remembers_are_central_differences(case: str) -> None:
 def test_true_is_no_number() -> None:
     with pytest.raises(ValueError, match="stiffness = True: give a number"):
         Jenkins(stiffness=True, limit=1.0)
+
+
+@pytest.mark.parametrize("kind", [np.int64, np.float32, np.float64])
+def test_numbers_of_numpy_are_numbers(kind: type) -> None:
+    assert Jenkins(stiffness=kind(5), limit=1.0).stiffness == 5.0

@@ -392,3 +392,31 @@ def test_a_mass_of_another_model_is_refused(tmp_path: Path) -> None:
 
     with pytest.raises(MatrixFileError, match=r"m.mtx: degree of freedom 2\.x is not"):
         read_structure(files)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1j])
+@pytest.mark.parametrize("sparse", [False, True])
+def test_a_matrix_of_no_finite_real_numbers_is_refused(
+    value: complex, sparse: bool, tmp_path: Path
+) -> None:
+    wrong = STIFFNESS.astype(complex if value == 1j else float)
+    wrong[0, 0] = value
+    path = tmp_path / "stiffness.npz"
+    if sparse:
+        scipy.sparse.save_npz(path, scipy.sparse.csc_array(wrong))
+    else:
+        np.savez(path, K=wrong)
+
+    with pytest.raises(MatrixFileError, match=r"not finite|matrix of real numbers"):
+        read_structure(MatrixFiles(MatrixSource(path), MatrixSource(path)))
+
+
+def test_archives_that_are_none_are_refused(tmp_path: Path) -> None:
+    single, broken = tmp_path / "one.npz", tmp_path / "broken.npz"
+    with single.open("wb") as file:
+        np.save(file, STIFFNESS)
+    np.savez(broken, format=b"csc", shape=(4, 4), data=np.ones(4))
+
+    for path, cause in ((single, "holds one array"), (broken, "sparse matrix")):
+        with pytest.raises(MatrixFileError, match=cause):
+            read_structure(MatrixFiles(MatrixSource(path), MatrixSource(path)))

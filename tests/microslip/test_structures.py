@@ -11,7 +11,7 @@ import scipy.sparse
 import microslip
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scene_file import built_in_text, load_scene
 from microslip.scenes.systems.build import reduction
 from microslip.studies.explain import pruned
 from microslip_mechanics.problem import Problem
@@ -311,3 +311,32 @@ def test_what_is_kept_is_told_of_one_reduction(
     pruned(load_scene(str(path)))
 
     assert len(calls) == 1
+
+
+@pytest.mark.parametrize(
+    ("scene", "more", "cause"),
+    [
+        ("jenkins", "", "belongs to a beam"),
+        ("friction-beam", "", "plane = true"),
+        ("tip-damper", '[structure.masses]\npin = "50 g"\n', "places of point masses"),
+    ],
+)
+def test_what_cannot_rotate_is_told(
+    scene: str, more: str, cause: str, tmp_path: Path
+) -> None:
+    turn = '[structure.rotation]\nspeed = "50 Hz"\naxis = [0, 0, 1]\n' + more
+    path = tmp_path / "turning.toml"
+    path.write_text(built_in_text(scene).replace("[drive]", turn + "[drive]", 1))
+
+    with pytest.raises(SceneError, match=rf"\[structure.rotation\] .*{cause}"):
+        problem_of(load_scene(str(path)))
+
+
+def test_an_element_without_a_name_is_set_by_its_number(tmp_path: Path) -> None:
+    path = tmp_path / "unnamed.toml"
+    path.write_text(built_in_text("jenkins").replace('name = "slider"\n', ""))
+
+    scene = load_scene(str(path), ["element.element-1.limit=2"])
+
+    assert problem_of(scene).interface.points.dynamic[0] != 0.0
+    assert scene.rig.element["element-1"].limit == 2.0

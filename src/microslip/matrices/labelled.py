@@ -29,8 +29,11 @@ class LabelledMatrix:
         Raises
         ------
         ValueError
-            If it is not square, or has other names than rows.
+            If it is not square, holds a value that is not finite, or has other names
+            than rows.
         """
+        if not np.isfinite(self.matrix.data).all():
+            raise ValueError("the matrix holds a value that is not finite")
         rows, columns = self.matrix.shape
         if rows != columns:
             raise ValueError(

@@ -32,7 +32,7 @@ def read_npz(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
     """
     there = _arrays(path)
     if there.keys() >= SPARSE:
-        return LabelledMatrix(scipy.sparse.csc_array(scipy.sparse.load_npz(path)), ())
+        return LabelledMatrix(matrix_of(path, {"it": _sparse(path)}, ("it",)), ())
     names = tuple(str(name) for name in np.ravel(there.pop("names", ())))
     matrix = matrix_of(path, there, wanted)
     try:
@@ -41,11 +41,21 @@ def read_npz(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         raise MatrixFileError(path, str(error)) from None
 
 
+def _sparse(path: Path) -> Any:  # noqa: ANN401  (of any of scipy's formats)
+    try:
+        return scipy.sparse.load_npz(path)
+    except (*UNSOUND, KeyError) as error:
+        raise MatrixFileError(
+            path, f"is no sound archive of a sparse matrix ({error}): use save_npz"
+        ) from None
+
+
 def _arrays(path: Path) -> dict[str, Any]:
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            if not isinstance(archive, np.lib.npyio.NpzFile):
-                raise MatrixFileError(path, "holds one array: use numpy.savez")
+        archive = np.load(path, allow_pickle=False)
+        if not isinstance(archive, np.lib.npyio.NpzFile):
+            raise MatrixFileError(path, "holds one array: use numpy.savez")
+        with archive:
             return dict(archive)
     except FileNotFoundError:
         raise MatrixFileError(

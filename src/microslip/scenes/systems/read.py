@@ -141,8 +141,31 @@ def _matrices(source: str, values: dict[str, Any]) -> Matrices:
     )
 
 
+def _check_rotation(source: str, values: dict[str, Any]) -> None:
+    """Check that what rotates is a beam in space, alone."""
+    beam = values.get("beam")
+    if "rotation" not in values or not isinstance(beam, dict | None):
+        return
+    for wrong, cause, remedy in (
+        (beam is None, "belongs to a beam", "add a [structure.beam]"),
+        (
+            beam is not None and beam.get("plane", False),
+            "stretches a beam, which plane = true does not let it",
+            "give plane = false",
+        ),
+        (
+            bool(values.get("masses")),
+            "needs the places of point masses, which [structure.masses] has not",
+            "leave one of the two out",
+        ),
+    ):
+        if wrong:
+            raise SceneError(f"{source}: [structure.rotation] {cause}: {remedy}")
+
+
 def _masses(source: str, values: dict[str, Any]) -> dict[str, float]:
     """Return the point masses beside a beam."""
+    _check_rotation(source, values)
     if "masses" in values and "beam" not in values:
         raise SceneError(
             f"{source}: [structure] masses belong to a beam: add a [structure.beam], "

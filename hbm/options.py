@@ -48,7 +48,7 @@ class CurveOptions:
     events: bool = True
     """whether peaks, folds and changes of stability are located"""
     most_harmonics: int = HARMONICS
-    """that an error tolerance may ask for"""
+    """that an error tolerance may ask for; reported points have up to twice as many"""
     effort: float | None = None
     """evaluations of the residual after which a curve is given up, see
     :class:`~hbm.effort.Effort`"""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import numbers
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -80,7 +81,7 @@ def driven(
     """
     names, waves = structure.names, {}
     for name, wave in drive.items():
-        amplitude, phase = wave if isinstance(wave, tuple) else (wave, 0.0)
+        amplitude, phase = _wave(name, wave)
         turn = math.remainder(phase, math.tau)
         if turn in (0.0, math.pi, -math.pi):
             waves[name] = complex(amplitude if turn == 0.0 else -amplitude)
@@ -94,6 +95,21 @@ def driven(
     return total if total.imag.any() else total.real
 
 
+def _wave(name: str, given: object) -> tuple[float, float]:
+    """Return amplitude and phase of a load."""
+    pair = given if isinstance(given, tuple | list) else (given, 0.0)
+    try:
+        amplitude, phase = (float(each) for each in pair)
+    except (TypeError, ValueError):
+        amplitude = phase = math.nan
+    if not math.isfinite(phase) or not math.isfinite(amplitude):
+        raise ValueError(
+            f"drive of {name} is {given!r}: give a finite amplitude [N], or a pair of "
+            "that and a phase [rad]"
+        )
+    return amplitude, phase
+
+
 def loads(
     given: Mapping[str, float] | Mapping[str, complex],
     names: tuple[str, ...],
@@ -103,7 +119,7 @@ def loads(
     """Return loads over the degrees of freedom; ``set.direction`` is all of a set."""
     total = np.zeros(len(names), dtype=complex)
     for name, force in given.items():
-        if not cmath.isfinite(force):
+        if not isinstance(force, numbers.Number) or not cmath.isfinite(force):
             raise ValueError(f"{what} of {name} is {force}: give a finite number")
         for each in _members(name, names, sets):
             total[place_of(each, names, what)] += force

@@ -284,6 +284,14 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
         ("stiffness holds a value that is not finite",),
     ),
     "NaN in the mass": ({"mass": [np.nan, 1.0]}, ("mass", "not finite")),
+    "text in the drive": (
+        {"drive": {"x1": "0.5 N"}},
+        ("drive of x1 is '0.5 N'", "a finite amplitude"),
+    ),
+    "text in the preload": (
+        {"preload": {"x1": "1 N"}},
+        ("preload of x1 is 1 N", "a finite number"),
+    ),
     "NaN in the drive": ({"drive": {"x1": np.nan}}, ("drive of x1", "finite")),
     "NaN in the preload": ({"preload": {"x2": np.inf}}, ("preload of x2", "finite")),
     "drive on nothing": ({"drive": {"x9": 1.0}}, ("drive", "'x9'")),
@@ -346,3 +354,12 @@ def test_malformed_law_ends_with_one_line(
     assert "\n" not in message
     for word in words:
         assert word in message
+
+
+def test_a_pair_of_amplitude_and_phase_may_be_a_list() -> None:
+    pair: Any = [2.0, 0.5]
+
+    listed = system(mass=MASS, stiffness=STIFFNESS, drive={"x1": pair})
+
+    paired = system(mass=MASS, stiffness=STIFFNESS, drive={"x1": (2.0, 0.5)})
+    np.testing.assert_array_equal(listed.drive, paired.drive)

@@ -51,7 +51,7 @@ def whole_change(
     """
     size, rank = push.shape
     answers = np.linalg.solve(np.eye(rank) - tangents @ (seen @ push), tangents)
-    blocks = answers.reshape(-1, BLOCK, rank, 2 * rank)
+    blocks = answers.reshape(len(answers) // BLOCK, BLOCK, rank, 2 * rank)
     rests = left.reshape(-1, BLOCK, size)
     kick = free @ push + push
     powers = [np.eye(size)]
@@ -65,7 +65,9 @@ def whole_change(
     maps = powers[BLOCK] + kicked @ pushed.by_begin
     begins = cyclic_solution(maps, drift[BLOCK] + pushed.rest @ kicked.T)
     forces = np.einsum("bwi,bi->bw", pushed.by_begin, begins) + pushed.rest
-    return _within(free, push, kick, begins, forces.reshape(-1, BLOCK, rank), rests)
+    return _within(
+        free, push, kick, begins, forces.reshape(len(blocks), BLOCK, rank), rests
+    )
 
 
 def _pushed(
@@ -83,7 +85,7 @@ def _pushed(
     width = BLOCK * rank
     lag = (blocks @ coupled.reshape(BLOCK, double, width)).reshape(count, width, width)
     watched = np.stack([seen @ power for power in powers[:BLOCK]])
-    by_begin = (blocks @ watched).reshape(count, width, -1)
+    by_begin = (blocks @ watched).reshape(count, width, drift.shape[2])
     rest = (blocks @ (drift @ seen.T)[..., None]).reshape(count, width, 1)
     found = np.linalg.solve(np.eye(width) - lag, np.dstack([by_begin, rest]))
     return Pushed(found[:, :, :-1], found[:, :, -1])

@@ -26,6 +26,7 @@ from timedomain.cyclic_system import cyclic_solution
 from timedomain.period_map import PeriodMap
 from timedomain.shooting import ShootingOptions, periodic_orbit
 from timedomain.start import on_orbit
+from timedomain.whole_change import whole_change
 from timedomain.whole_orbit import whole_orbit
 
 MASS, DAMPING, DRIVE, FREQUENCY = 2.0, 4.0, 1.5, 9.0
@@ -169,3 +170,21 @@ def test_harmonic_balance_finds_the_same_orbit_on_a_hill() -> None:
     assert found.difference < 1e-6
     assert found.predicted[0] > 1.1 * DRIVE / REPELLING
     assert found.found_multiplier > 1e20
+
+
+def test_without_contacts_it_is_that_of_contacts_that_do_nothing() -> None:
+    draw = np.random.default_rng(2)
+    free, left = 0.5 * draw.normal(size=(4, 4)), draw.normal(size=(64, 4))
+
+    none, idle = (
+        whole_change(
+            free,
+            np.zeros((4, rank)),
+            np.zeros((2 * rank, 4)),
+            np.zeros((64, rank, 2 * rank)),
+            left,
+        )
+        for rank in (0, 1)
+    )
+
+    np.testing.assert_allclose(none, idle, rtol=1e-12)

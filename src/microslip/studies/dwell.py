@@ -96,6 +96,8 @@ class _Ruler:
         if len(before) < WINDOW or not max(recent) < max(before):
             return math.inf
         fade = (max(recent) / max(before)) ** (1.0 / WINDOW)
+        if fade >= 1.0:  # by rounding: what is left of the motion jitters
+            return math.inf
         return float(max(recent) * fade / (1.0 - fade) / np.linalg.norm(here))
 
 

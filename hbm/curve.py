@@ -48,17 +48,17 @@ class Curve:
         before: Settled | None = None
         for correction in corrections:
             mark = beginning if before is None else "restart"
-            made, after = self._made(correction, "" if correction.joined else mark)
+            made, after = self.made(correction, "" if correction.joined else mark)
             if self.events and correction.tangent is not None:
                 after = self.events.directed(after, metric)
             if self.events and before is not None and correction.joined:
                 for event in self.events.between(before, after, metric):
-                    told, _ = self._made(event.correction, event.name)
+                    told, _ = self.made(event.correction, event.name)
                     yield replace(told, parameter_error=event.error)
             yield made
             before = after
 
-    def _made(
+    def made(
         self, correction: Correction, event: str
     ) -> tuple[PeriodicResponse, Settled]:
         """Return the response at a settled point, and what events beside it need."""

@@ -10,12 +10,14 @@ from threadpoolctl import threadpool_limits
 
 from hbm.along_parameter import AlongParameter
 from hbm.branches import Branching
+from hbm.condensation import CondensedStructure
 from hbm.continuation import correct_at
 from hbm.curve import response
 from hbm.detached import Search, Sought
 from hbm.errors import hertz, placed
 from hbm.fold_curve import FoldCurve, FoldPoint
 from hbm.fourier import FourierBasis
+from hbm.linear_curve import linear_curve
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
 from hbm.step_control import StepControl
@@ -55,9 +57,13 @@ def frequency_response(
     path = along_frequency(
         small, still, options.start, options.end, pruned=options.pruned
     )
-    tracer = Tracer(small, path, options)
+    tracer, condensed = Tracer(small, path, options), path.problem.condensed
+    responses = tracer.responses()
+    if path.rank == 0 and isinstance(condensed, CondensedStructure):
+        linear = linear_curve(condensed, path.problem.force[1], small.probes.rows)
+        responses = tracer.at_places(linear.places(options.start, options.end))
     with threadpool_limits(1, "blas"), placed(hertz):
-        for made in tracer.responses():
+        for made in responses:
             yield replace(made, shapes=shapes)
 
 

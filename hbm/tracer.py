@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
+from hbm.continuation import correct_at
 from hbm.curve import Curve
 from hbm.effort import Effort
 from hbm.events import Events
+from hbm.linear_curve import Place
 from hbm.memory import marched
 from hbm.multipliers import Multipliers
 from hbm.options import CurveOptions
@@ -75,6 +77,16 @@ class Tracer:
     def responses(self) -> Iterator[PeriodicResponse]:
         """Yield the responses from one end of the range to the other."""
         yield from self.curve.followed(self.pieces, self.pieces.metric)
+
+    def at_places(self, places: Iterable[Place]) -> Iterator[PeriodicResponse]:
+        """Yield the responses at given frequencies, of what has no coordinates."""
+        for frequency, error in places:
+            if error is not None and self.curve.events is None:
+                continue
+            guess = np.append(np.zeros(self.system.size - 1), frequency)
+            found = correct_at(self.system, guess, self.control, self.system)
+            made, _ = self.curve.made(found, "" if error is None else "peak")
+            yield made if error is None else replace(made, parameter_error=error)
 
     def from_response(
         self, known: PeriodicResponse, selection: Array, mark: str

@@ -12,12 +12,12 @@ from microslip.quantity import SceneError, quantity
 class Sweep:
     """Load history of the time march."""
 
-    ramp: float = quantity("s", lowest=0.0)
-    start: float = quantity("s", lowest=0.0)
     end: float = quantity("s", positive=True)
     duration: float = quantity("s", positive=True)
     lowest: float = quantity("Hz", positive=True)
     highest: float = quantity("Hz", positive=True)
+    ramp: float = quantity("s", lowest=0.0, default=0.0)
+    start: float = quantity("s", lowest=0.0, default=0.0)
     kind: typing.Literal["exponential", "linear", "stepped"] = quantity(
         default="exponential"
     )
@@ -34,7 +34,7 @@ class Curve:
 
     lowest: float = quantity("Hz", positive=True)
     highest: float = quantity("Hz", positive=True)
-    tolerance: float = quantity(lowest=1e-6, highest=0.5)
+    tolerance: float = quantity(lowest=1e-6, highest=0.5, default=1e-3)
     harmonics: int | None = quantity(lowest=1, highest=255, optional=True)
     samples: int | None = quantity(lowest=6, highest=2**16, optional=True)
 
@@ -44,11 +44,11 @@ class March:
     """Time integration."""
 
     time_step: float = quantity("s", positive=True, highest=1.0)
-    store_every: int = quantity(lowest=1, highest=10**6)
+    store_every: int = quantity(lowest=1, highest=10**6, default=1)
 
 
-def check_experiments(source: str, sweep: Sweep, curve: Curve) -> None:
-    """Check what more than one key decides.
+def check_sweep(source: str, sweep: Sweep) -> None:
+    """Check what more than one key of a sweep decides.
 
     Raises
     ------
@@ -61,13 +61,19 @@ def check_experiments(source: str, sweep: Sweep, curve: Curve) -> None:
             f"{sweep.end:g} s, duration {sweep.duration:g} s: "
             "give ramp <= start < end <= duration"
         )
-    for name, table in (("sweep", sweep), ("curve", curve)):
-        if not table.lowest < table.highest:
-            raise SceneError(
-                f"{source}: [{name}] lowest = {table.lowest:g} Hz, highest = "
-                f"{table.highest:g} Hz: give lowest < highest"
-            )
+    _check_range(f"{source}: [sweep]", sweep)
     _check_kind(source, sweep)
+
+
+def check_curve(source: str, curve: Curve) -> None:
+    """Check what more than one key of a curve decides.
+
+    Raises
+    ------
+    SceneError
+        With file, table, keys, values and remedy.
+    """
+    _check_range(f"{source}: [curve]", curve)
     check_samples(f"{source}: [curve]", curve)
 
 
@@ -89,6 +95,14 @@ def check_samples(place: str, curve: Curve) -> None:
         raise SceneError(
             f"{place} samples = {curve.samples}: too few for "
             f"{curve.harmonics} harmonics: give at least {fewest}"
+        )
+
+
+def _check_range(place: str, table: Sweep | Curve) -> None:
+    if not table.lowest < table.highest:
+        raise SceneError(
+            f"{place} lowest = {table.lowest:g} Hz, highest = "
+            f"{table.highest:g} Hz: give lowest < highest"
         )
 
 

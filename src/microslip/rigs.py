@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from microslip.quantity import SceneError
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades import build
 from microslip.scenes.two_blades.tables import TwoBlades

@@ -5,14 +5,14 @@ from __future__ import annotations
 import dataclasses
 import tomllib
 import typing
-from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
-from microslip.experiments import Curve, March, Sweep, check_experiments
-from microslip.force_file import Force, read_force
+from microslip.experiments import Curve, March, Sweep, check_curve, check_sweep
+from microslip.force_file import read_force
 from microslip.key_path import key_path
 from microslip.quantity import SceneError
+from microslip.scene_tables import Experiments, Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.table import meant, read_table
@@ -26,21 +26,6 @@ NESTED = (["element"], ["drive"], ["structure"])
 """tables of a system with tables in them"""
 AMPLITUDE = "amplitude"
 """what a bare number changes of a force whose table has it"""
-
-
-@dataclass(frozen=True, slots=True)
-class Scene:
-    """A rig, and what is done with it."""
-
-    rig: typing.Any
-    """tables of its kind: TwoBlades, BladedDisk or System"""
-    sweep: Sweep
-    curve: Curve
-    march: March
-    text: str
-    """the TOML that made it, overrides included"""
-    force: Force | None = None
-    """that the sweep's ``force_file`` holds"""
 
 
 def built_in_text(name: str) -> str:
@@ -78,13 +63,16 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
         _apply(document, override)
         text += f"\n# --set {override}"
     scene = _scene(source, document, text)
-    return scene if scene.sweep.force_file is None else _with_force(path, scene)
+    sweep = scene.experiments.sweep
+    if sweep is None or sweep.force_file is None:
+        return scene
+    return _with_force(path, scene, sweep.force_file)
 
 
-def _with_force(path: Path, scene: Scene) -> Scene:
-    """Return a scene with the force of its file, sought beside the scene file."""
+def _with_force(path: Path, scene: Scene, name: str) -> Scene:
+    """Return a scene with the force of a file, sought beside the scene file."""
     folder = path.parent if path.is_file() else Path()
-    force = read_force(folder / str(scene.sweep.force_file))
+    force = read_force(folder / name)
     text = f"{scene.text}\n# force file {force.digest}"
     return dataclasses.replace(scene, force=force, text=text)
 
@@ -153,16 +141,19 @@ def _scene(source: str, document: dict[str, typing.Any], text: str) -> Scene:
             f"{source}: scene = {kind!r}: name the kind of scene at the top, "
             f"one of {', '.join(KINDS)}"
         )
-    experiments = {"sweep": Sweep, "curve": Curve, "march": March}
-    made = {}
-    for name, table in experiments.items():
-        if name not in document:
-            raise SceneError(f"{source}: table [{name}] is missing: add it")
-        made[name] = read_table(source, f"[{name}] ", table, document.pop(name))
-    known = [*experiments, "scene"]
-    scene = Scene(_rig(source, str(kind), document, known), **made, text=text)
-    check_experiments(source, scene.sweep, scene.curve)
-    return scene
+    tables = {"sweep": Sweep, "curve": Curve, "march": March}
+    made = {
+        name: read_table(source, f"[{name}] ", table, document.pop(name))
+        for name, table in tables.items()
+        if name in document
+    }
+    experiments = Experiments(**made)
+    rig = _rig(source, str(kind), document, [*tables, "scene"])
+    if experiments.sweep is not None:
+        check_sweep(source, experiments.sweep)
+    if experiments.curve is not None:
+        check_curve(source, experiments.curve)
+    return Scene(source, rig, experiments, text)
 
 
 def _rig(

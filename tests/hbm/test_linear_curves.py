@@ -275,3 +275,65 @@ def test_a_dip_between_two_resonances_is_no_peak() -> None:
     assert exact[0] < dip < exact[1]
     peaks = [response.frequency for response in curve if response.event == "peak"]
     assert peaks == pytest.approx(exact, rel=1e-5)
+
+
+@pytest.mark.parametrize("damping_ratio", [0.3, 1e-2, 1e-4, 1e-8])
+def test_resonances_much_closer_than_a_step_are_each_found(
+    damping_ratio: float,
+) -> None:
+    weak = 1e-4
+    problem = system(
+        mass=[1.0, 1.0],
+        stiffness=[[1e3 + weak, -weak], [-weak, 1e3]],
+        damping_ratio=damping_ratio,
+        drive={"x1": 1.0},
+        probes=["x1"],
+    )
+    options = CurveOptions(TURN * 7.0, TURN * 4.0)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    squares, shapes = np.linalg.eigh(problem.structure.stiffness)
+    modes = np.sqrt(squares)
+
+    def growth(frequency: float) -> float:
+        below = squares - frequency**2 + 2j * damping_ratio * modes * frequency
+        slope = -2.0 * frequency + 2j * damping_ratio * modes
+        motion, change = shapes[0] ** 2 @ np.array([1.0 / below, -slope / below**2]).T
+        return float((motion.conj() * change).real)
+
+    wide = 3.0 * damping_ratio * modes
+    grid = np.unique(
+        np.concatenate(
+            [np.linspace(TURN * 4.0, TURN * 7.0, 500)]
+            + [
+                np.linspace(mode - each, mode + each, 500)
+                for mode, each in zip(modes, wide, strict=True)
+            ]
+        )
+    )
+    signs = np.sign([growth(each) for each in grid])
+    exact = [
+        scipy.optimize.brentq(growth, float(grid[i]), float(grid[i + 1]), xtol=1e-12)
+        for i in np.flatnonzero((signs[:-1] > 0.0) & (signs[1:] < 0.0))
+        if TURN * 4.0 < grid[i] < TURN * 7.0
+    ]
+    frequencies = [response.frequency for response in curve]
+    assert frequencies == sorted(frequencies, reverse=True)
+    peaks = [response for response in curve if response.event == "peak"]
+    found = [response.frequency for response in peaks]
+    assert len(exact) == 1 + (damping_ratio < 1e-6)
+    assert found == pytest.approx(exact[::-1], rel=1e-12)
+    assert all(response.parameter_error < 1e-9 for response in peaks)
+
+
+def test_a_resonance_without_damping_has_no_peak_and_no_point() -> None:
+    problem = oscillator(mass=2.0, damping=0.0, stiffness=300.0)
+    options = CurveOptions(TURN * 0.5, TURN * 4.0)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    assert not any(response.event for response in curve)
+    natural = np.sqrt(150.0)
+    beside = [abs(response.frequency / natural - 1.0) for response in curve]
+    assert 1e-9 < min(beside) < 1e-6

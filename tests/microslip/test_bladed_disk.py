@@ -7,7 +7,8 @@ import pytest
 
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of, sector_of
-from microslip.scene_file import Scene, load_scene
+from microslip.scene_file import load_scene
+from microslip.scene_tables import Scene
 from microslip.studies.curve import Wanted, trace_curve, trace_sector
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.cyclic import CyclicProblem

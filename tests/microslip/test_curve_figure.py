@@ -108,6 +108,24 @@ def test_curve_that_folds_back_is_drawn_as_it_was_traced(
     np.testing.assert_allclose(shown, [130.0, 132.0, 131.0, 133.0])
 
 
+def test_what_is_nothing_everywhere_has_no_panel(small_curve: ResponseCurve) -> None:
+    none = np.zeros_like(small_curve.normal_largest)
+    curve = dataclasses.replace(
+        small_curve,
+        normal_smallest=none,
+        normal_largest=none,
+        friction_energy=none[:, 0],
+        damping_energy=none[:, 0],
+        error=none[:, 0],
+    )
+
+    figure = curves.curve_figure(curve, "linear")
+
+    check_labels(figure)
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    assert titles == ["First harmonic", "Largest relative velocity"]
+
+
 def test_without_normal_forces_the_error_takes_their_place(
     small_curve: ResponseCurve,
 ) -> None:

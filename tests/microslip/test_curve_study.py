@@ -8,7 +8,8 @@ import pytest
 from numpy.typing import ArrayLike
 
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene, load_scene
+from microslip.scene_file import load_scene
+from microslip.scene_tables import Scene
 from microslip.studies.curve import (
     followed_upwards,
     quasi_static_energy,

@@ -66,7 +66,7 @@ def test_follow_finds_what_the_drive_is_proportional_to(
 @pytest.mark.parametrize(
     ("words", "shown"),
     [
-        (["track", "drive.x", "0.1", "0.2"], r"5\.030908  ± \de-0\d +5\.001000 "),
+        (["track", "drive.x", "0.1", "0.2"], r"5\.030908  ± \de-11 +5\.001000 "),
         (["verify", "--slower", "--frequencies", "2"], "agree: "),
         (["jumps"], "sweeps do not jump"),
     ],

@@ -46,8 +46,7 @@ MALFORMED: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     ),
     "missing model": (edited('model = "full"', ""), ("model", "missing")),
     "missing rig table": (without_table("friction"), ("[friction]", "missing")),
-    "missing experiment": (without_table("sweep"), ("[sweep]", "missing")),
-    "missing last table": (without_table("march"), ("[march]", "missing")),
+    "missing experiment": (without_table("curve"), ("[curve]", "missing")),
     "empty table": (without_table("rope") + "\n[rope]", ("[rope] stiffness",)),
     "wrong unit": (
         length('"207.5 Hz"'),

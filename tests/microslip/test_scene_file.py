@@ -2,19 +2,24 @@
 
 import dataclasses
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 import pytest
 
 import rigs
 from microslip.quantity import SceneError
-from microslip.scene_file import BUILT_IN, Scene, built_in_text, load_scene
+from microslip.scene_file import BUILT_IN, built_in_text, load_scene
+from microslip.scene_tables import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
 
 
 def plain(scene: Scene) -> dict[str, object]:
-    """Return all values of a scene but its text."""
-    return {**dataclasses.asdict(scene), "text": ""}
+    """Return all values of a scene but its text and where it comes from."""
+    return {**dataclasses.asdict(scene), "text": "", "source": ""}
 
 
 @pytest.fixture
@@ -166,3 +171,43 @@ def test_windows_line_ends_change_nothing(copied: Path) -> None:
 def test_scene_error_names_the_file_as_it_was_given(copied: Path) -> None:
     with pytest.raises(SceneError, match=f"^{copied}: "):
         load_scene(str(copied), ["blade.length=-1"])
+
+
+LEAST = """
+scene = "system"
+[structure]
+mass = [1]
+stiffness = [1000]
+damping_ratio = 0.02
+[drive]
+x1 = "0.5 N"
+"""
+CURVE = """
+[curve]
+lowest = 4
+highest = 7
+"""
+
+
+def test_a_scene_needs_the_tables_of_what_is_done_with_it_alone(
+    run: Run, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(LEAST + CURVE, encoding="utf-8")
+
+    assert load_scene(str(path)).curve.tolerance == 1e-3
+    status, _, error = run("frc", str(path), "-o", str(tmp_path / "curve"))
+    assert (status, error) == (0, "")
+
+    status, _, error = run("sweep", str(path))
+    assert status == 2
+    assert error == f"microslip: {path}: table [sweep] is missing: add it\n"
+
+
+@pytest.mark.parametrize("name", ["sweep", "curve", "march"])
+def test_tables_that_are_left_out_are_named(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(LEAST, encoding="utf-8")
+
+    with pytest.raises(SceneError, match=rf"table \[{name}\] is missing: add it"):
+        getattr(load_scene(str(path)), name)

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene, load_scene
+from microslip.scene_file import load_scene
+from microslip.scene_tables import Scene
 from microslip.studies.sweep import march_sweep, march_whole, swept_sine
 from microslip_mechanics.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene, load_scene
+from microslip.scene_file import load_scene
+from microslip.scene_tables import Scene
 from microslip.studies.curve import Traced, quasi_static_energy, trace_curve
 from microslip.studies.orbits import spread
 from microslip.studies.sweep import march_whole, swept_sine

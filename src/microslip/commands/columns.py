@@ -30,7 +30,9 @@ def headed(names: Sequence[str]) -> str:
 
 
 def titled(text: str, names: Sequence[str]) -> str:
-    """Return a title in the width of the probes' columns."""
+    """Return a title as wide as the probes' columns; it says if some are left out."""
+    if len(names) > SHOWN:
+        text += f", {SHOWN} of {len(names)}"
     return f"{text:<{(WIDTH + 1) * len(names[:SHOWN]) - 1}}"
 
 

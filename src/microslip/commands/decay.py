@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments, dwell
 
 if TYPE_CHECKING:
-    from microslip.scene_file import Scene
+    from microslip.scene_tables import Scene
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.ring_down import RingDown
     from microslip_mechanics.time_history import Checkpoint, TimeHistory

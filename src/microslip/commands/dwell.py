@@ -12,7 +12,7 @@ from microslip.commands.sweep import energy_table
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from microslip.scene_file import Scene
+    from microslip.scene_tables import Scene
     from microslip.studies.dwell import Period
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.time_history import TimeHistory

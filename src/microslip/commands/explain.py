@@ -48,8 +48,9 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.explain import obeyed, pruned
 
     scene = load_scene(options.scene, options.overrides)
+    counts = pruned(scene)
     print(f"{'':48s}  kept  unpruned  reason")
-    for each in pruned(scene):
+    for each in counts:
         print(f"{each.what:48s} {each.kept:5d} {each.whole:9d}  {each.reason}")
     for name, law, equation in obeyed(scene):
         print(f"{name:20s} {law:18s} {equation}")

@@ -73,12 +73,14 @@ def _table(curve: ResponseCurve) -> str:
     evenly = range(0, curve.parameter.size, max(1, curve.parameter.size // 12))
     places = {*evenly, curve.parameter.size - 1}
     places |= {place for place, name in enumerate(curve.event) if name}
-    lines = [
-        f"     parameter {titled(' first harmonic [mm]', curve.probes)}     friction"
-        "    largest",
-        f"          [SI] {headed(curve.probes)}  [mJ/period]  multiplier",
-    ]
     energy = curve.friction_energy
+    rubs = bool(energy.any())
+    lines = [
+        f"     parameter {titled(' first harmonic [mm]', curve.probes)}"
+        f"{'     friction' if rubs else ''}     largest",
+        f"          [SI] {headed(curve.probes)}{'  [mJ/period]' if rubs else ''}"
+        "  multiplier",
+    ]
     for place in sorted(places):
         values = (
             f"{curve.parameter[place]:14.6g}",
@@ -86,7 +88,7 @@ def _table(curve: ResponseCurve) -> str:
                 decimal(1e3 * each[place], 1e3 * each.max(), 5)
                 for each in curve.amplitude.T[:SHOWN]
             ),
-            decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12),
+            *([decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12)] * rubs),
             f"{curve.multiplier[place]:11.5f}",
         )
         event = curve.event[place] + about(curve.parameter_error[place])

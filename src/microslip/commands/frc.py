@@ -12,7 +12,7 @@ from microslip.commands.columns import SHOWN, about, decimal, headed, titled
 if TYPE_CHECKING:
     from microslip.experiments import Curve
     from microslip.progress import Watch
-    from microslip.scene_file import Scene
+    from microslip.scene_tables import Scene
     from microslip.studies.curve import Traced
     from microslip_mechanics.response import ResponseCurve
     from microslip_mechanics.static import StaticState
@@ -220,8 +220,11 @@ def _table(traced: Traced) -> str:
 
     curve = traced.curve
     presses = bool(curve.normal_smallest.any() or curve.normal_largest.any())
-    head = f"frequency {titled(' first harmonic [mm]', curve.probes)}     friction"
-    units = f"     [Hz] {headed(curve.probes)}  [mJ/period]"
+    rubs = bool(curve.friction_energy.any())
+    head = f"frequency {titled(' first harmonic [mm]', curve.probes)}"
+    units = f"     [Hz] {headed(curve.probes)}"
+    if rubs:
+        head, units = f"{head}     friction", f"{units}  [mJ/period]"
     if presses:
         head, units = f"{head}      normal force [N]", f"{units}     least      most"
     lines = [head, units]
@@ -234,8 +237,9 @@ def _table(traced: Traced) -> str:
                 decimal(1e3 * each[place], 1e3 * each.max(), 5)
                 for each in curve.amplitude.T[:SHOWN]
             ),
-            decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12),
         ]
+        if rubs:
+            values.append(decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12))
         if presses:
             values.append(f"{curve.normal_smallest[place].min():z9.3f}")
             values.append(f"{curve.normal_largest[place].max():z9.3f}")

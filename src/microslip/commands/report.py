@@ -14,7 +14,7 @@ from microslip.commands.report_sections import section_of, words_of
 from microslip.page import DONE, LEFT_OUT, STOPPED, Section, page
 
 if TYPE_CHECKING:
-    from microslip.scene_file import Scene
+    from microslip.scene_tables import Scene
 
 LIBRARIES = ("numpy", "scipy", "numba", "pyfftw", "matplotlib")
 

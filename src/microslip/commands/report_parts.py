@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from microslip.scene_file import Scene
+    from microslip.scene_tables import Scene
 
 
 @dataclass(frozen=True, slots=True)

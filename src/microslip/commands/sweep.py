@@ -11,7 +11,7 @@ from microslip.commands import arguments
 if TYPE_CHECKING:
     from microslip.progress import Watch
     from microslip.recording import Recording
-    from microslip.scene_file import Scene
+    from microslip.scene_tables import Scene
     from microslip_mechanics.envelope import Envelope
     from microslip_mechanics.time_history import Checkpoint, TimeHistory
 

@@ -12,7 +12,7 @@ from microslip.commands import arguments, frc, sweep, verify_tables
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from microslip.scene_file import Scene
+    from microslip.scene_tables import Scene
     from microslip.studies.curve import Traced
     from microslip.studies.orbits import Verdict
     from microslip.studies.verify import SweepAgreement

@@ -34,6 +34,12 @@ MARKERS = {
 }
 """for each event of a curve"""
 FREQUENCY = "excitation frequency [Hz]"
+LAYOUTS = {
+    2: ((2, 1, 1), (2, 1, 2)),
+    3: ((2, 1, 1), (2, 2, 3), (2, 2, 4)),
+    4: ((2, 2, 1), (2, 2, 2), (2, 2, 3), (2, 2, 4)),
+}
+"""for each number of panels their rows, columns and places"""
 BEGINNINGS = ("branch", "detached", "restart")
 """events at which a line does not go on from the point before"""
 
@@ -41,18 +47,27 @@ BEGINNINGS = ("branch", "detached", "restart")
 def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     """Draw amplitude, sliding velocity, dissipated energy and normal forces.
 
-    Where nothing presses, the estimated error takes the place of normal forces.
+    Where one of the last two is nothing, the estimated error takes its place; without
+    any of them the amplitude has all of the width.
     """
     curve = parted(curve)
+    drawn = [frequency_response, sliding_velocity]
+    if (largest(curve.friction_energy), largest(curve.damping_energy)) != (0.0, 0.0):
+        drawn.append(dissipated_energy)
+    if largest(curve.normal_largest) > 0.0:
+        drawn.append(normal_forces)
+    if len(drawn) < max(LAYOUTS) and largest(curve.error) > 0.0:
+        drawn.append(estimated_error)
     figure = Figure(figsize=(10.0, 7.0), layout="constrained")
-    panels = figure.subplots(2, 2, sharex=True)
-    frequency_response(panels[0, 0], curve)
-    sliding_velocity(panels[0, 1], curve)
-    dissipated_energy(panels[1, 0], curve)
-    presses = bool(np.nanmax(curve.normal_largest, initial=0.0) > 0.0)
-    (normal_forces if presses else estimated_error)(panels[1, 1], curve)
+    for draw, place in zip(drawn, LAYOUTS[len(drawn)], strict=True):
+        draw(figure.add_subplot(*place), curve)
     figure.suptitle(literal(title))
     return figure
+
+
+def largest(values: np.ndarray) -> float:
+    """Return the largest finite size of values, zero if there is none."""
+    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
 
 def frequency_response(axes: Axes, curve: ResponseCurve) -> None:

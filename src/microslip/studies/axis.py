@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from microslip.key_path import key_path
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.studies import numbers
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from hbm.fourier import FourierBasis
 from hbm.path import AlongFrequency
 from microslip.rigs import problem_of, sector_of, unpruned_of
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.imported import FRC, imported

@@ -8,7 +8,7 @@ import numpy as np
 
 from microslip.experiments import Sweep
 from microslip.quantity import SceneError
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.excitation import LoadHistory

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from microslip.key_path import key_path
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene, load_scene
+from microslip.scene_file import load_scene
+from microslip.scene_tables import Scene
 from microslip.studies import numbers
 from microslip_mechanics.problem import Problem
 

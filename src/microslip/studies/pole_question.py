@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.quantity import SceneError
-from microslip.scene_file import Scene, load_scene
+from microslip.scene_file import load_scene
+from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.systems.tables import System
 from microslip.scenes.two_blades.tables import TwoBlades

@@ -20,7 +20,7 @@ from hbm.errors import ContinuationError
 from hbm.poles import NONE, followed, poles
 from hbm.solve import RESOLVED
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.studies.pole_question import Question
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem

@@ -15,7 +15,7 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.studies.curve import trace_curve
 from microslip.studies.orbit import PHASES, Orbit, rubs
 from microslip_mechanics.errors import MicroslipError

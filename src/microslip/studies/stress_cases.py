@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from microslip.quantity import SceneError
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.stress_bad_values import bad_values
 from microslip.studies.stress_case import Case, row

@@ -9,7 +9,8 @@ import numpy as np
 
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene, load_scene
+from microslip.scene_file import load_scene
+from microslip.scene_tables import Scene
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_clock import OutOfTimeError, limited

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.solve import with_multipliers
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.studies.dwell import dwelling
 from microslip.studies.stress_clock import Clock, OutOfTimeError
 from microslip.studies.stress_condition import condition

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.rigs import problem_of
-from microslip.scene_file import Scene, load_scene
+from microslip.scene_file import load_scene
+from microslip.scene_tables import Scene
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import TimeHistory

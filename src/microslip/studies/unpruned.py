@@ -16,7 +16,7 @@ from hbm.path import AlongFrequency, along_frequency
 from hbm.solve import RESOLVED, frequency_response, periodic_response
 from microslip.progress import Watch
 from microslip.rigs import problem_of, sector_of, unpruned_of
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.studies.curve import curve_options, gathered
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction import reduced

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.progress import Watch
-from microslip.scene_file import Scene
+from microslip.scene_tables import Scene
 from microslip.studies.curve import followed_upwards, quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array

@@ -114,7 +114,7 @@ def save_figure(path: Path, figure: Figure) -> None:
         If the file cannot be written or the ending is unknown.
     """
     ending = path.suffix[1:].lower()
-    if ending and ending not in figure.canvas.get_supported_filetypes():
+    if ending not in figure.canvas.get_supported_filetypes():
         raise WrongFileError(
             f"{path} cannot be written: give an ending such as .png, .pdf or .svg"
         )

@@ -28,7 +28,7 @@ class Probes:
             )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Problem:
     """M ü + C u̇ + K u + Lᵀ f(L u, L u̇) = preload + Im(drive · e^(i excitation phase)).
 
@@ -59,6 +59,14 @@ class Problem:
                 )
         if not (np.all(np.isfinite(self.preload)) and np.all(np.isfinite(self.drive))):
             raise ValueError("a load holds a value that is not finite")
+
+    def __repr__(self) -> str:
+        """Return what kind of problem it is, in a line."""
+        contacts = ", ".join(self.interface.names) or "none"
+        return (
+            f"<Problem: {self.structure.dofs} degrees of freedom; contacts {contacts}; "
+            f"probes {', '.join(self.probes.names)}>"
+        )
 
     @property
     def in_phase(self) -> bool:

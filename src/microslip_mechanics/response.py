@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -89,7 +90,7 @@ class PeriodicResponse:
         return displacement @ self.shapes.T, velocity @ self.shapes.T
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class ResponseCurve:
     """A frequency response curve in the order in which it was traced."""
 
@@ -137,6 +138,18 @@ class ResponseCurve:
     """name of that parameter; empty along frequency"""
     ending: str
     """how the curve ended: "complete", "interrupted", or the cause"""
+
+    def __repr__(self) -> str:
+        """Return what kind of curve it is, in a line."""
+        values = self.parameter if self.along else self.frequency / (2.0 * np.pi)
+        name = self.along or "Hz"
+        span = f", {values[0]:g} to {values[-1]:g} {name}" if values.size else ""
+        counts = Counter(event for event in self.event if event)
+        events = "".join(f"; {event}: {number}" for event, number in counts.items())
+        return (
+            f"<ResponseCurve: {values.size} points{span}{events}; "
+            f"probes {', '.join(self.probes)}; {self.ending}>"
+        )
 
 
 def response_curve(

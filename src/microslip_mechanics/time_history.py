@@ -28,7 +28,7 @@ class Checkpoint:
     """what else the integrator keeps, in an order of its own, shape (numbers,)"""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class TimeHistory:
     """Response to a load history at stored times."""
 
@@ -72,6 +72,14 @@ class TimeHistory:
     work_difference: Array = field(default_factory=lambda: np.zeros(0))
     """friction's energy less that by another of two ways, mean force times sliding
     increment and times the mean of both ends' velocities [J], like ``energy_error``"""
+
+    def __repr__(self) -> str:
+        """Return what kind of history it is, in a line."""
+        until = f" until {self.time[-1]:g} s" if self.time.size else ""
+        return (
+            f"<TimeHistory: {self.time.size} times{until}; "
+            f"probes {', '.join(self.probes)}; {self.ending}>"
+        )
 
     def of(self, energy: str) -> Array:
         """Return one energy over time [J], shape (times,)."""

@@ -9,6 +9,8 @@ import pytest
 
 import microslip
 from figure_checks import check_labels
+from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.time_history import TimeHistory
 
 
 @pytest.fixture(scope="module")
@@ -109,3 +111,20 @@ def test_the_package_tells_its_names_and_its_version() -> None:
     assert {"curve", "scene", "sweep", "system", "MicroslipError"} <= set(names)
     assert microslip.__version__ == importlib.metadata.version("microslip")
     assert all(hasattr(microslip, name) for name in names)
+
+
+def test_results_tell_what_they_are_in_a_line(
+    small_curve: ResponseCurve, small_history: TimeHistory
+) -> None:
+    lines = repr(small_curve), repr(small_history)
+
+    assert all(len(line) < 300 and "\n" not in line for line in lines)
+    assert lines[0].startswith(f"<ResponseCurve: {small_curve.frequency.size} points, ")
+    assert f" {small_history.time.size} times until " in lines[1]
+    assert ", ".join(small_curve.probes) in lines[0]
+    assert small_curve.ending in lines[0]
+    assert small_history.ending in lines[1]
+
+
+def test_problems_tell_what_they_are_in_a_line(duffing: Any) -> None:
+    assert repr(duffing) == "<Problem: 1 degrees of freedom; contacts cubic; probes x>"

@@ -116,6 +116,29 @@ def positive(text: str) -> float:
     return number
 
 
+def hertz(text: str) -> float:
+    """Read a frequency from the command line [Hz]; it may have a unit."""
+    return _quantity("Hz", text)
+
+
+def millimetres(text: str) -> float:
+    """Read a length from the command line [mm]; it may have a unit."""
+    return 1e3 * _quantity("m", text if text.strip()[-1:].isalpha() else f"{text} mm")
+
+
+def _quantity(unit: str, text: str) -> float:
+    from microslip.quantity import Quantity
+
+    try:
+        value: float | str = float(text)
+    except ValueError:
+        value = text
+    try:
+        return Quantity(unit, 0.0, math.inf, positive=True).read(value)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text} {error}") from None
+
+
 def demand_folder(path: Path) -> None:
     """Refuse a path in a folder that does not exist.
 

@@ -41,7 +41,7 @@ def add_frequency(parser: argparse._ActionsContainer, *, required: bool) -> None
     """Add the frequency of the drive."""
     parser.add_argument(
         "--frequency",
-        type=arguments.positive,
+        type=arguments.hertz,
         required=required,
         metavar="HZ",
         help="of the drive [Hz]",

@@ -29,7 +29,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     arguments.add_range(parser)
     parser.add_argument(
         "--frequency",
-        type=arguments.positive,
+        type=arguments.hertz,
         required=True,
         metavar="HZ",
         help="excitation frequency [Hz]",

@@ -46,15 +46,16 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     arguments.add_scene(parser)
     parser.add_argument(
         "--amplitudes",
-        type=arguments.positive,
+        type=arguments.millimetres,
         nargs=2,
         metavar=("SMALLEST", "LARGEST"),
         default=AMPLITUDES,
-        help="of the probe that moves most, in mm (default: 0.01 10)",
+        help="of the probe that moves most, in mm unless a unit stands behind it "
+        "(default: 0.01 10)",
     )
     parser.add_argument(
         "--range",
-        type=arguments.positive,
+        type=arguments.hertz,
         nargs=2,
         metavar=("LOWEST", "HIGHEST"),
         help="natural frequencies, in Hz, of the modes that are followed, while their "

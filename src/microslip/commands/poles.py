@@ -48,7 +48,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     )
     parser.add_argument(
         "--frequency",
-        type=arguments.positive,
+        type=arguments.hertz,
         metavar="HZ",
         help="of the response that decides springs and dampers (default: where its "
         "amplitude is largest)",

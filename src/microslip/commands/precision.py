@@ -32,7 +32,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     arguments.add_scene(parser)
     parser.add_argument(
         "--frequency",
-        type=arguments.positive,
+        type=arguments.hertz,
         metavar="HZ",
         help="of the drive (default: 0.99 of that of the curve's highest peak)",
     )

@@ -78,8 +78,9 @@ def _tractions(problem: RelativeProblem, frequency: float, weight: float) -> Tra
     )
     rows, owner = problem.basis[places], places // 3
     mass = weight * _masses(problem, rows, frequency) * _shares(problem, owner, rows)
-    # one for both tangents of a point: friction is alike in all directions
-    alike = np.array([mass[owner == point].max() for point in owner])
+    # one for both tangents of a point: friction is alike in all directions; the larger
+    # would hide what a sudden force does along the other
+    alike = np.array([mass[owner == point].min() for point in owner])
     return Tractions(places, rows, frequency**2 * alike, alike, LOSS * frequency)
 
 

@@ -140,6 +140,31 @@ def test_circular_sliding_has_its_closed_form(limit: float) -> None:
     )
 
 
+def test_a_heavy_second_tangent_costs_no_accuracy() -> None:
+    heavy = 1e3
+    problem = system(
+        mass=[1.0, heavy],
+        stiffness=[[1.0, 0.0], [0.0, heavy]],
+        damping=[[0.02, 0.0], [0.0, 0.02 * heavy]],
+        names=("x", "y"),
+        elements=[
+            Element(
+                RigidCoulomb(mu=0.5, load=0.6),
+                tangents=[("x", "ground"), ("y", "ground")],
+            )
+        ],
+        drive={"x": (1.0, 0.0), "y": (3.0, 1.2)},
+    )
+
+    few, many = (
+        response(problem, 0.8, harmonics, 64 * harmonics).coefficients[1:3]
+        for harmonics in (7, 63)
+    )
+
+    # with the heavier one's mass 5e-3
+    assert np.abs(few - many).max() < 5e-4 * np.abs(many).max()
+
+
 def test_two_sliders_side_by_side_are_one_of_both_limits() -> None:
     for frequency in (0.4, 1.3):
         one = response(block(0.6, damping=0.04), frequency)

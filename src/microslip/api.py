@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import contextlib
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -92,7 +93,9 @@ def curve(
     )
     check_samples(f"{name}:", wanted)
     _check_apart(name, wanted.lowest, wanted.highest)
-    return trace_curve(_checked(name, problem), wanted).curve
+    given = _checked(name, problem)
+    with _named(name):
+        return trace_curve(given, wanted).curve
 
 
 def sweep(
@@ -139,7 +142,18 @@ def sweep(
     _check_apart(name, swept.lowest, swept.highest)
     begin, end = swept.ramp, swept.ramp + swept.duration
     history = SweptSine(begin, begin, end, end, swept.lowest, swept.highest)
-    return march_sweep(_checked(name, problem), history, march)
+    given = _checked(name, problem)
+    with _named(name):
+        return march_sweep(given, history, march)
+
+
+@contextlib.contextmanager
+def _named(function: str) -> Iterator[None]:
+    """Make errors of values, such as those of a free body, ones of a function."""
+    try:
+        yield
+    except ValueError as error:
+        raise GivenError(f"{function}: {error}") from None
 
 
 def _read(function: str, table: type, **values: object) -> Any:  # noqa: ANN401

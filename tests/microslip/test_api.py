@@ -126,5 +126,18 @@ def test_results_tell_what_they_are_in_a_line(
     assert small_history.ending in lines[1]
 
 
+def test_a_body_that_nothing_holds_is_told_as_an_error_of_microslip() -> None:
+    free = microslip.system(
+        mass=[1.0, 1.0],
+        stiffness=[[100.0, -100.0], [-100.0, 100.0]],
+        drive={"x1": 0.5},
+    )
+
+    with pytest.raises(
+        microslip.MicroslipError, match=r"^microslip.curve: the structure can move"
+    ):
+        microslip.curve(free, 1.0, 7.0)
+
+
 def test_problems_tell_what_they_are_in_a_line(duffing: Any) -> None:
     assert repr(duffing) == "<Problem: 1 degrees of freedom; contacts cubic; probes x>"

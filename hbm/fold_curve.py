@@ -71,7 +71,8 @@ class FoldCurve:
         self._missing = (finer.coefficients - self._fourier.coefficients) * path.rank
         inner, _ = self._inner(self._balance, options.start)
         relative = known.seen(path.at(options.start)[0].selection)
-        self._start = np.append(inner.point(relative, known.frequency), options.start)
+        start = inner.pushed(inner.point(relative, known.frequency))
+        self._start = np.append(start, options.start)
 
     def points(self) -> Iterator[FoldPoint]:
         """Yield the folds to the end of the range, or until they come back.
@@ -121,7 +122,12 @@ class FoldCurve:
     def _multipliers(
         self, balance: HarmonicBalance, parameter: float, frequency: float
     ) -> tuple[ComplexArray, int]:
-        """Return the multipliers, and how many besides the fold's own exceed one."""
+        """Return the multipliers, and how many besides the fold's own exceed one.
+
+        Those of rigid contacts are not known.
+        """
+        if balance.problem.tractions is not None:
+            return np.zeros(0, complex), -1
         motions = self._path.motions(parameter)
         multipliers = motions.multipliers(balance.contact, frequency)
         if multipliers.size == 0:

@@ -29,6 +29,9 @@ CORNERS = 30
 LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
 """shares of the range by which a restart passes what resists, tried in turn; from the
 first one again where the piece before has come nearer to the end"""
+PUSHES = 10.0
+"""of a push on rigid contacts, over that of a motion: change that counts as one unit of
+arc; it jumps, so that every harmonic that is added changes it"""
 FIRST = (0.0, 1e-2)
 """the same where there is no curve yet"""
 
@@ -148,12 +151,16 @@ class Pieces:
 
         Relative changes of mean motion and vibration each, and a tenth of the range: a
         preload makes mean values large, and must not hide the vibration. Means that
-        are smaller than it count like it.
+        are smaller than it count like it. Pushes on rigid contacts count less.
         """
         means = self.path.rank
         vibration = float(np.linalg.norm(point[means:-1])) + 1e-15
         scale = np.full(point.size, vibration)
         scale[:means] = max(float(np.linalg.norm(point[:means])), vibration)
+        tractions = self.path.at(float(point[-1]))[0].tractions
+        if tractions is not None:
+            pushes = scale[:-1].reshape(-1, means)[:, tractions.rows.shape[1] :]
+            pushes *= PUSHES
         scale[-1] = self.path.unit(float(point[-1]))
         return scale
 

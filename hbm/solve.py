@@ -252,7 +252,7 @@ def periodic_response(
     )
     balance = path.balance(FourierBasis(harmonics, samples))
     rows = path.problem.map_from(problem.interface.displacement)
-    start = balance.point(guess.seen(rows), guess.frequency)
+    start = balance.pushed(balance.point(guess.seen(rows), guess.frequency))
     with threadpool_limits(1, "blas"), placed(hertz):
         correction = correct_at(balance, start, control)
     return replace(response(small, balance, correction), shapes=shapes)

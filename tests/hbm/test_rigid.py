@@ -13,11 +13,12 @@ from hbm.options import CurveOptions
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
 from hbm.rigid import with_pushes
-from hbm.solve import frequency_response, periodic_response
+from hbm.solve import fold_curve, frequency_response, periodic_response
 from law_examples import NAMES, PRESSED, SLIDING, driven
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
 from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -252,3 +253,39 @@ def test_what_needs_a_force_of_the_motion_refuses_rigid_friction() -> None:
     problem = block(0.5)
     with pytest.raises(MicroslipError, match="threshold_velocity"):
         equivalent_contact(problem, response(problem, 1.3))
+
+
+def rubbing_duffing(drive: float) -> Problem:
+    """Return a cubic oscillator on a slider without elasticity."""
+    return system(
+        mass=[1.0],
+        stiffness=[[1e3]],
+        damping_ratio=0.005,
+        names=("x",),
+        elements=[
+            Element(CubicSpring(cubic=5e7), between=("x", "ground")),
+            Element(RigidCoulomb(mu=0.5, load=0.05), **ALONG_X),
+        ],
+        drive={"x": drive},
+    )
+
+
+@pytest.mark.parametrize("error", [1e-2, 1e-3])
+def test_folds_of_rigid_friction_are_found_and_followed(error: float) -> None:
+    hertz = 2.0 * np.pi
+    problem = rubbing_duffing(0.1)
+    options = CurveOptions(4.0 * hertz, 8.0 * hertz, error=error)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    folds = [point for point in curve if point.event == "fold"]
+    found = [point.frequency / hertz for point in folds]
+    # with a tolerance of 1e-4
+    assert found == pytest.approx([6.951767, 5.343105], rel=10.0 * error**2)
+
+    along = CurveOptions(0.1, 0.12, harmonics=15)
+    last = list(fold_curve(rubbing_duffing, folds[0], along))[-1]
+
+    # of the curve at 0.12 N
+    assert last.response.frequency / hertz == pytest.approx(7.593278, rel=1e-4)
+    assert last.unstable == -1

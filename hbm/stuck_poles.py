@@ -6,6 +6,7 @@ import numpy as np
 import scipy.linalg
 
 from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.undamped_modes import undamped_modes
 
 
 def split(stiffness: Array, selection: Array) -> tuple[Array, Array]:
@@ -20,8 +21,8 @@ def split(stiffness: Array, selection: Array) -> tuple[Array, Array]:
         scipy.linalg.null_space(selection) if selection.size else np.eye(len(stiffness))
     )
     stuck = free.T @ stiffness @ free
-    rigidity = scipy.linalg.eigvalsh(stuck)
-    if rigidity.size and rigidity[0] <= 1e-12 * rigidity[-1]:
+    rigidity, _ = undamped_modes(stuck)
+    if (rigidity <= 0.0).any():
         raise ValueError(
             "the structure can move freely while all contacts stick: clamp it somewhere"
         )
@@ -34,7 +35,7 @@ def stuck_poles(
     mass: Array, damping: Array, stiffness: Array
 ) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
     """Return λ, V, W with (s²M + sC + K)⁻¹ = V diag(1/(s − λ)) W."""
-    squares, modes = scipy.linalg.eigh(stiffness, mass)
+    squares, modes = undamped_modes(stiffness, mass)
     frequencies = np.diag(np.sqrt(squares))
     count = len(squares)
     # The state (Ω q, q̇) makes a nearly skew matrix, whose eigenvectors are well apart.

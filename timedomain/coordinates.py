@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
@@ -14,6 +13,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import ContactPoints
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.undamped_modes import undamped_modes
 
 
 class Contacts(NamedTuple):
@@ -66,10 +66,7 @@ class Coordinates:
 def modal_coordinates(problem: Problem) -> Coordinates:
     """Return all modes of the structure and its contacts in compact coordinates."""
     structure = problem.structure.dense
-    squares, shapes = scipy.linalg.eigh(structure.stiffness, structure.mass)
-    # a free motion has no stiffness but that of rounding
-    rounding = 4.0 * np.finfo(float).eps * len(squares)
-    squares[np.abs(squares) < rounding * np.abs(squares).max(initial=0.0)] = 0.0
+    squares, shapes = undamped_modes(structure.stiffness, structure.mass)
     damping = shapes.T @ structure.damping @ shapes
     floor = 1e-12 * np.abs(damping).max(initial=0.0)
     _, families = connected_components(np.abs(damping) > floor)

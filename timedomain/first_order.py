@@ -14,7 +14,6 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-import scipy.linalg
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ELASTIC, RIGID, ContactPoints
@@ -22,6 +21,7 @@ from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.jit import closure
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.undamped_modes import undamped_modes
 from timedomain.first_order_rate import ENERGIES, System, flow, jacobian, stored_energy
 from timedomain.start import Start
 
@@ -121,12 +121,12 @@ def first_order(
     structure, points = problem.structure.dense, problem.interface.points
     _check(points, problem.interface.names)
     segments = history.segments()
-    squares, modes = scipy.linalg.eigh(structure.stiffness, structure.mass)
+    squares, modes = undamped_modes(structure.stiffness, structure.mass)
     scale = float(segments.sine[0, 1])
     seen = problem.interface.displacement @ modes
     sliding = remembers(points)
     system = System(
-        np.maximum(squares, 0.0) / scale,
+        squares / scale,
         np.ascontiguousarray(modes.T @ structure.damping @ modes),
         np.ascontiguousarray(seen * (motion / scale)),
         np.ascontiguousarray(seen * motion),

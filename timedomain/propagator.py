@@ -23,6 +23,7 @@ import scipy.linalg
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.undamped_modes import undamped_modes
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,14 +48,14 @@ class ModalStructure:
         """Return the modes; ``frequency`` [rad/s] is the least scale of velocities."""
         structure = problem.structure.dense
         _, selection = problem.interface.relative_motion()
-        stiffness, shapes = scipy.linalg.eigh(structure.stiffness, structure.mass)
+        stiffness, shapes = undamped_modes(structure.stiffness, structure.mass)
         return cls(
             shapes,
             shapes.T @ structure.mass,
             stiffness,
             shapes.T @ structure.damping @ shapes,
             np.ascontiguousarray(selection @ shapes),
-            max(frequency, float(np.sqrt(max(stiffness[-1], 0.0)))),
+            max(frequency, float(np.sqrt(stiffness.max(initial=0.0)))),
         )
 
     def physical(self, propagated: Array) -> Array:

@@ -137,6 +137,15 @@ def test_the_jacobian_is_the_derivative_of_the_rate(
     )
 
 
+def test_a_negative_stiffness_pushes_away() -> None:
+    form = formed(oscillator(mass=1.0, damping=0.3, stiffness=-2.0))
+    away = Start(np.array([0.1]), np.zeros(1))
+
+    rate = rate_of(form, 0.0, form.state(away))
+
+    assert form.motion(rate)[1] == pytest.approx(0.2)
+
+
 def slider() -> Problem:
     """Return a mass on an elastic slider of 0.2 N behind 500 N/m."""
     points = contact_table(

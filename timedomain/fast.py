@@ -32,7 +32,14 @@ from timedomain.newmark import State
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record import FLOWS, STORES, row_length
 from timedomain.schemes import MEAN_FORCE, SDIRK2, Scheme
-from timedomain.start import Start, first_state, powers, refill, stored_energy
+from timedomain.start import (
+    Start,
+    first_state,
+    force_scale,
+    powers,
+    refill,
+    stored_energy,
+)
 from timedomain.tables import LEVELS, empty_tables, fill
 
 NUMBERS = 4
@@ -66,6 +73,7 @@ class FastMarch:
         self._step = history.duration / steps
         self._coordinates = modal_coordinates(problem)
         self._segments = history.segments()
+        self._force_scale = force_scale(problem, start)
         self._control = self._controlled()
         state = first_state(problem, history, start)
         self._stored_at_start = stored_energy(problem, state)
@@ -167,7 +175,7 @@ class FastMarch:
             stride = 2 ** max(0, math.ceil(math.log2(row / wanted) - 1e-9))
             longest, tolerance = row / stride, SAFETY * options.tolerance
             lowest = LEVELS - 1
-        floor = 1e-10 * self._problem.force_scale
+        floor = 1e-10 * self._force_scale
         residual = options.residual
         if tolerance > 0.0:
             residual = max(residual, RESIDUAL * tolerance)
@@ -183,11 +191,14 @@ class FastMarch:
         return min(2.0 * np.pi / fastest, self._duration) if fastest else self._duration
 
     def _reference(self) -> float:
-        """Return twice the least energy [J] that errors are compared with."""
+        """Return twice the least energy [J] that errors are compared with.
+
+        It is that of the drive as a static load, or of the preload without a drive.
+        """
         modes, step = self._coordinates.modes, self._control.longest
         flexibility = 1.0 / np.maximum(modes.stiffness, 1.0 / step**2)
-        static = float((modes.loads**2 * flexibility).sum(axis=1).max())
-        return max(static, 2.0 * self._stored_at_start, 1e-300)
+        preload, *drives = (modes.loads**2 * flexibility).sum(axis=1)
+        return float(max(drives) or max(preload, 2.0 * self._stored_at_start, 1e-300))
 
     def _failure(self) -> IntegrationError:
         tick = self._motion.counts[TICK]

@@ -6,8 +6,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
@@ -16,6 +14,9 @@ from timedomain.fast import FastMarch
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.reference import ReferenceMarch
 from timedomain.start import Start, at_rest
+
+ROUNDING = 1e-12
+"""of a number of steps, relative: a march of whole periods has no step more"""
 
 __all__ = ["IntegrationError", "MarchOptions", "integrate"]
 
@@ -54,7 +55,7 @@ def integrate(
     """
     if not 0.0 < block < math.inf:
         raise ValueError(f"block of {block:g} s: give a positive finite length")
-    steps = max(1, int(np.ceil(history.duration / options.time_step - 1e-9)))
+    steps = whole_steps(history.duration, options.time_step)
     stride = min(options.store_every, steps)
     rows = -(-steps // stride)
     options = replace(options, store_every=stride)
@@ -70,3 +71,8 @@ def integrate(
     for first in range(done, rows, per_block):
         count = min(per_block, rows - first)
         yield marching.block(first * stride, count * stride)
+
+
+def whole_steps(duration: float, longest: float) -> int:
+    """Return how many equal steps, none longer than ``longest``, fill a duration."""
+    return max(1, math.ceil(duration / longest * (1.0 - ROUNDING) - 1e-9))

@@ -131,7 +131,8 @@ def _reject(control: Control, motion: Motion, level: int, nearly: bool) -> int:
 def _grow(control: Control, motion: Motion, level: int, error: float) -> None:
     """Let the next step be twice as long if none was rough for long enough."""
     counts = motion.counts
-    counts[LEVEL] = level
+    if level > counts[LEVEL]:
+        return  # shortened for the grid or a kink of the load: that says nothing
     if error > GROWTH:
         counts[ROUGH] = counts[TICK]
     elif (
@@ -179,12 +180,13 @@ def _store(modes: Modes, contacts: Contacts, motion: Motion, row: Array) -> None
         elastic += 0.5 * modes.stiffness[j] * q * q
     place = 2 * probes
     for point in range(count):
-        first, gap = contacts.first[point], 0.0
+        first, gap, approach = contacts.first[point], 0.0, 0.0
         for i in range(contacts.width[point]):
             gap += contacts.basis[point, 0, i] * motion.relative[0, first + i]
+            approach += contacts.basis[point, 0, i] * motion.relative[1, first + i]
         motion.gaps[point, 0] = gap
         row[place + point], _, _ = normal_response(
-            contacts.points, point, gap, motion.slips[point, 0]
+            contacts.points, point, gap, approach
         )
         stored += contact_energy(contacts.points, point, gap)
     place += count

@@ -21,8 +21,9 @@ from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 from timedomain.dense import solve_in_place
 from timedomain.newmark import HALVINGS, NEWTON_LIMIT, Operators, State, reaction_of
-from timedomain.record import Meters, accumulate, store
+from timedomain.record import FLOWS, Meters, accumulate, store
 
+FRICTION = FLOWS.index("friction")
 LOOSE = 1e-9
 """η: share of a push by which it is pinned where sticking leaves it free"""
 
@@ -56,6 +57,8 @@ class Trial(NamedTuple):
     """traction and momentum of one point, shape (4,)"""
     by: Array
     """their derivatives, shape (4, 6)"""
+    loads: Array
+    """normal loads before the step [N], shape (count,)"""
 
 
 def sliders(problem: Problem) -> Sliders:
@@ -91,11 +94,14 @@ def march_sliders(
     size, iterations = rank + count, 0
     made = Trial(
         np.zeros(rank), np.zeros(count), np.zeros(count), np.zeros(size),
-        np.zeros((size, size)), np.zeros(4), np.zeros((4, 6)),
+        np.zeros((size, size)), np.zeros(4), np.zeros((4, 6)), np.zeros(count // 2),
     )  # fmt: skip
     for place in range(count):
         made.push[place] = state.forces[sliders.points[place // 2], 1 + place % 2]
     for step in range(first, steps):
+        slips, forces = state.slips.copy(), state.forces.copy()
+        for place in range(count // 2):
+            made.loads[place] = _load(points, sliders.points[place], state)[0]
         taken = _advance(
             operators, sliders, compliance, points, state, factors[step], tolerance,
             made,
@@ -104,6 +110,10 @@ def march_sliders(
             return step, iterations
         iterations += taken
         accumulate(meters, points, state, factors[step], operators.step)
+        for point in sliders.points:  # the mean traction works on the mean velocity
+            changed = state.forces[point, 1:] - forces[point, 1:]
+            work = 0.5 * operators.step * np.dot(changed, slips[point, 1:])
+            meters.energies[FRICTION] += work
         if (step + 1) % stride == 0:
             store(meters, points, state, rows[step // stride])
     return steps, iterations
@@ -258,6 +268,16 @@ def _assemble(
 
 
 @kernel
+def _load(
+    points: ContactPoints, point: int, state: State
+) -> tuple[float, float, float]:
+    """Return the normal load of a point's friction, and its tangents."""
+    if points.constant_load[point]:
+        return points.load[point], 0.0, 0.0
+    return normal_response(points, point, state.gaps[point, 0], state.slips[point, 0])
+
+
+@kernel
 def _slide(
     operators: Operators,
     sliders: Sliders,
@@ -271,12 +291,9 @@ def _slide(
     """Write one point's traction, and its part of the residual and of the matrix."""
     half, rank = 0.5 * operators.step, made.acceleration.size
     point, one, two = sliders.points[place], 2 * place, 2 * place + 1
-    load, slope = points.load[point], 0.0
-    if not points.constant_load[point]:
-        load, stiff, viscous = normal_response(
-            points, point, state.gaps[point, 0], state.slips[point, 0]
-        )
-        slope = points.dynamic[point] * half * (half * stiff + viscous)
+    load, stiff, viscous = _load(points, point, state)
+    load = 0.5 * (made.loads[place] + load)
+    slope = 0.5 * points.dynamic[point] * half * (half * stiff + viscous)
     momentum = np.dot(sliders.rows[one : two + 1], start[3])
     momentum /= max(2.0 * half * compliance, 1e-300)
     limit = points.dynamic[point] * load

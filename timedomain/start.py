@@ -43,6 +43,16 @@ def at_rest(problem: Problem) -> Start:
     return Start(still, still)
 
 
+def force_scale(problem: Problem, start: Start) -> float:
+    """Return what forces are compared with [N]: a load, or what a free start holds."""
+    if problem.loads.any():
+        return problem.force_scale
+    structure = problem.structure.dense
+    held = np.abs(structure.stiffness @ start.displacement).max(initial=0.0)
+    damped = np.abs(structure.damping @ start.velocity).max(initial=0.0)
+    return float(held + damped) or 1.0
+
+
 def on_orbit(problem: Problem, response: PeriodicResponse) -> Start:
     """Return the motion of a periodic response at phase 0, with what contacts remember.
 

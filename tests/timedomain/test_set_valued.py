@@ -14,6 +14,7 @@ from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.given_loads import Drive
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.first_order import first_order
@@ -170,3 +171,37 @@ def test_there_is_no_first_order_form() -> None:
     problem = driven("rigid coulomb")
     with pytest.raises(ValueError, match="element: rigid friction is set-valued"):
         first_order(problem, Dwell(7.0, 4.0), motion=1.0, energy=1.0)
+
+
+def test_a_variable_normal_load_leaves_the_second_order() -> None:
+    problem = system(
+        mass=[1.0, 1.0],
+        stiffness=[1e4, 2e4],
+        damping=[2.0, 2.0],
+        names=("x", "n"),
+        elements=[
+            Element(
+                RigidCoulomb(mu=0.3, normal_stiffness=1e4, preload=3.0),
+                tangents=[("x", "ground")],
+                normal=("n", "ground"),
+            )
+        ],
+        drive={"x": (3.0, 0.0), "n": (2.0, 1.0)},
+    )
+    rest = static_equilibrium(problem).displacement
+    turn = 2.0 * math.pi * 14.0
+
+    def ends(steps: int) -> tuple[float, float, float]:
+        options = MarchOptions(1.0 / 14.0 / steps, store_every=steps // 64)
+        dwell = Dwell(turn, 10.25 / 14.0)
+        blocks = integrate(problem, dwell, options, start=Start(rest, np.zeros(2)))
+        history = joined(list(blocks), "complete")
+        closing = float(np.abs(history.closing_error).max())
+        return history.displacement[-1, 0], history.of("friction")[-1], closing
+
+    found = np.array([ends(steps) for steps in (512, 1024, 2048)])
+
+    changes = np.abs(np.diff(found, axis=0))
+    # motion and energy; of first order they were halved
+    assert (changes[0] / changes[1]) == pytest.approx(4.0, abs=0.5)
+    assert found[0, 2] / found[1, 2] == pytest.approx(4.0, abs=0.2)

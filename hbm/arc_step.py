@@ -57,6 +57,7 @@ def next_point(
         if candidate.outcome is Outcome.CONVERGED:
             smooth = turn(candidate, direction, scale) > control.sharpest_turn
             passed = settler.overlooks(candidate.point, scale, step)
+            passed |= _turned_twice(candidate, past.predict(0.0), direction)
             seen = not passed or step <= control.narrowest
             if (close and smooth and seen) or step <= control.smallest:
                 settler.keep(step)
@@ -135,6 +136,15 @@ def _away(candidate: Correction, start: Array, scale: Array, step: float) -> Cor
     if far and float(moved @ (candidate.along / scale)) < 0.0:
         return replace(candidate, tangent=-candidate.along)
     return candidate
+
+
+def _turned_twice(candidate: Correction, start: Array, direction: Array) -> bool:
+    """Return whether two folds lie between two points.
+
+    The parameter goes back between them, though both tangents lead it the same way.
+    """
+    changed = float(candidate.point[-1] - start[-1]) * float(direction[-1])
+    return changed < 0.0 < float(candidate.along[-1] * direction[-1])
 
 
 def turn(candidate: Correction, direction: Array, scale: Array) -> float:

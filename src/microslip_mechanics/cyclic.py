@@ -10,6 +10,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import repeated_points
+from microslip_mechanics.engine_order import phasor
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structure import Structure
 
@@ -125,7 +126,9 @@ class CyclicProblem:
             tuple(names),
         )
         rows = np.kron(eye, self.interface.displacement) + np.kron(ahead, self.to_next)
-        turns = np.exp(1j * self.lead * np.arange(count))
+        order = self.engine_order
+        turns = np.array([phasor(order * place, count) for place in range(count)])
+        drive = np.kron(turns, self.drive)
         return Problem(
             structure,
             Interface(
@@ -134,7 +137,7 @@ class CyclicProblem:
                 _numbered(self.interface.names, count),
             ),
             np.tile(self.preload, count),
-            np.kron(turns, self.drive),
+            drive if drive.imag.any() else drive.real,
             Probes(_numbered(self.probes.names, count), np.kron(eye, self.probes.rows)),
         )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -52,5 +54,13 @@ def engine_order(
             )
         if load[dof] != 0.0:
             raise ValueError(f"blade {blade!r} stands there twice: give each one once")
-        load[dof] = amplitude * np.exp(2j * np.pi * order * place / len(blades))
+        load[dof] = amplitude * phasor(int(order) * place, len(blades))
     return load
+
+
+def phasor(part: int, count: int) -> complex:
+    """Return e^(2πi part/count); what is in phase, or opposite, is exactly real."""
+    part %= count
+    if 2 * part % count == 0:
+        return 1.0 if part == 0 else -1.0
+    return cmath.rect(1.0, math.tau * part / count)

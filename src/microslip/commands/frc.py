@@ -137,6 +137,11 @@ def _events(curve: ResponseCurve) -> str:
         )
     elif (curve.unstable == 0).all():
         lines.append("every point is stable")
+    elif (curve.unstable == 0).any():
+        lines.append(
+            f"{(curve.unstable == 0).sum()} of {curve.unstable.size} points are "
+            "stable, of the others the stability is not known"
+        )
     else:
         lines.append("stability is not known: no Floquet multipliers are computed")
     return "\n".join(lines)

@@ -127,7 +127,9 @@ def marches_said(
         return float(march.deviation[places].max())
 
     held = [march for march in marches if march.unstable <= 0]
-    worst = max(held or marches, key=deviation)
+    if not held:
+        return "every orbit is unstable: no march needs to stay near one", True
+    worst = max(held, key=deviation)
     stays = deviation(worst) <= tolerance
     among = "" if len(held) == len(marches) else f" of {len(held)} stable orbits"
     said = (

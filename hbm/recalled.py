@@ -86,7 +86,7 @@ def _springs(sliders: Sliders, slid: SlidOrbit, share: Array) -> Array:
     At least :data:`LEAST` of it, which holds what nothing else does.
     """
     along = sliders.along
-    sticks = np.einsum("tsr,sr->ts", slid.slides.past[1:], along)
+    sticks = np.einsum("tsr,sr->ts", slid.slides.past[1:, :, : along.shape[1]], along)
     sticks /= sliders.stiffness * (along**2).sum(axis=1)
     mean = np.clip(share @ sticks, LEAST, 1.0)
     made: Array = along.T @ ((mean * sliders.stiffness)[:, None] * along)
@@ -173,7 +173,7 @@ def _carried(
     watched: Array = seen @ state
     for place, kind in enumerate(step.kind):
         memory = slides.traction_past[place + 1] @ held
-        memory -= slides.past[place + 1] @ watched[:rank]
+        memory -= slides.past[place + 1] @ watched
         state = _turned(step.turn[kind], state[:count], state[count:])
         moved = seen @ state
         known = past[place] @ watched[:rank] + pull @ (held + memory)

@@ -39,7 +39,7 @@ def carried(
     moved, held = whole[:size], whole[size:]
     force = tangents[0] @ (seen @ moved) + pull @ held
     moved = moved - push @ force
-    slid = (seen @ whole[:size])[:rank]
+    slid = seen @ whole[:size]
     answers = tangents + pull @ slides.motion
     solvers = np.linalg.inv(np.eye(rank) - answers @ (seen @ push))
     kick, total = free @ push + push, np.zeros_like(held)
@@ -50,5 +50,5 @@ def carried(
         force = solvers[place] @ (answers[place] @ watched + pull @ memory)
         watched += (seen @ push) @ force
         held = slides.motion[place] @ watched + memory
-        slid, total = watched[:rank], total + held
+        slid, total = watched, total + held
     return np.vstack([moved + push @ force, held]), total / (len(tangents) - 1)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_energy, contact_force
-from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.memory import friction_load, remembers
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.problem import Problem
@@ -96,9 +96,12 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
     moved = (interface.displacement @ start.displacement).reshape(-1, 3)
     moving = (interface.displacement @ start.velocity).reshape(-1, 3)
     forces, unused = np.zeros_like(moved), np.zeros((2, 3, 3))
-    past = np.zeros((interface.count, 2, 2))
-    past[:, 0] = moved[:, 1:]
+    past = np.zeros((interface.count, 4, 2))
+    past[:, 0], past[:, 2] = moved[:, 1:], moving[:, 1:]
     for point in range(interface.count):
+        past[point, 3, 0], _, _ = friction_load(
+            interface.points, point, moved[point, 0], moving[point, 0]
+        )
         contact_force(
             interface.points,
             point,

@@ -27,7 +27,9 @@ def by_depth(slides: Slides) -> Array:
     """Return the change of the last tractions if all depths are greater by one."""
     deeper, change = EVERY[0], np.zeros(2)
     for place in range(1, STEPS + 1):
-        change = slides.traction_past[place] @ change - slides.past[place] @ deeper
+        change = (
+            slides.traction_past[place] @ change - slides.past[place, :, :3] @ deeper
+        )
         change += slides.motion[place, :, :3] @ deeper
     return change
 

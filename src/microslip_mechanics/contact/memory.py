@@ -53,10 +53,10 @@ def traction(
     points, point
         The table and the row in it.
     slide, velocity
-        Increment of the sliding displacement [m], and velocity [m/s] at its end, each
-        of shape ``(2,)``.
+        Increment of the sliding displacement [m], and velocity [m/s], each of shape
+        ``(2,)``.
     load
-        Normal load [N] at its end.
+        Normal load [N]. Bristles take the means of both ends, see :func:`end_share`.
     old, new
         Traction before, and written: after it [N], each of shape ``(2,)``.
     by
@@ -75,6 +75,16 @@ def traction(
         points.stribeck_exponent[point],
     )
     bristle_traction(bristles, slide, velocity, load, old, new, by)
+
+
+@kernel
+def end_share(points: ContactPoints, point: int) -> float:
+    """Return the share that the end of a small slide has in velocity and load.
+
+    Bristles slip all along it: means make the error fall with the square of the slide.
+    A slider slips in the end.
+    """
+    return 0.5 if points.friction[point] == BRISTLE else 1.0
 
 
 @kernel
@@ -112,24 +122,31 @@ def add_traction(
     displacement, velocity
         Relative displacement [m] and velocity [m/s], each of shape ``(3,)``.
     past
-        Where it was along both tangents [m], and its traction there [N], ``(2, 2)``.
+        Where it was along both tangents [m], its traction there [N], its velocity
+        [m/s], and its normal load [N] with a zero, shape ``(4, 2)``.
     fresh
         Written: the same for now.
     force, by_displacement, by_velocity
         As :func:`~microslip_mechanics.contact.law.contact_force` wrote them; added to.
     """
-    slide, by = np.empty(2), np.empty((2, 7))
-    for axis in range(2):
-        fresh[0, axis] = displacement[axis + 1]
-        slide[axis] = displacement[axis + 1] - past[0, axis]
+    slide, speed, by = np.empty(2), np.empty(2), np.empty((2, 7))
+    share = end_share(points, point)
     load, by_depth, by_approach = friction_load(
         points, point, displacement[0], velocity[0]
     )
-    traction(points, point, slide, velocity[1:], load, past[1], fresh[1], by)
+    fresh[3, 0] = load
+    for axis in range(2):
+        fresh[0, axis] = displacement[axis + 1]
+        fresh[2, axis] = velocity[axis + 1]
+        slide[axis] = displacement[axis + 1] - past[0, axis]
+        speed[axis] = share * fresh[2, axis] + (1.0 - share) * past[2, axis]
+    if load > 0.0:
+        load = share * load + (1.0 - share) * max(past[3, 0], 0.0)
+    traction(points, point, slide, speed, load, past[1], fresh[1], by)
     for row in range(2):
         force[row + 1] += fresh[1, row]
-        by_displacement[row + 1, 0] += by[row, 4] * by_depth
-        by_velocity[row + 1, 0] += by[row, 4] * by_approach
+        by_displacement[row + 1, 0] += share * by[row, 4] * by_depth
+        by_velocity[row + 1, 0] += share * by[row, 4] * by_approach
         for column in range(2):
             by_displacement[row + 1, column + 1] += by[row, column]
-            by_velocity[row + 1, column + 1] += by[row, column + 2]
+            by_velocity[row + 1, column + 1] += share * by[row, column + 2]

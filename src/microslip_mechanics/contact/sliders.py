@@ -2,9 +2,10 @@
 
 The traction T of friction that remembers goes from one step to the next,
 
-    T₁ = T(w₁ − w₀, ẇ₁, N₁, T₀) ,   δT₁ = F δ(y, ẏ/ω)₁ − G δy₀ + H δT₀ ,
+    T₁ = T(w₁ − w₀, ẇ, N, T₀) ,   δT₁ = F δ(y, ẏ/ω)₁ − G δ(y, ẏ/ω)₀ + H δT₀ ,
 
-so that it is part of the state. A slider that never slips keeps T − k_t w: H = 1.
+so that it is part of the state. Velocity ẇ and load N are those of the end, or for
+bristles the means of both ends. A slider that never slips keeps T − k_t w: H = 1.
 """
 
 from __future__ import annotations
@@ -17,7 +18,12 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ELASTIC, ContactPoints
-from microslip_mechanics.contact.memory import friction_load, remembers, traction
+from microslip_mechanics.contact.memory import (
+    end_share,
+    friction_load,
+    remembers,
+    traction,
+)
 from microslip_mechanics.jit import kernel
 
 
@@ -31,7 +37,7 @@ class Slides(NamedTuple):
     motion: Array
     """F, shape (times, sliders, 2 rank)"""
     past: Array
-    """G, shape (times, sliders, rank)"""
+    """G, shape (times, sliders, 2 rank)"""
     traction_past: Array
     """H, shape (times, sliders, sliders)"""
     stuck: NDArray[np.bool_]
@@ -122,7 +128,7 @@ class Sliders:
         motion, past, kept = self._derivatives(by, load, frequency)
         if continuous:
             before, after = self._touches(moved, moving, by)
-            past -= before
+            past[:, :, : before.shape[2]] -= before
             motion[:, :, : after.shape[2]] += after
         never = (kept[1:] == np.eye(self.count)).all(axis=(0, 2))
         stuck = never & (self.points.friction[self.point] == ELASTIC)
@@ -169,16 +175,19 @@ class Sliders:
         own = by[:, point, self.axis]
         normal = basis[3 * point]
         tangents = basis[3 * point[:, None] + np.arange(1, 3)]
-        past = np.einsum("tsa,sar->tsr", own[:, :, :2], tangents)
+        slid = np.einsum("tsa,sar->tsr", own[:, :, :2], tangents)
         drag = np.einsum("tsa,sar->tsr", own[:, :, 2:4], tangents)
-        pressed = own[:, :, 4:5] * load[:, point]
-        motion = np.concatenate(
-            [
-                past + pressed[:, :, :1] * normal,
-                frequency * (drag + pressed[:, :, 1:] * normal),
-            ],
-            axis=2,
-        )
+        shares = np.array([end_share(self.points, each) for each in point])[:, None]
+
+        def seen(load: Array, share: Array) -> tuple[Array, Array]:
+            pressed = own[:, :, 4:5] * load[:, point]
+            moved = share * pressed[:, :, :1] * normal
+            return moved, share * frequency * (drag + pressed[:, :, 1:] * normal)
+
+        depth, speed = seen(load, shares)
+        motion = np.concatenate([slid + depth, speed], axis=2)
+        depth, speed = seen(np.roll(load, 1, axis=0), 1.0 - shares)
+        past = np.concatenate([slid - depth, -speed], axis=2)
         kept = np.zeros((len(by), self.count, self.count))
         for row, column in np.argwhere(point[:, None] == point):
             kept[:, row, column] = own[:, row, 5 + self.axis[column]]
@@ -211,18 +220,25 @@ def _follow(
     by: Array,
     load: Array,
 ) -> None:
-    """Write tractions, slip limits and derivatives at all times but the first."""
-    for place in range(1, moved.shape[0]):
-        for point in recalling:
-            now = moved[place, point]
-            slide = now[1:] - moved[place - 1, point, 1:]
-            force, by_depth, by_approach = friction_load(
-                points, point, now[0], moving[place, point, 0]
-            )
-            limits[place, point] = points.dynamic[point] * max(force, 0.0)
-            load[place, point, 0], load[place, point, 1] = by_depth, by_approach
-            traction(
-                points, point, slide, moving[place, point, 1:], force,
-                tractions[place - 1, point], tractions[place, point],
-                by[place, point],
-            )  # fmt: skip
+    """Write tractions, slip limits and derivatives at all times but the first.
+
+    The derivatives of the ``load`` are written at the first as well.
+    """
+    for point in recalling:
+        share, before = end_share(points, point), 0.0
+        for place in range(moved.shape[0]):
+            now, rate = moved[place, point], moving[place, point]
+            force, by_depth, by_approach = friction_load(points, point, now[0], rate[0])
+            if force > 0.0:
+                load[place, point, 0], load[place, point, 1] = by_depth, by_approach
+            if place > 0:
+                last = place - 1
+                limits[place, point] = points.dynamic[point] * max(force, 0.0)
+                speed = share * rate[1:] + (1.0 - share) * moving[last, point, 1:]
+                mean = share * force + (1.0 - share) * before if force > 0.0 else force
+                traction(
+                    points, point, now[1:] - moved[last, point, 1:], speed, mean,
+                    tractions[last, point], tractions[place, point],
+                    by[place, point],
+                )  # fmt: skip
+            before = max(force, 0.0)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints
-from microslip_mechanics.contact.memory import friction_load, traction
+from microslip_mechanics.contact.memory import end_share, friction_load, traction
 from microslip_mechanics.jit import kernel
 
 PERIODS = 20
@@ -89,24 +89,54 @@ def _period(
         last = place if begins else before
         for axis in range(1, 3):
             slide[axis - 1] = displacement[axis, place] - displacement[axis, last]
-        load, by_depth, by_approach = friction_load(
-            points, point, displacement[0, place], velocity[0, place]
-        )
-        speed = velocity[1:, place]
+        load, by_load = _load(points, point, displacement, velocity, place, last)
+        share = end_share(points, point)
+        speed = share * velocity[1:, place] + (1.0 - share) * velocity[1:, last]
+        pressing = by_load[0, 1] * velocity[0, place]
+        pressing += by_load[1, 1] * velocity[0, last]
         traction(points, point, slide, speed, load, state[0], new, by)
         one, two = state[1]
         for axis in range(2):
             state[0, axis] = made[axis, place] = new[axis]
             state[1, axis] = change[axis, place] = (
                 by[axis, 2] * speed[0] + by[axis, 3] * speed[1]
-                + by[axis, 4] * by_approach * velocity[0, place]
+                + by[axis, 4] * pressing
                 + by[axis, 5] * one + by[axis, 6] * two
             )  # fmt: skip
         if gradient.size > 0:
             _carry(
-                gradient, waves, frequency, axes, by, by_depth, by_approach, place,
-                before, begins,
+                gradient, waves, frequency, axes, by, by_load, share, place, before,
+                begins,
             )  # fmt: skip
+
+
+@kernel
+def _load(
+    points: ContactPoints,
+    point: int,
+    displacement: Array,
+    velocity: Array,
+    place: int,
+    last: int,
+) -> tuple[float, Array]:
+    """Return the load over a slide, and its derivatives.
+
+    They are those by depth and approach after it, and before it, shape ``(2, 2)``.
+    """
+    share, by = end_share(points, point), np.zeros((2, 2))
+    load, by[0, 0], by[0, 1] = friction_load(
+        points, point, displacement[0, place], velocity[0, place]
+    )
+    if share == 1.0 or load <= 0.0:
+        return load, by
+    known, by[1, 0], by[1, 1] = friction_load(
+        points, point, displacement[0, last], velocity[0, last]
+    )
+    if known <= 0.0:
+        known, by[1] = 0.0, 0.0
+    by[0] *= share
+    by[1] *= 1.0 - share
+    return share * load + (1.0 - share) * known, by
 
 
 @kernel
@@ -116,26 +146,30 @@ def _carry(
     frequency: float,
     axes: NDArray[np.bool_],
     by: Array,
-    by_depth: float,
-    by_approach: float,
+    by_load: Array,
+    share: float,
     place: int,
     before: int,
     begins: bool,
 ) -> None:
     """Write the derivatives at one sample from those at the sample before."""
     value, slope = waves
+    last = place if begins else before
     for column in range(3):
         if not axes[column]:
             continue
         for term in range(value.shape[1]):
             wave, rate = value[place, term], frequency * slope[place, term]
-            slid = 0.0 if begins else wave - value[before, term]
+            known, turned = value[last, term], frequency * slope[last, term]
+            load = by_load[0, 0] * wave + by_load[0, 1] * rate
+            load += by_load[1, 0] * known + by_load[1, 1] * turned
+            slid, rate = wave - known, share * rate + (1.0 - share) * turned
             one = gradient[0, column, before, term]
             two = gradient[1, column, before, term]
             for row in range(2):
                 change = by[row, 5] * one + by[row, 6] * two
                 if column == 0:
-                    change += by[row, 4] * (by_depth * wave + by_approach * rate)
+                    change += by[row, 4] * load
                 else:
                     change += by[row, column - 1] * slid + by[row, column + 1] * rate
                 gradient[row, column, place, term] = change

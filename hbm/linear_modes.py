@@ -85,9 +85,12 @@ def _eigenpairs(
 ) -> tuple[ComplexArray, ComplexArray]:
     """Return s and φ of (s² M + s C + K) φ = 0, shapes (2 dofs,) and (dofs, 2 dofs)."""
     squares, modes = scipy.linalg.eigh((stiffness + stiffness.T) / 2.0, mass)
-    frequencies = np.diag(np.sqrt(np.maximum(squares, 0.0)))
+    sizes = np.sqrt(np.abs(squares))
+    frequencies = np.diag(sizes)
     none = np.zeros_like(frequencies)
-    # The state (Ω q, q̇) keeps large and small frequencies on one scale.
-    system = np.block([[none, frequencies], [-frequencies, -modes.T @ damping @ modes]])
+    # The state (Ω q, q̇) keeps large and small frequencies on one scale; rest may be
+    # unstable, where rotation softens what little holds.
+    pulled = np.diag(np.sign(squares) * sizes)
+    system = np.block([[none, frequencies], [-pulled, -modes.T @ damping @ modes]])
     poles, vectors = np.linalg.eig(system)
     return poles.astype(complex), (modes @ vectors[len(mass) :]).astype(complex)

@@ -109,13 +109,18 @@ class FastMarch:
         ValueError
             If that march was one of another problem or with other steps.
         """
-        self._stored_at_start, longest = (float(each) for each in end.memory[:2])
-        refill(self._motion, end.memory[2:])
+        stored, longest, tolerance = (float(each) for each in end.memory[:3])
+        refill(self._motion, end.memory[3:])
+        self._stored_at_start = stored
+        if tolerance != self._control.tolerance:
+            here = _said(self._control.tolerance)
+            raise ValueError(
+                f"a march {_said(tolerance)} cannot go on {here}: give what it had"
+            )
         if longest != self._control.longest:
             raise ValueError(
-                f"a march with steps of {longest:g} s halved cannot go on with "
-                f"steps of {self._control.longest:g} s: give the same time step, or a "
-                "tolerance if it had one"
+                f"a march with steps of {longest:g} s cannot go on with steps of "
+                f"{self._control.longest:g} s: give the same time step"
             )
         rows = self._motion.counts[TICK] // (self._control.stride * TICKS)
         return int(rows) * self._options.store_every
@@ -247,11 +252,19 @@ class FastMarch:
     def _checkpoint(self) -> Checkpoint:
         shapes, motion = self._coordinates.shapes, self._motion
         kept = [np.ravel(array).astype(float) for array in motion]
+        head = [self._stored_at_start, self._control.longest, self._control.tolerance]
         return Checkpoint(
             shapes @ motion.displacement,
             shapes @ motion.velocity,
-            np.concatenate([[self._stored_at_start, self._control.longest], *kept]),
+            np.concatenate([head, *kept]),
         )
+
+
+def _said(tolerance: float) -> str:
+    """Return how accurate steps are, in words."""
+    if tolerance == 0.0:
+        return "without a tolerance"
+    return f"with a tolerance of {tolerance / SAFETY:g}"
 
 
 def _coupled(modes: Modes, inverse: Array, state: State) -> Array:

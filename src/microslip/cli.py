@@ -57,10 +57,29 @@ def main(arguments: list[str] | None = None) -> int:
     options = _parser().parse_args(words)
     options.command = shlex.join(["microslip", *words])
     try:
+        return _run(options)
+    except BrokenPipeError:  # the reader of our output left, as `head` does
+        _silence()
+        return 1
+    except OSError as error:  # a full disk, say
+        _silence()
+        return _failed(f"the output cannot be written: {error.strerror}", 1)
+
+
+def _silence() -> None:
+    """Let what is still to be printed go nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _run(options: argparse.Namespace) -> int:
+    """Run a command; return the exit status, errors that are known made one line."""
+    try:
         with warnings.catch_warnings(), unmasked():
             # an overflow ends the command instead of running on with nonsense
             warnings.simplefilter("error", RuntimeWarning)
-            return int(options.run(options))
+            status = int(options.run(options))
+            sys.stdout.flush()
+            return status
     except GivenError as error:
         return _failed(str(error), 2)
     except (MicroslipError, ValueError) as error:
@@ -72,10 +91,6 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("microslip: interrupted before there was a result", file=sys.stderr)
         return 130
-    except BrokenPipeError:
-        # the reader of our output left, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
 
 
 def _failed(reason: str, status: int) -> int:

@@ -26,10 +26,11 @@ def save(result: Result, path: str | PathLike[str]) -> None:
     Raises
     ------
     MicroslipError
-        If the file cannot be written.
+        If the file cannot be written, or the result is none.
     """
     from microslip import store
 
+    _check(result, "microslip.save")
     store.save(Path(path), store.Stored(result, "", "microslip.save"))
 
 
@@ -53,9 +54,30 @@ def figure(result: Result, title: str = "") -> Figure:
 
     Raises
     ------
+    MicroslipError
+        If the result is none.
     ValueError
         If a march has not come far enough to have anything to draw.
     """
     from microslip.figures.result import result_figure
 
+    _check(result, "microslip.figure")
     return result_figure(result, title)
+
+
+def _check(result: Result, function: str) -> None:
+    """Check that something is a result.
+
+    Raises
+    ------
+    GivenError
+        If it is none.
+    """
+    from microslip.errors import GivenError
+    from microslip.schema import SCHEMAS
+
+    if not isinstance(result, tuple(made for made, _ in SCHEMAS.values())):
+        raise GivenError(
+            f"{function}: {result!r}: give what microslip.curve, microslip.sweep or "
+            "microslip.load returns"
+        )

@@ -57,6 +57,11 @@ def interface_of(elements: Sequence[Element], names: tuple[str, ...]) -> Interfa
     ValueError
         With the element, its key and a remedy.
     """
+    for place, each in enumerate(elements, start=1):
+        if not isinstance(each, Element):
+            raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+                f"element {place} is {each!r}: give microslip.Element(law, between=…)"
+            )
     laws: list[PointLaw] = []
     lines: list[Array] = []
     points: list[str] = []

@@ -80,6 +80,11 @@ def driven(
         If a name is unknown or an amplitude is not finite.
     """
     names, waves = structure.names, {}
+    if not isinstance(drive, Mapping):
+        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+            f"drive = {drive!r}: give amplitudes [N] by degree of freedom, such as "
+            f"{{{names[0]!r}: 1.0}}"
+        )
     for name, wave in drive.items():
         amplitude, phase = _wave(name, wave)
         turn = math.remainder(phase, math.tau)

@@ -44,7 +44,7 @@ def system(
     rayleigh_damping: tuple[float, float] | None = None,
     loss_factor: float | None = None,
     names: Sequence[str] | None = None,
-    elements: Sequence[Element] = (),
+    elements: Sequence[Element] | None = None,
     drive: Drive | None = None,
     preload: Mapping[str, float] | None = None,
     engine_order: EngineOrder | None = None,
@@ -99,7 +99,7 @@ hysteretic.Hysteretic`).
     structure = Structure(masses, lossy.of(masses, elastic, known), elastic, known)
     return Problem(
         structure,
-        interface_of(elements, known),
+        interface_of(elements or (), known),
         preload=loads(preload or {}, known, groups, "preload").real,
         drive=driven(drive or {}, structure, groups, engine_order, base),
         probes=_probes(probes, known),

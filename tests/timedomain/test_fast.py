@@ -206,9 +206,17 @@ def test_a_march_goes_on_only_with_steps_of_the_same_ladder() -> None:
     adaptive = MarchOptions(0.01, 5, tolerance=1e-3)
 
     with pytest.raises(
-        ValueError, match=r"^a march with steps of 0\.01 s halved cannot"
+        ValueError,
+        match=r"^a march without a tolerance cannot go on with a tolerance of 0\.001: ",
     ):
         list(integrate(problem, dwell, adaptive, start=first.checkpoint))
+
+    looser = MarchOptions(0.01, 5, tolerance=0.3)
+    begun = next(integrate(problem, dwell, adaptive, block=0.5))
+    with pytest.raises(
+        ValueError, match=r"tolerance of 0\.001 cannot go on with .*0\.3"
+    ):
+        list(integrate(problem, dwell, looser, start=begun.checkpoint))
 
     rest = list(
         integrate(problem, dwell, MarchOptions(0.01, 5), start=first.checkpoint)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import sys
 from pathlib import Path
 
@@ -45,11 +46,18 @@ def add_output(parser: argparse.ArgumentParser, suffix: str) -> None:
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=_place,
         metavar="PATH",
         help="where results go: a folder, or a path without ending (default: "
         f"SCENE-{suffix} here)",
     )
+
+
+def _place(text: str) -> Path:
+    """Read a path; one that ends like a folder must be one."""
+    if text.endswith(("/", os.sep)) and not Path(text).is_dir():
+        raise argparse.ArgumentTypeError(f"there is no folder {text}: make it first")
+    return Path(text)
 
 
 def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
@@ -65,7 +73,7 @@ def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
     chosen: Path = options.output or Path()
     if chosen.is_dir():
         chosen /= f"{Path(options.scene).stem}-{suffix}"
-    elif chosen.suffix in {".nc", ".png"}:
+    elif chosen.suffix in {".nc", ".png", ".csv"}:
         chosen = chosen.with_suffix("")
     demand_folder(chosen)
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
@@ -97,14 +105,16 @@ def title(options: argparse.Namespace) -> str:
     return ", ".join([str(options.scene), *options.overrides])
 
 
-def ended(ending: str) -> int:
+def ended(ending: str, *, kept: bool = True) -> int:
     """Say on standard error how a result that is not complete ended; return the status.
 
-    The results up to there are kept: 0 complete, 130 interrupted, 1 otherwise.
+    It is 0 if complete, 130 if interrupted, 1 otherwise; results up to there are
+    ``kept`` in a file, or stand in what was printed alone.
     """
     if ending == "complete":
         return 0
-    print(f"microslip: {ending}; what was computed is kept", file=sys.stderr)
+    more = "what was computed is kept" if kept else "no file is written"
+    print(f"microslip: {ending}; {more}", file=sys.stderr)
     return 130 if ending == "interrupted" else 1
 
 

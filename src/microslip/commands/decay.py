@@ -71,6 +71,12 @@ def _run(options: argparse.Namespace) -> int:
     history, ending = _released(options, scene, problem, (state, frequency, data))
     probe = liveliest(history) if chosen is None else chosen
     decay = measured(problem, history, probe)
+    if not decay.time.size:
+        print(f"decay in {data}")
+        return arguments.ended(
+            f"{history.probes[probe]} does not swing to and fro often enough to be "
+            "measured: give more --periods"
+        )
     table = data.with_suffix(".csv")
     names = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
     hertz = decay.frequency / math.tau
@@ -153,8 +159,6 @@ def _released(
 def _lines(decay: RingDown, probe: str) -> list[str]:
     """Return the table of the decay, some of its cycles."""
     count = decay.time.size
-    if not count:
-        return [f"{probe} does not swing: there is nothing to measure"]
     rows = [
         f"free decay of {probe}",
         "time [s]  amplitude [mm]  frequency [Hz]  damping ratio [%]",

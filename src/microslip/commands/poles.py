@@ -83,11 +83,12 @@ def _run(options: argparse.Namespace) -> int:
             print(_line(question, each), flush=True)
     except KeyboardInterrupt:
         ending = "interrupted"
-    if any(each.linear for each in found):
+    kept = any(each.linear for each in found)
+    if kept:
         _keep(options, question, found, data.with_suffix(".csv"), picture)
     elif ending == "complete":
         ending = "no value has a response"
-    return arguments.ended(ending)
+    return arguments.ended(ending, kept=kept)
 
 
 def _line(question: Question, each: Linearised) -> str:

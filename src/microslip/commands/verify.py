@@ -123,14 +123,14 @@ def _run(options: argparse.Namespace) -> int:
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
     if traced.curve.ending != "complete":
-        return arguments.ended(traced.curve.ending)
+        return arguments.ended(traced.curve.ending, kept=False)
     found = Found(problem.probes.names)
     try:
         _orbits(options, problem, traced, found)
         _marches(options, problem, traced, found)
         _sweeps(options, scene, problem, traced, found.sweeps)
     except KeyboardInterrupt:
-        return arguments.ended("interrupted")
+        return arguments.ended("interrupted", kept=False)
     finally:
         _report(found)
     _draw(options, traced, found, picture)

@@ -81,9 +81,9 @@ def _read(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except (FileNotFoundError, NotADirectoryError):
+        hint = meant(str(path), BUILT_IN).replace("give one", "give a path, or one")
         raise SceneError(
-            f"there is no scene file {path}, and no built-in scene of that name: "
-            f"give a path, or one of {', '.join(BUILT_IN)}"
+            f"there is no scene file {path}, and no built-in scene of that name{hint}"
         ) from None
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not UTF-8 text"

@@ -58,12 +58,15 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
+    from microslip.quantity import SceneError
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.studies.curve import trace_curve
     from microslip.studies.jump_folds import folds_of
-    from microslip.studies.jumps import jumps
+    from microslip.studies.jumps import LEAST, jumps
 
+    if options.rates is not None and len(set(options.rates)) < LEAST:
+        raise SceneError(f"--rates: give at least {LEAST} different ones")
     _, picture = arguments.outputs(options, "jumps")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)

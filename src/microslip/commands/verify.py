@@ -12,6 +12,7 @@ from microslip.commands import arguments, frc, sweep, verify_tables
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from microslip.experiments import Curve, Sweep
     from microslip.scene_tables import Scene
     from microslip.studies.curve import Traced
     from microslip.studies.orbits import Verdict
@@ -41,7 +42,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "verify",
         help="check harmonic balance against time integration",
         description="Find orbits of harmonic balance again by shooting, stable or not, "
-        "and march the scene's sweep and slower ones against the curve; write "
+        "and march upward exponential sweeps over the scene's range, as fast as the "
+        "scene's and slower, against the curve; write "
         "SCENE-verify.png. Exit status 1 if an amplitude differs by more than the "
         "tolerance or than the error estimates of both solvers explain, or if energy "
         "and envelope of the sweep do not approach the curve as it slows.",
@@ -50,7 +52,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     arguments.add_scene(parser)
     arguments.add_output(parser, "verify")
     for name, kind, default, meaning in (
-        ("--frequencies", _count, 9, "orbits along the curve"),
+        ("--frequencies", _count, 9, "orbits along the curve, about"),
         ("--periods", _several, 0, "also march so many periods from each orbit"),
         ("--steps", _count, 600, "time steps per period of that march"),
         ("--tolerance", arguments.positive, 0.01, "relative deviation of amplitudes"),
@@ -70,7 +72,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         default=[1.0, 4.0, 10.0],
         metavar="FACTOR",
         help="lengths of the sweeps over that of the scene, at most "
-        f"{SLOWEST:g} (default: 1 4 10)",
+        f"{SLOWEST:g} (default: 1 4 10); none if no length is given",
     )
     parser.set_defaults(run=_run)
 
@@ -109,14 +111,9 @@ def _run(options: argparse.Namespace) -> int:
             f"{options.scene}: no load varies: nothing vibrates, so there is nothing "
             "to verify: give a drive"
         )
-    curve, swept = scene.curve, scene.sweep
-    covered = curve.lowest <= swept.lowest and swept.highest <= curve.highest
-    if options.slower and not covered:
-        raise SceneError(
-            f"{options.scene}: [curve] {curve.lowest:g} to {curve.highest:g} Hz does "
-            f"not cover [sweep] {swept.lowest:g} to {swept.highest:g} Hz: give it the "
-            "sweep's range, or leave the sweeps out by --slower without a value"
-        )
+    curve = scene.curve
+    if options.slower:
+        _check_covered(options, curve, scene.sweep)
     wanted = Wanted(options.branches, options.detached)
     bars = frc.watched(curve), frc.search_watched(curve)
     traced = trace_curve(problem, curve, bars[0], wanted, bars[1])
@@ -136,6 +133,24 @@ def _run(options: argparse.Namespace) -> int:
     _draw(options, traced, found, picture)
     print(f"picture in {picture}")
     return _verdict(options, found)
+
+
+def _check_covered(options: argparse.Namespace, curve: Curve, swept: Sweep) -> None:
+    """Check that the curve is as wide as the sweep.
+
+    Raises
+    ------
+    SceneError
+        If it is not.
+    """
+    from microslip.quantity import SceneError
+
+    if not (curve.lowest <= swept.lowest and swept.highest <= curve.highest):
+        raise SceneError(
+            f"{options.scene}: [curve] {curve.lowest:g} to {curve.highest:g} Hz does "
+            f"not cover [sweep] {swept.lowest:g} to {swept.highest:g} Hz: give it the "
+            "sweep's range, or leave the sweeps out by --slower without a value"
+        )
 
 
 def _orbits(

@@ -39,7 +39,7 @@ def decay_figure(
     damping.plot(millimetres, 100.0 * decay.damping, **line)
     framed(damping, x=below, y="damping ratio [%]", title="Damping")
     if (decay.damping > 0.0).all():
-        damping.set_ylim(bottom=0.0)
+        damping.set_ylim(0.0, 108.0 * decay.damping.max(initial=1e-9))
     if (decay.amplitude > 0.0).all() and decay.amplitude.size:
         for axes in (frequency, damping):
             axes.set_xscale("log")

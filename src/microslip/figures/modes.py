@@ -43,8 +43,9 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
         for axes in (left, right):
             axes.set_xscale("log")
     left.ticklabel_format(axis="y", useOffset=False)
-    if all(ratio > 0.0 for line in lines for ratio in line.damping):
-        right.set_ylim(bottom=0.0)
+    ratios = [ratio for line in lines for ratio in line.damping]
+    if ratios and min(ratios) > 0.0:
+        right.set_ylim(0.0, 108.0 * max(ratios))
     if len(lines) > 1:
         right.legend(frameon=False)
     figure.suptitle(literal(title))

@@ -9,7 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from microslip.figures.style import COLOURS, WIDTH, framed, literal
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    framed,
+    literal,
+    plain_logarithmic,
+)
 from microslip_mechanics.arrays import Array, ComplexArray
 
 LIMITS = {"free": ":", "stuck": "--"}
@@ -77,6 +83,7 @@ def _finish(frequency: Axes, damping: Axes, path: Axes, where: Array, key: str) 
         axes.legend(frameon=False)
     for axes in (frequency, damping, path):
         axes.margins(x=0.04)
+    plain_logarithmic(path.xaxis)
 
 
 def _scale(axes: Axes, where: Array) -> None:

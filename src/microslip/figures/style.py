@@ -6,7 +6,12 @@ from collections.abc import Iterable, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import (
+    FuncFormatter,
+    LogFormatterSciNotation,
+    LogLocator,
+    NullLocator,
+)
 
 from microslip_mechanics.arrays import Array
 
@@ -28,10 +33,23 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
 
 
+LONG = 150.0
+"""end of a logarithmic axis over its beginning, from which on it has powers of ten"""
+
+
 def plain_logarithmic(axis: Axis) -> None:
-    """Label a logarithmic axis with plain numbers: 0.1, 0.2, 0.5 and so on."""
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    """Label a logarithmic axis with plain numbers: 0.1, 0.2, 0.5 and so on.
+
+    With powers of ten where it is long.
+    """
+    low, high = axis.get_view_interval()
+    long = high > LONG * low > 0.0
+    if long:
+        axis.set_major_locator(LogLocator(numticks=8))
+        axis.set_major_formatter(LogFormatterSciNotation())
+    else:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
 
 

@@ -58,7 +58,8 @@ def track_figure(
             axes.set_xticks(list(values), _labels(values, axes.get_xscale() == "log"))
             axes.set_xticks([], minor=True)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
-    left.set_ylim(bottom=0.0)
+    sizes = [1e3 * amplitude for *_, amplitude in peaks]
+    left.set_ylim(0.0, 1.06 * max(sizes) if sizes else None)
     framed(right, x=literal(key), y="frequency [Hz]", title="Where it happens")
     right.legend(frameon=False)
     for axes in (left, right):

@@ -27,7 +27,7 @@ class RayleighRatios:
     def __post_init__(self) -> None:
         """Check that there are two of each."""
         if len(self.frequencies) != 2 or len(self.ratios) != 2:
-            raise ValueError("[rayleigh]: give two frequencies and two ratios")
+            raise ValueError("[structure.rayleigh]: give two frequencies and ratios")
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
+from hbm.crossings import BRANCH, crossings
 from hbm.errors import ContinuationError
 from hbm.events import Events
 from hbm.fourier import FourierBasis
@@ -17,12 +18,14 @@ from hbm.newton import Correction
 from hbm.residual import HarmonicBalance
 from hbm.resolution import PathResolution
 from hbm.settled import Settled
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import ONE_SIDED
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
 TURN = 2.0 * np.pi
+ASTRAY = 0.01
+"""distance of a multiplier from +1 at which an orbit is no branch point"""
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
 
@@ -52,9 +55,14 @@ class Curve:
             if self.events and correction.tangent is not None:
                 after = self.events.directed(after, metric)
             if self.events and before is not None and correction.joined:
+                names = []
                 for event in self.events.between(before, after, metric):
+                    names.append(event.name)
                     told, _ = self.made(event.correction, event.name)
-                    yield replace(told, parameter_error=event.error)
+                    if event.name != BRANCH or _branches(told.multipliers):
+                        yield replace(told, parameter_error=event.error)
+                changed = crossings(before.multipliers, after.multipliers)
+                after = after._replace(owes="fold" in names and not changed)
             yield made
             before = after
 
@@ -96,6 +104,15 @@ class Curve:
         )
         error = made.error if confirmed else np.inf
         return replace(made, error=error, multipliers=multipliers), finer
+
+
+def _branches(multipliers: ComplexArray) -> bool:
+    """Return whether one of the multipliers of an orbit as it is reported is +1.
+
+    On the orbits of fewer harmonics by which it was located one is: beside a fold, that
+    may be nothing but the fold.
+    """
+    return bool((np.abs(multipliers - 1.0) < ASTRAY).any())
 
 
 def response(

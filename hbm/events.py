@@ -84,7 +84,7 @@ class Events:
             *self._peaks(before, after, metric),
             *self._changes(segment, before, after),
         ]
-        for each in _told(found, segment):
+        for each in _told(found, segment, owed=before.owes):
             self.system.fourier = each.fourier
             settled = self._settled(each, segment, metric)
             if settled is None:
@@ -212,12 +212,17 @@ class Events:
         return change / small if abs(change) > rounding else 0.0
 
 
-def _told(found: Sequence[Found], segment: Segment) -> list[Found]:
+def _told(found: Sequence[Found], segment: Segment, *, owed: bool) -> list[Found]:
     """Return the events in their order, without the branch points that are folds.
 
-    At a fold, where the curve turns, a multiplier is +1 as well.
+    At a fold, where the curve turns, a multiplier is +1 as well. Those of orbits that
+    are resolved more finely than the curve may cross in the step behind it: one is
+    ``owed`` then.
     """
     told = sorted(found, key=lambda each: each.place)
+    branching = [each for each in told if each.name == BRANCH]
+    if owed and branching:
+        told.remove(branching[0])
     for turn in [each.place for each in told if each.name == "fold"]:
         branching = [each for each in told if each.name == BRANCH]
         nearest = min(branching, key=lambda each: abs(each.place - turn), default=None)

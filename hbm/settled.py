@@ -28,3 +28,5 @@ class Settled(NamedTuple):
     """its resolution"""
     growth: float = math.nan
     """of its largest amplitude along the curve"""
+    owes: bool = False
+    """whether the curve folded before it, and no multiplier has crossed +1 for that"""

@@ -12,9 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import ContactPoints
-from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.undamped_modes import undamped_modes
 
 
@@ -51,8 +49,6 @@ class Modes(NamedTuple):
     """relative acceleration from a force on the same coordinates, (rank, rank)"""
     probes: Array
     """shape (probes, modes)"""
-    rest: Array
-    """where the preload holds the modes, shape (modes,)"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,17 +91,8 @@ def modal_coordinates(problem: Problem) -> Coordinates:
         seen,
         seen.T @ seen,
         np.ascontiguousarray(problem.probes.rows @ shapes),
-        inverse @ _rest(problem),
     )
     return Coordinates(modes, contacts, shapes, inverse)
-
-
-def _rest(problem: Problem) -> Array:
-    """Return the displacement at rest under the preload, zero if nothing holds it."""
-    try:
-        return static_equilibrium(problem).displacement
-    except MicroslipError:
-        return np.zeros(problem.structure.dofs)
 
 
 def _reach(matrix: Array) -> NDArray[np.int64]:

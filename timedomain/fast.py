@@ -196,14 +196,11 @@ class FastMarch:
         return min(2.0 * np.pi / fastest, self._duration) if fastest else self._duration
 
     def _reference(self) -> float:
-        """Return twice the least energy [J] that errors are compared with.
-
-        It is that of the drive as a static load, or of the preload without a drive.
-        """
+        """Return twice the least energy [J] that errors are compared with."""
         modes, step = self._coordinates.modes, self._control.longest
         flexibility = 1.0 / np.maximum(modes.stiffness, 1.0 / step**2)
-        preload, *drives = (modes.loads**2 * flexibility).sum(axis=1)
-        return float(max(drives) or max(preload, 2.0 * self._stored_at_start, 1e-300))
+        static = float((modes.loads**2 * flexibility).sum(axis=1).max())
+        return max(static, 2.0 * self._stored_at_start, 1e-300)
 
     def _failure(self) -> IntegrationError:
         tick = self._motion.counts[TICK]

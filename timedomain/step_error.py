@@ -21,20 +21,14 @@ def step_error(
     level: int,
     safe: bool,
 ) -> float:
-    """Return the error of the step over the tolerance; 0 if steps have one length.
-
-    It is compared with the energy of the vibration about where the preload holds the
-    structure. While the preload grows, that place is known about: what is seen then
-    does not count later.
-    """
-    length, preload = control.longest / 2.0**level, trial.factors[0]
+    """Return the error of the step over the tolerance; 0 if steps have one length."""
+    length = control.longest / 2.0**level
     now = 0.0
     for j in range(motion.velocity.size):
-        q = motion.displacement[j] - preload * modes.rest[j]
-        now += motion.velocity[j] ** 2 + modes.stiffness[j] * q**2
+        q, v = motion.displacement[j], motion.velocity[j]
+        now += v**2 + modes.stiffness[j] * q**2
     reference = max(motion.numbers[REFERENCE], now)
-    if preload == 1.0:
-        motion.numbers[REFERENCE] = reference
+    motion.numbers[REFERENCE] = reference
     if safe:
         energy = _embedded(modes, tables, motion, trial, level)
     else:

@@ -316,7 +316,7 @@ def test_wrong_numbers_of_the_structure_name_the_scene(tmp_path: Path) -> None:
     path.write_text(text.replace("[[element]]", table, 1))
 
     with pytest.raises(
-        SceneError, match=r"scene.toml: \[rayleigh\]: give two frequencies"
+        SceneError, match=r"scene.toml: \[structure.rayleigh\]: give two frequencies"
     ):
         load_scene(str(path), [])
 

@@ -56,6 +56,9 @@ class LinearCurve:
         beside = np.concatenate([np.zeros(0), *parts])
         inside = beside[(beside > low) & (beside < high)]
         points = np.unique(np.concatenate([grid, inside]))
+        # none where the amplitude has no bound
+        apart = np.abs(points[:, None] - self._endless)
+        points = points[(apart > UNDAMPED * points[:, None]).all(axis=1)]
         found = [Place(float(each), None) for each in points]
         found += self._peaks(points)
         yield from sorted(found, key=lambda each: each.frequency, reverse=start > end)
@@ -71,6 +74,13 @@ class LinearCurve:
         largest = np.abs(value).argmax()
         change = -1j * self._value(frequency, 2)[largest]
         return float((value[largest].conj() * change).real)
+
+    @property
+    def _endless(self) -> Array:
+        """Frequencies of resonances without damping [rad/s]."""
+        damped = np.abs(self.poles.real) > UNDAMPED * np.abs(self.poles)
+        undamped: Array = self.poles.imag[~damped]
+        return undamped
 
     def _value(self, frequency: float, power: int) -> ComplexArray:
         return self.residues @ (1j * frequency - self.poles) ** -power
@@ -99,7 +109,7 @@ class LinearCurve:
 
     def _peaks(self, points: Array) -> Iterator[Place]:
         """Yield where the largest amplitude has a maximum between neighbours."""
-        endless = self.poles.imag[np.abs(self.poles.real) <= UNDAMPED * abs(self.poles)]
+        endless = self._endless
         growth = [self.growth(each) for each in points]
         for (low, rises), (high, falls) in pairwise(zip(points, growth, strict=True)):
             between = (endless > low) & (endless < high)

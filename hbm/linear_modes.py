@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 
 from hbm.fourier import FourierBasis
+from hbm.poles import eigenpairs
 from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
@@ -52,7 +52,7 @@ def linear_modes(
     Overdamped motions have no frequency and are left out, and so is what no probe sees.
     """
     stiffness, damping = _about_rest(problem, relative)
-    poles, shapes = _eigenpairs(problem.structure.mass, damping, stiffness)
+    poles, shapes = eigenpairs(problem.structure.mass, damping, stiffness)
     inside = (poles.imag > 0.0) & (np.abs(poles) >= lowest) & (np.abs(poles) <= highest)
     found = []
     for place in np.flatnonzero(inside):
@@ -78,19 +78,3 @@ def _about_rest(problem: Problem, relative: RelativeProblem) -> tuple[Array, Arr
         structure.stiffness + select.T @ elastic @ select,
         structure.damping + select.T @ viscous @ select,
     )
-
-
-def _eigenpairs(
-    mass: Array, damping: Array, stiffness: Array
-) -> tuple[ComplexArray, ComplexArray]:
-    """Return s and φ of (s² M + s C + K) φ = 0, shapes (2 dofs,) and (dofs, 2 dofs)."""
-    squares, modes = scipy.linalg.eigh((stiffness + stiffness.T) / 2.0, mass)
-    sizes = np.sqrt(np.abs(squares))
-    frequencies = np.diag(sizes)
-    none = np.zeros_like(frequencies)
-    # The state (Ω q, q̇) keeps large and small frequencies on one scale; rest may be
-    # unstable, where rotation softens what little holds.
-    pulled = np.diag(np.sign(squares) * sizes)
-    system = np.block([[none, frequencies], [-pulled, -modes.T @ damping @ modes]])
-    poles, vectors = np.linalg.eig(system)
-    return poles.astype(complex), (modes @ vectors[len(mass) :]).astype(complex)

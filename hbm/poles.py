@@ -35,21 +35,34 @@ class Poles:
 
 def poles(structure: Structure) -> Poles:
     """Return the poles of a structure; its stiffness may be indefinite."""
-    squares, modes = scipy.linalg.eigh(structure.stiffness, structure.mass)
+    values, shapes = eigenpairs(structure.mass, structure.damping, structure.stiffness)
+    kept = np.flatnonzero(values.imag >= 0.0)
+    kept = kept[np.lexsort((values.real[kept], values.imag[kept]))]
+    return Poles(values[kept], shapes[:, kept])
+
+
+def eigenpairs(
+    mass: Array, damping: Array, stiffness: Array
+) -> tuple[ComplexArray, ComplexArray]:
+    """Return λ and φ of (λ² M + λ C + K) φ = 0, shapes (2 dofs,) and (dofs, 2 dofs).
+
+    The shapes have unit length in the mass matrix. The damping may be any matrix; of
+    the stiffness, which may be indefinite, the symmetric part counts.
+    """
+    squares, modes = scipy.linalg.eigh((stiffness + stiffness.T) / 2.0, mass)
     size = np.abs(squares)
+    # The state (Ω q, q̇) keeps large and small frequencies on one scale.
     scale = np.sqrt(np.maximum(size, 1e-12 * size.max(initial=0.0)))
     zero = np.zeros_like(modes)
     state = np.block(
         [
             [zero, np.diag(scale)],
-            [-np.diag(squares / scale), -modes.T @ structure.damping @ modes],
+            [-np.diag(squares / scale), -modes.T @ damping @ modes],
         ]
     )
     values, vectors = scipy.linalg.eig(state)
-    kept = np.flatnonzero(values.imag >= 0.0)
-    kept = kept[np.lexsort((values.real[kept], values.imag[kept]))]
-    shapes = vectors[: len(scale), kept] / scale[:, None]
-    return Poles(values[kept], modes @ (shapes / np.linalg.norm(shapes, axis=0)))
+    shapes = vectors[: len(scale)] / scale[:, None]
+    return values, modes @ (shapes / np.linalg.norm(shapes, axis=0))
 
 
 def frequencies(values: ComplexArray) -> Array:

@@ -15,10 +15,10 @@ from timedomain.options import IntegrationError, MarchOptions
 from timedomain.reference import ReferenceMarch
 from timedomain.start import Start, at_rest
 
+__all__ = ["IntegrationError", "MarchOptions", "integrate"]
+
 ROUNDING = 1e-12
 """of a number of steps, relative: a march of whole periods has no step more"""
-
-__all__ = ["IntegrationError", "MarchOptions", "integrate"]
 
 
 def integrate(

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import RIGID, ContactPoints, normal_response
+from microslip_mechanics.contact.law import RIGID, ContactPoints
+from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.rigid import slide
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
@@ -101,7 +102,10 @@ def march_sliders(
     for step in range(first, steps):
         slips, forces = state.slips.copy(), state.forces.copy()
         for place in range(count // 2):
-            made.loads[place] = _load(points, sliders.points[place], state)[0]
+            point = sliders.points[place]
+            made.loads[place], _, _ = friction_load(
+                points, point, state.gaps[point, 0], state.slips[point, 0]
+            )
         taken = _advance(
             operators, sliders, compliance, points, state, factors[step], tolerance,
             made,
@@ -268,16 +272,6 @@ def _assemble(
 
 
 @kernel
-def _load(
-    points: ContactPoints, point: int, state: State
-) -> tuple[float, float, float]:
-    """Return the normal load of a point's friction, and its tangents."""
-    if points.constant_load[point]:
-        return points.load[point], 0.0, 0.0
-    return normal_response(points, point, state.gaps[point, 0], state.slips[point, 0])
-
-
-@kernel
 def _slide(
     operators: Operators,
     sliders: Sliders,
@@ -291,7 +285,9 @@ def _slide(
     """Write one point's traction, and its part of the residual and of the matrix."""
     half, rank = 0.5 * operators.step, made.acceleration.size
     point, one, two = sliders.points[place], 2 * place, 2 * place + 1
-    load, stiff, viscous = _load(points, point, state)
+    load, stiff, viscous = friction_load(
+        points, point, state.gaps[point, 0], state.slips[point, 0]
+    )
     load = 0.5 * (made.loads[place] + load)
     slope = 0.5 * points.dynamic[point] * half * (half * stiff + viscous)
     momentum = np.dot(sliders.rows[one : two + 1], start[3])

@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 
+import microslip
+from hbm.linear_modes import linear_modes
 from hbm.poles import damping_ratios, followed, frequencies, poles
+from hbm.relative import relative_problem
+from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
 from rigs import rig_problem
 from small_problems import cantilever, oscillator
@@ -44,6 +48,32 @@ def test_negative_stiffness_grows() -> None:
     found = poles(Structure(one, 3.0 * one, -4.0 * one, ("x",))).values
 
     np.testing.assert_allclose(found, [-4.0, 1.0], rtol=1e-12)
+
+
+def test_dashpots_couple_a_mode_that_stiffness_pushes_away() -> None:
+    problem = microslip.system(
+        mass=[1.0, 1.0],
+        stiffness=[[-5.0, 20.0], [20.0, 100.0]],
+        damping=[[2.0, -2.0], [-2.0, 3.0]],
+        elements=[
+            microslip.Element(
+                microslip.CubicSpring(cubic=1.0), between=("x1", "ground")
+            )
+        ],
+        drive={"x2": 1.0},
+    )
+
+    values = poles(problem.structure).values
+    relative = relative_problem(problem, static_equilibrium(problem))
+    (mode,) = linear_modes(problem, relative, 1.0, 100.0)
+
+    # det(s² + s C + K), by hand
+    one, other, coupling = [1.0, 2.0, -5.0], [1.0, 3.0, 100.0], [-2.0, 20.0]
+    determinant = np.polymul(one, other)
+    expected = np.roots(np.polysub(determinant, np.polymul(coupling, coupling)))
+    kept = expected[expected.imag >= 0.0]
+    np.testing.assert_allclose(np.sort(values), np.sort(kept), rtol=1e-12)
+    assert mode.pole == pytest.approx(kept[kept.imag > 0.0][0], rel=1e-12)
 
 
 def test_proportional_damping_is_that_of_each_mode() -> None:

@@ -7,13 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
 import pytest
 
 import microslip
-from hbm.linear_modes import linear_modes
-from hbm.relative import relative_problem
-from microslip_mechanics.static import static_equilibrium
 
 START = "import sys; from microslip.cli import main"
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -70,22 +66,3 @@ def test_a_decay_of_one_period_is_too_short(run: Run) -> None:
     assert "decay in duffing-decay.nc" in output
     assert "does not swing to and fro often enough" in error
     assert not Path("duffing-decay.png").exists()
-
-
-def test_linear_modes_know_stiffness_that_pushes_away() -> None:
-    problem = microslip.system(
-        mass=[1.0, 1.0],
-        stiffness=[[-5.0, 20.0], [20.0, 100.0]],
-        elements=[
-            microslip.Element(
-                microslip.CubicSpring(cubic=1.0), between=("x1", "ground")
-            )
-        ],
-        drive={"x2": 1.0},
-    )
-    rest = static_equilibrium(problem)
-
-    (mode,) = linear_modes(problem, relative_problem(problem, rest), 1.0, 100.0)
-
-    expected = np.sqrt(np.linalg.eigvalsh(problem.structure.stiffness)[-1])
-    assert mode.frequency == pytest.approx(expected, rel=1e-12)

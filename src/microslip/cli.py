@@ -9,6 +9,7 @@ import shlex
 import sys
 import warnings
 from decimal import Decimal
+from typing import NoReturn
 
 from microslip.commands import (
     decay,
@@ -54,7 +55,10 @@ def main(arguments: list[str] | None = None) -> int:
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
     given = sys.argv[1:] if arguments is None else arguments
     words = [_plain(word) for word in given]
-    options = _parser().parse_args(words)
+    options, unknown = _parser().parse_known_args(words)
+    if unknown:
+        reason = f"{words[0]}: no such argument: {unknown[0]}"
+        return _failed(f"{reason}: see microslip {words[0]} --help", 2)
     options.command = shlex.join(["microslip", *words])
     try:
         return _run(options)
@@ -89,8 +93,7 @@ def _run(options: argparse.Namespace) -> int:
     except MemoryError:
         return _failed("not enough memory: give a longer time step or less data", 1)
     except KeyboardInterrupt:
-        print("microslip: interrupted before there was a result", file=sys.stderr)
-        return 130
+        return _failed("interrupted; what is written so far is kept", 130)
 
 
 def _failed(reason: str, status: int) -> int:
@@ -99,8 +102,17 @@ def _failed(reason: str, status: int) -> int:
     return status
 
 
+class _Parser(argparse.ArgumentParser):
+    """Tell what is wrong with the arguments in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        command = self.prog.removeprefix("microslip").strip()
+        where = f"{command}: " if command else ""
+        self.exit(_failed(f"{where}{message}: see {self.prog} --help", 2))
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="microslip",
         description="Nonlinear forced response of structures with friction and "
         "contact, by harmonic balance and by time integration.",

@@ -33,6 +33,16 @@ def test_orders_that_differ_by_the_number_of_blades_are_the_same_load() -> None:
     assert not one[::2].any()
 
 
+@pytest.mark.parametrize("order", [0, BLADES // 2, 7 * BLADES, 10**4 * BLADES + 6])
+def test_blades_in_phase_or_against_each_other_have_exactly_real_loads(
+    order: int,
+) -> None:
+    load = engine_order(NAMES, LOADED, order, 3.0)[1::2]
+
+    assert not load.imag.any()
+    np.testing.assert_array_equal(np.abs(load), 3.0)
+
+
 @pytest.mark.parametrize(
     ("blades", "amplitude", "message"),
     [

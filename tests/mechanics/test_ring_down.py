@@ -71,3 +71,16 @@ def test_motion_that_never_crosses_its_rest_gives_nothing() -> None:
     time = np.linspace(0.0, 1.0, 50)
 
     assert ring_down(time, np.exp(-time), -np.exp(-time)).time.size == 0
+
+
+def test_a_decay_ends_where_it_is_lost_in_the_last_digits() -> None:
+    natural, ratio = 10.0, 0.1
+    time = np.arange(6000) * 0.01
+    motion = np.exp(complex(-ratio, np.sqrt(1.0 - ratio**2)) * natural * time)
+    noise = 1e-12 * np.random.default_rng(1).normal(size=(2, time.size))
+    rate = complex(-ratio, np.sqrt(1.0 - ratio**2)) * natural * motion
+
+    found = ring_down(time, motion.real + noise[0], rate.real + noise[1])
+
+    assert 1e-9 < found.amplitude[-1] < 4e-9
+    np.testing.assert_allclose(found.damping, ratio, rtol=1e-2)

@@ -95,6 +95,8 @@ def test_version_is_that_of_the_package(run: Run) -> None:
         (("verify", "two-blades", "--periods", "1.5"), "--periods"),
         (("verify", "two-blades", "--tolerance", "small"), "--tolerance"),
         (("verify", "two-blades", "--slower", "much"), "--slower"),
+        (("sweep", "two-blades", "--step", "1"), "sweep: no such argument: --step"),
+        (("frc", "two-blades", "more"), "see microslip frc --help"),
     ],
 )
 def test_wrong_usage_has_status_2_and_a_reason(
@@ -103,7 +105,9 @@ def test_wrong_usage_has_status_2_and_a_reason(
     status, output, error = run(*arguments)
 
     assert (status, output) == (2, "")
-    assert word in error.splitlines()[-1]
+    (line,) = error.splitlines()
+    assert line.startswith("microslip: ")
+    assert word in line
 
 
 def test_built_in_scenes_are_listed_with_their_variants(run: Run) -> None:

@@ -14,7 +14,7 @@ from hbm.solve import frequency_response
 from microslip.figures.jumps import JumpLine, jumps_figure
 from microslip.studies.curve import Traced
 from microslip.studies.jump_folds import folds_of
-from microslip.studies.jumps import Jump
+from microslip.studies.jumps import LEAST, Jump
 from microslip.studies.verify import StudyError
 from microslip_mechanics.response import ResponseCurve, response_curve
 from microslip_mechanics.static import static_equilibrium
@@ -127,6 +127,17 @@ def test_rates_and_lead_must_be_positive(
 
     assert status == 2
     assert "is not positive and finite" in error
+
+
+def test_less_rates_than_an_extrapolation_needs_are_refused(
+    run: Run, quick_scene: Path
+) -> None:
+    given = ("--rates", *["0.1"] * LEAST)
+
+    status, output, error = run("jumps", str(quick_scene), *given)
+
+    assert (status, output) == (2, "")
+    assert error == f"microslip: --rates: give at least {LEAST} different ones\n"
 
 
 def test_the_picture_shows_curve_envelopes_and_delays(

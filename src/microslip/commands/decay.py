@@ -82,7 +82,7 @@ def _run(options: argparse.Namespace) -> int:
     hertz = decay.frequency / math.tau
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
     save_table(table, names, zip(*columns, strict=True))
-    title = arguments.title(options)
+    title = f"{arguments.title(options)}, let go at {frequency / math.tau:g} Hz"
     save_figure(picture, decay_figure(history, decay, probe, title))
     print("\n".join(_lines(decay, history.probes[probe])))
     print(f"decay in {data}, table in {table}, picture in {picture}")

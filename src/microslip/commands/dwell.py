@@ -85,9 +85,8 @@ def _run(options: argparse.Namespace) -> int:
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     history, distances, ending = dwelled(options, scene, problem, data)
-    figure = dwell_figure(
-        history, distances, options.tolerance, arguments.title(options)
-    )
+    title = f"{arguments.title(options)}, {options.frequency:g} Hz"
+    figure = dwell_figure(history, distances, options.tolerance, title)
     save_figure(picture, figure)
     print("\n".join(_lines(options, history, distances)))
     print(energy_table(history))

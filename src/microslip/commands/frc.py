@@ -89,7 +89,7 @@ def _run(options: argparse.Namespace) -> int:
     if traced.rest.normal_force.any():
         print(_rest(traced.curve.contacts, traced.rest))
     print(f"{len(traced.responses)} points in {data}, picture in {picture}")
-    print(_events(traced.curve))
+    print(events_said(traced.curve))
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in _barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")
@@ -114,7 +114,7 @@ def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
     return trace_curve(problem, scene.curve, watch, wanted, searching, pruned=pruned)
 
 
-def _events(curve: ResponseCurve) -> str:
+def events_said(curve: ResponseCurve) -> str:
     """Return what was located on the curve, and where it is unstable."""
     lines = []
     for place, name in enumerate(curve.event):

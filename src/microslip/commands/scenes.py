@@ -48,11 +48,12 @@ def _run(options: argparse.Namespace) -> int:
         return 0
     from microslip.quantity import SceneError
     from microslip.scene_file import BUILT_IN, built_in_text
+    from microslip.table import meant
 
     if options.scene not in BUILT_IN:
         raise SceneError(
-            f"there is no built-in scene {options.scene}: give one of "
-            f"{', '.join(BUILT_IN)}"
+            f"there is no built-in scene {options.scene}"
+            f"{meant(options.scene, BUILT_IN)}"
         )
     print(built_in_text(options.scene), end="")
     return 0

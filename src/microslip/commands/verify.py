@@ -237,6 +237,7 @@ def _draw(
     from microslip.store import save_figure
 
     made = [each.comparison for each in found.orbits if each.comparison is not None]
+    rubbing = [each for each in found.sweeps if each.rubs]
     figure = agreement_figure(
         traced.curve,
         (
@@ -252,8 +253,8 @@ def _draw(
             for s in found.sweeps
         ],
         (
-            np.array([each.slower for each in found.sweeps]),
-            np.array([each.energy_error for each in found.sweeps]),
+            np.array([each.slower for each in rubbing]),
+            np.array([each.energy_error for each in rubbing]),
         ),
         arguments.title(options),
     )
@@ -275,8 +276,5 @@ def _verdict(options: argparse.Namespace, found: Found) -> int:
         agrees &= stays
     slows = falls(found.sweeps)
     if len(found.sweeps) > 1:
-        print(
-            f"{'agree' if slows else 'DISAGREE'}: energy and envelope of the sweep "
-            f"{'approach' if slows else 'do not approach'} the curve as it slows"
-        )
+        print(verify_tables.sweeps_said(found.sweeps, agree=slows))
     return 0 if agrees and slows else 1

@@ -22,9 +22,9 @@ MARCHES = """\
 steady state: march started on the orbit that harmonic balance found
 frequency  amplitude  {deviation}  distance from orbit  drift
      [Hz]       [mm]  {heads}       first      last"""
-SWEEPS = """\
-swept sine beside the curve's prediction for an infinitely slow one
-  slower   energy of friction [J]  predicted [J]  difference  envelope  closing error"""
+SWEEPS = "swept sine beside the curve's prediction for an infinitely slow one"
+SLOWER, ENERGY = "  slower", "   energy of friction [J]  predicted [J]  difference"
+ENVELOPE = "  envelope  closing error"
 
 
 def orbit_row(verdict: Verdict) -> str:
@@ -64,17 +64,30 @@ def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
     """Return the sweeps as a table, and how fast their difference falls."""
     from microslip.studies.verify import rate_of
 
-    lines = [SWEEPS]
-    lines += [
-        f"{sweep.slower:8g} {sweep.energy:24.6f} {sweep.quasi_static:14.6f}"
-        f" {100.0 * sweep.energy_error:9.2f} % {100.0 * sweep.envelope_error:7.1f} %"
-        f" {sweep.closing_error:14.1e}"
-        for sweep in sweeps
-    ]
+    rubs = any(sweep.rubs for sweep in sweeps)
+    lines = [SWEEPS, SLOWER + (ENERGY if rubs else "") + ENVELOPE]
+    for sweep in sweeps:
+        energy = (
+            f" {sweep.energy:24.6f} {sweep.quasi_static:14.6f}"
+            f" {100.0 * sweep.energy_error:9.2f} %"
+        )
+        lines.append(
+            f"{sweep.slower:8g}{energy if rubs else ''}"
+            f" {100.0 * sweep.envelope_error:7.1f} % {sweep.closing_error:14.1e}"
+        )
     rate = rate_of(list(sweeps))
     if rate is not None:
         lines.append(f"the difference falls as duration^-{rate:.2f}")
     return "\n".join(lines)
+
+
+def sweeps_said(sweeps: Sequence[SweepAgreement], *, agree: bool) -> str:
+    """Return whether the sweeps approach the curve."""
+    many = any(sweep.rubs for sweep in sweeps)
+    what, ending = ("energy and envelope", "") if many else ("envelope", "es")
+    verb = f"approach{ending}" if agree else f"{'do' if many else 'does'} not approach"
+    sign = "agree" if agree else "DISAGREE"
+    return f"{sign}: {what} of the sweep {verb} the curve as it slows"
 
 
 def orbits_said(verdicts: Sequence[Verdict]) -> str:

@@ -34,7 +34,7 @@ def agreement_figure(
 ) -> Figure:
     """Draw curve and orbits, differences, envelopes of sweeps, and energy by duration.
 
-    The last two are left out without sweeps.
+    The last two are left out without sweeps, and the last without friction.
 
     Parameters
     ----------
@@ -47,7 +47,8 @@ def agreement_figure(
     sweeps
         Name, frequency [Hz] and envelope [m] of the first probe, of each sweep.
     energies
-        How many times slower each sweep is, and its relative energy difference.
+        How many times slower each sweep is, and its relative energy difference; empty
+        without friction.
     title
         Of the figure.
     """
@@ -63,7 +64,10 @@ def agreement_figure(
     _differences(panels[0, 1], found)
     if sweeps:
         _envelopes(panels[1, 0], parted(curve), sweeps)
-        _energy(panels[1, 1], energies)
+        if energies[0].size:
+            _energy(panels[1, 1], energies)
+        else:
+            panels[1, 1].remove()
     figure.suptitle(literal(title))
     return figure
 
@@ -107,7 +111,7 @@ def _envelopes(
 def _energy(axes: Axes, energies: tuple[Array, Array]) -> None:
     slower, error = energies
     axes.plot(slower, 100.0 * np.abs(error), "o-", color=COLOURS[0], lw=WIDTH, ms=4)
-    if slower.size and np.all(error != 0.0):
+    if np.all(error != 0.0):
         axes.set(xscale="log", yscale="log")
     axes.set_xticks(slower, [f"{each:g}" for each in slower])
     axes.minorticks_off()

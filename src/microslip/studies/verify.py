@@ -44,6 +44,11 @@ class SweepAgreement:
     """largest deflection of each cycle [m], shape (cycles, probes)"""
 
     @property
+    def rubs(self) -> bool:
+        """Whether friction takes energy in the march or by the curve."""
+        return self.energy != 0.0 or self.quasi_static != 0.0
+
+    @property
     def energy_error(self) -> float:
         """Relative difference of the energies."""
         if self.quasi_static == 0.0:

@@ -1,0 +1,72 @@
+"""What verify and frc say of stability, and of sweeps without friction."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from microslip.commands.frc import events_said
+from microslip.commands.verify_tables import marches_said, sweep_rows, sweeps_said
+from microslip.studies.verify import SweepAgreement
+from microslip_mechanics.response import ResponseCurve
+from timedomain.verify import Agreement
+
+
+def left(deviation: float, unstable: int) -> Agreement:
+    """Return a march at 4 Hz that ends so far off."""
+    predicted = np.array([2e-3])
+    marched = predicted * (1.0 + deviation)
+    return Agreement(4.0 * math.tau, predicted, marched, 0.0, 0.0, 0.0, 0.0, unstable)
+
+
+def swept(slower: float, energy: float) -> SweepAgreement:
+    """Return a sweep of which friction takes so much, and as much is predicted."""
+    none = np.zeros(0)
+    return SweepAgreement(slower, energy, energy, 0.1 / slower, 1e-6, none, none)
+
+
+def test_marches_from_unstable_orbits_prove_nothing_and_refute_nothing() -> None:
+    said, stays = marches_said([left(0.5, 1), left(0.9, 2)], ["x"], 1e-3)
+
+    assert stays
+    assert said == "every orbit is unstable: no march needs to stay near one"
+
+
+@pytest.mark.parametrize(("far", "stays"), [(9e-4, True), (2e-3, False)])
+def test_marches_from_stable_orbits_decide(far: float, stays: bool) -> None:
+    said, found = marches_said([left(0.5, 1), left(far, 0)], ["x"], 1e-3)
+
+    assert found is stays
+    assert said.startswith("agree: " if stays else "DISAGREE: ")
+    assert f"of 1 stable orbits {100.0 * far:.3g} % at 4.0000 Hz" in said
+
+
+def test_sweeps_without_friction_have_no_columns_of_its_energy() -> None:
+    rubbing, free = ([swept(one, taken) for one in (1.0, 4.0)] for taken in (2.0, 0.0))
+
+    assert "friction" in sweep_rows(rubbing)
+    assert "friction" not in sweep_rows(free)
+    widths = {len(line) for line in sweep_rows(free).splitlines()[1:]}
+    assert max(widths) - min(widths) < 3
+    assert sweeps_said(rubbing, agree=True).startswith("agree: energy and envelope of")
+    assert sweeps_said(free, agree=False) == (
+        "DISAGREE: envelope of the sweep does not approach the curve as it slows"
+    )
+
+
+@pytest.mark.parametrize(
+    ("unstable", "text"),
+    [
+        ([0, 0, 0, 0], "every point is stable"),
+        ([0, 0, -1, 0], "3 of 4 points are stable, of the others the stability is not"),
+        ([-1, -1, -1, -1], "stability is not known: no Floquet multipliers"),
+        ([0, -1, 1, 2], "unstable at 2 of 4 points, between 133.0000 and 134.0000 Hz"),
+    ],
+)
+def test_what_is_known_of_stability_is_said(
+    unstable: list[int], text: str, small_curve: ResponseCurve
+) -> None:
+    curve = dataclasses.replace(small_curve, unstable=np.array(unstable, dtype=float))
+
+    assert text in events_said(curve)

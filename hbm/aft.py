@@ -15,6 +15,7 @@ from hbm.memory import FrictionMemory, marched
 from hbm.sampling import sample
 from hbm.symmetry import Symmetry, holds, symmetry
 from hbm.tangent_entries import kinds, mixing, tangent_entries
+from hbm.tangent_product import TangentProduct
 from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import RIGID, ContactPoints
@@ -200,6 +201,15 @@ class AlternatingFrequencyTime:
         rank = self._basis.shape[1]
         mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, len(kept))
         return mixed[0], mixed[1]
+
+    def product(self) -> TangentProduct:
+        """Return what multiplies motions by the tangents of the last call."""
+        rank, samples, half = self._basis.shape[1], self.samples, self._seen
+        signs = np.ones(rank)
+        if self._symmetry.signs.size and self._odd is not None:
+            half, signs = samples // 2, np.where(self._odd, -1.0, 1.0)
+        mixed = np.dot(self._mixing, self.tangents[:, :half])
+        return TangentProduct(mixed.reshape(2, rank, rank, half), samples, signs)
 
     def add_remembered(
         self, frequency: float, places: NDArray[np.int64], jacobian: Array

@@ -6,15 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lapack
 
+from hbm.bordered import Bordered
+from hbm.iterated import Iterated, Parts, UnreachedError
 from hbm.newton import SingularError
 from microslip_mechanics.arrays import Array
 
 EPSILON = 1e-14
 """relative size below which a border does not cross the curve"""
-NONE: tuple[Array, Array] = np.empty(0), np.empty(0)
-"""no factors"""
 
 
 class Linearisation:
@@ -25,6 +24,7 @@ class Linearisation:
         make: Callable[[], tuple[Array, Array]],
         places: NDArray[np.int64],
         size: int,
+        parts: Callable[[], Parts] | None = None,
     ) -> None:
         """Take what makes the derivatives, when they are first asked for.
 
@@ -37,12 +37,14 @@ class Linearisation:
             Where the unknowns are in a point, shape ``(unknowns,)``.
         size
             Number of components of a point.
+        parts
+            Returns as much of them as it takes to solve by iteration, if that is likely
+            to cost less.
         """
-        self._make = make
+        self._make, self._parts = make, parts
         self._made: tuple[Array, Array] | None = None
         self._places = np.append(places, size - 1)
-        self._border: Array | None = None
-        self._factors = NONE
+        self._factors: tuple[Array, Bordered | Iterated] | None = None
 
     @property
     def jacobian(self) -> Array:
@@ -62,8 +64,14 @@ class Linearisation:
 
     def along(self, slope: Array) -> Linearisation:
         """Return the same, ``slope`` being the derivative by the last component."""
-        places, last = self._places[:-1], int(self._places[-1])
-        return Linearisation(lambda: (self.jacobian, slope[places]), places, last + 1)
+        places, last, parts = self._places[:-1], int(self._places[-1]), self._parts
+        inner = slope[places]
+        return Linearisation(
+            lambda: (self.jacobian, inner),
+            places,
+            last + 1,
+            None if parts is None else lambda: parts()._replace(slope=inner),
+        )
 
     def continued(self, image: Linearisation) -> Linearisation:
         """Return that of 2 R(border) − R(image), this one being at the border."""
@@ -96,14 +104,19 @@ class Linearisation:
             If there is no solution.
         """
         border = normal[self._places]
-        if self._border is None:
-            self._factors, self._border = self._factored(border), border
-            self._made = None  # as large as the factors, and hardly ever asked again
+        if self._factors is None:
+            self._factors = border, self._factored(border)
+        known, factors = self._factors
         wanted = right[self._places]
-        if np.array_equal(border, self._border):
-            found = self._solved(wanted)
-        else:
-            found = self._turned(border, wanted)
+        try:
+            found = (
+                factors.solve(wanted)
+                if np.array_equal(border, known)
+                else _turned(factors, border, wanted)
+            )
+        except UnreachedError:
+            self._parts, self._factors = None, None
+            return self.solve(normal, right)
         if not np.all(np.isfinite(found)):
             raise SingularError
         solution = np.zeros_like(right)
@@ -112,43 +125,32 @@ class Linearisation:
 
     def forget(self) -> None:
         """Let go of derivatives and factors: what solves again makes them anew."""
-        self._made, self._border, self._factors = None, None, NONE
+        self._made, self._factors = None, None
 
-    def _turned(self, border: Array, right: Array) -> Array:
-        """Return the solution with another border, by a step along the tangent.
+    def _factored(self, border: Array) -> Bordered | Iterated:
+        """Return what solves with the bordered matrix."""
+        if self._parts is not None:
+            return Iterated(self._parts(), border)
+        factors = Bordered(self.jacobian, self.slope, border)
+        self._made = None  # as large as the factors, and hardly ever asked again
+        return factors
 
-        It begins where the factored border makes zero of it, so that the step is not
-        lost to rounding if the other border is far larger.
-        """
-        last, right = right[-1].copy(), right.copy()
-        right[-1] = 0.0
-        found = self._solved(right)
-        unit = np.zeros(border.size)
-        unit[-1] = 1.0
-        along = self._solved(unit)
-        across = float(border @ along)
-        if abs(across) <= EPSILON * float(np.abs(border) @ np.abs(along)):
-            raise SingularError
-        shares = (last - border @ found) / across
-        turned: Array = found + np.multiply.outer(along, shares)
-        return turned
 
-    def _solved(self, right: Array) -> Array:
-        """Return the solution with the factors that there are."""
-        found, failed = lapack.dgetrs(*self._factors, right, trans=1)
-        if failed != 0:
-            raise SingularError
-        solution: Array = found
-        return solution
+def _turned(factors: Bordered | Iterated, border: Array, right: Array) -> Array:
+    """Return the solution with another border, by a step along the tangent.
 
-    def _factored(self, border: Array) -> tuple[Array, Array]:
-        """Return the factors of the bordered matrix, transposed: it lies by rows."""
-        count = self.slope.size
-        matrix = np.empty((count + 1, count + 1))
-        matrix[:count, :count] = self.jacobian
-        matrix[:count, count] = self.slope
-        matrix[count] = border
-        factors, pivots, failed = lapack.dgetrf(matrix.T, overwrite_a=True)
-        if failed != 0:
-            raise SingularError
-        return factors, pivots
+    It begins where the factored border makes zero of it, so that the step is not lost
+    to rounding if the other border is far larger.
+    """
+    last, right = right[-1].copy(), right.copy()
+    right[-1] = 0.0
+    found = factors.solve(right)
+    unit = np.zeros(border.size)
+    unit[-1] = 1.0
+    along = factors.solve(unit)
+    across = float(border @ along)
+    if abs(across) <= EPSILON * float(np.abs(border) @ np.abs(along)):
+        raise SingularError
+    shares = (last - border @ found) / across
+    turned: Array = found + np.multiply.outer(along, shares)
+    return turned

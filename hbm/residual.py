@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from dataclasses import replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -11,8 +12,11 @@ from numpy.typing import NDArray
 
 from hbm.contact_cycle import ContactCycle
 from hbm.fourier import FourierBasis, to_complex, to_real
+from hbm.iterated import Parts
 from hbm.jacobian import assemble, terms
 from hbm.linearisation import Linearisation
+from hbm.low_orders import LowOrders
+from hbm.memory import marched
 from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array, ComplexArray
 
@@ -64,6 +68,9 @@ class HarmonicBalance:
         self._places = np.full(shape, -1)
         self._places[self._active] = np.arange(self._terms.unknowns.size)
         self._wanted = np.vstack([self._active[:1], self._active[1::2]])
+        iterates = LowOrders.serve(self._active, fourier.samples)
+        iterates &= not marched(problem.points).any()
+        self._low = LowOrders(self._active) if iterates else None
 
     def with_problem(self, problem: RelativeProblem) -> HarmonicBalance:
         """Return the same for other contacts and loads in the same coordinates.
@@ -97,34 +104,52 @@ class HarmonicBalance:
         Derivatives are taken by the active coefficients and by the frequency.
         """
         residual, by_frequency = self.residual(point)
-        calls = self.contact.calls
+        calls, frequency, low = self.contact.calls, float(point[-1]), self._low
 
-        def made() -> tuple[Array, Array]:
+        def slope() -> Array:
             if self.contact.calls != calls:
                 self.residual(point)  # other tangents lie in the buffers
-            return self._derivatives(point, by_frequency)
+            return self._slope(point, by_frequency)
 
-        return residual, Linearisation(made, self._terms.unknowns, point.size)
+        def made() -> tuple[Array, Array]:
+            by_last = slope()
+            return self._jacobian(frequency), by_last
 
-    def _derivatives(self, point: Array, by_frequency: Array) -> tuple[Array, Array]:
-        """Return ∂R/∂y and ∂R/∂ω of the unknowns where the contacts were called."""
-        coefficients, frequency = self.split(point)
-        stiffness, _, load_change = self._linear(frequency)
-        variable, amplitudes = self._orders * frequency, to_complex(coefficients)
-        turned = self.problem.condensed.slope(variable, amplitudes) - load_change
-        change = self._orders[:, None] * turned
-        elastic, viscous = stiffness.real.copy(), stiffness.imag.copy()
-        elastic[0] += self.problem.gauge
+        def divided(low: LowOrders) -> Parts:
+            by_last, held = slope(), self._held(frequency)
+            return low.parts(self.contact, held, frequency, by_last)
+
+        parts = None if low is None else partial(divided, low)
+        return residual, Linearisation(made, self._terms.unknowns, point.size, parts)
+
+    def _jacobian(self, frequency: float) -> Array:
+        """Return ∂R/∂y of the unknowns where the contacts were called."""
+        stiffness = self._held(frequency)
         jacobian = assemble(
             *self.contact.spectra(2 * self.fourier.harmonics),
-            elastic,
-            viscous,
+            np.ascontiguousarray(stiffness.real),
+            np.ascontiguousarray(stiffness.imag),
             frequency,
             self._terms,
         )
         self.contact.add_remembered(frequency, self._places, jacobian)
-        slope = (to_real(change) + by_frequency).ravel()[self._terms.unknowns]
-        return jacobian, slope
+        return jacobian
+
+    def _slope(self, point: Array, by_frequency: Array) -> Array:
+        """Return ∂R/∂ω of the unknowns where the contacts were called."""
+        coefficients, frequency = self.split(point)
+        _, _, load_change = self._linear(frequency)
+        variable, amplitudes = self._orders * frequency, to_complex(coefficients)
+        turned = self.problem.condensed.slope(variable, amplitudes) - load_change
+        change = to_real(self._orders[:, None] * turned)
+        slope: Array = (change + by_frequency).ravel()[self._terms.unknowns]
+        return slope
+
+    def _held(self, frequency: float) -> ComplexArray:
+        """Return the dynamic stiffness with what holds free bodies."""
+        stiffness = self._linear(frequency)[0].copy()
+        stiffness[0] += self.problem.gauge
+        return stiffness
 
     def residual(self, point: Array) -> tuple[Array, Array]:
         """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""

@@ -1,0 +1,100 @@
+"""Solutions of a large bordered Jacobian by GMRES, its low orders factored (theory §6).
+
+Factors of all orders cost the cube of their number. In the high orders inertia
+outweighs what contacts couple: there each order alone is nearly the inverse.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse.linalg import LinearOperator, gmres
+
+from hbm.bordered import Bordered
+from microslip_mechanics.arrays import Array
+
+PRECISE = 1e-8
+"""what is left of a solution's residual, measured as motion"""
+SHARE = 15
+"""unknowns for each product that a solution may take: more cost as much as factors"""
+
+
+class UnreachedError(ArithmeticError):
+    """GMRES took too many products."""
+
+
+class Parts(NamedTuple):
+    """A Jacobian by unknowns, the low orders first, as far as it is made."""
+
+    product: Callable[[Array], Array]
+    """it times a vector of shape (unknowns,)"""
+    corner: Array
+    """its low orders, shape (low, low)"""
+    apart: Callable[[Array], Array]
+    """nearly its inverse in the high orders, each alone; (unknowns − low,)"""
+    slope: Array
+    """derivative by the last component of a point, shape (unknowns,)"""
+
+
+class Iterated:
+    """What solves [Jacobian slope; border] d = right from the parts of a Jacobian."""
+
+    def __init__(self, parts: Parts, border: Array) -> None:
+        """Factor the low orders, bordered by what ``border``, (unknowns + 1,), has."""
+        self._parts, self._border = parts, border
+        self._low = low = len(parts.corner)
+        ends = np.append(border[:low], border[-1])
+        self._corner = Bordered(parts.corner, parts.slope[:low], ends)
+
+    def solve(self, right: Array) -> Array:
+        """Return the solution, of shape ``(unknowns + 1,)`` or with several columns.
+
+        Raises
+        ------
+        SingularError
+            If the low orders have none.
+        UnreachedError
+            If it takes more than one product for :data:`SHARE` unknowns.
+        """
+        if right.ndim == 1:
+            return self._solution(right)
+        return np.column_stack([self._solution(each) for each in right.T])
+
+    def _solution(self, right: Array) -> Array:
+        """Return the solution of one right side.
+
+        It is sought in the units of what the parts make of it, so that the last
+        component counts as much as all of the motion.
+        """
+        nearly = self._nearly(right)
+        units = np.ones_like(nearly)
+        moved, last = float(np.linalg.norm(nearly[:-1])), abs(float(nearly[-1]))
+        if moved > 0.0 and last > 0.0:
+            units[-1] = last / moved
+        made = LinearOperator(
+            (right.size, right.size),
+            matvec=lambda tried: self._nearly(self._product(units * tried)) / units,
+            dtype=float,
+        )
+        found, failed = gmres(
+            made, nearly / units, rtol=PRECISE, restart=right.size // SHARE, maxiter=1
+        )
+        if failed:
+            raise UnreachedError
+        solution: Array = units * found
+        return solution
+
+    def _product(self, step: Array) -> Array:
+        """Return the bordered Jacobian times a step."""
+        parts = self._parts
+        changed = parts.product(step[:-1]) + step[-1] * parts.slope
+        return np.append(changed, self._border @ step)
+
+    def _nearly(self, right: Array) -> Array:
+        """Return about the solution: low orders together, high ones each alone."""
+        low, parts = self._low, self._parts
+        inner = self._corner.solve(np.append(right[:low], right[-1]))
+        outer = parts.apart(right[low:-1] - inner[-1] * parts.slope[low:])
+        return np.concatenate([inner[:-1], outer, inner[-1:]])

@@ -1,0 +1,99 @@
+"""Which orders of a large balance are factored, others being iterated (theory §6)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.aft import AlternatingFrequencyTime
+from hbm.fourier import to_complex, to_real
+from hbm.iterated import Parts
+from hbm.jacobian import assemble, terms
+from microslip_mechanics.arrays import Array, ComplexArray
+
+LARGE = 1200
+"""unknowns from which on iterations cost less than factors of all orders"""
+MANY, LEAST = 800, 31
+"""unknowns whose factors cost as much as their iterations, and harmonics that are
+factored however many unknowns they have"""
+WIDE = 2**24
+"""most tangents at samples that are held, which is 128 MB"""
+
+
+class LowOrders:
+    """Takes a Jacobian apart into low orders and the others."""
+
+    def __init__(self, active: NDArray[np.bool_]) -> None:
+        """Plan for ``active`` coefficients, shape (2H + 1, rank)."""
+        self._active, harmonics = active, len(active) // 2
+        low = max((harmonics - 1) // 2, 1)
+        while low > LEAST and _count(active, low) > MANY:
+            low = (low - 1) // 2
+        self._harmonics = low
+        self._terms = terms(active[: 2 * low + 1])
+        self._unknowns = np.flatnonzero(active)
+        self._wanted = active[2 * low + 1 :: 2]
+        self._outer = np.flatnonzero(active[2 * low + 1 :])
+
+    @staticmethod
+    def serve(active: NDArray[np.bool_], samples: int) -> bool:
+        """Return whether taking it apart is likely to cost less than all factors."""
+        harmonics, rank = len(active) // 2, active.shape[1]
+        large = np.count_nonzero(active) > LARGE and harmonics > 2 * LEAST
+        return bool(large and 2 * rank**2 * samples <= WIDE)
+
+    def parts(
+        self,
+        contact: AlternatingFrequencyTime,
+        stiffness: ComplexArray,
+        frequency: float,
+        slope: Array,
+    ) -> Parts:
+        """Return the parts where the contacts were called last.
+
+        Parameters
+        ----------
+        contact
+            Without memory.
+        stiffness
+            Of the structure in each order, shape ``(H + 1, rank, rank)``.
+        frequency
+            Of the excitation [rad/s].
+        slope
+            Derivative of the residual by the last component, shape ``(unknowns,)``.
+        """
+        product, low = contact.product(), self._harmonics
+        corner = assemble(
+            *contact.spectra(2 * low),
+            np.ascontiguousarray(stiffness[: low + 1].real),
+            np.ascontiguousarray(stiffness[: low + 1].imag),
+            frequency,
+            self._terms,
+        )
+        elastic, viscous = product.mean
+        orders = np.arange(low + 1, len(stiffness))[:, None, None]
+        high = stiffness[low + 1 :] + elastic + 1j * frequency * orders * viscous
+        both = self._wanted[:, :, None] & self._wanted[:, None, :]
+        inverse = np.linalg.inv(np.where(both, high, np.eye(high.shape[1])))
+
+        def times(step: Array) -> Array:
+            moved = np.zeros(self._active.shape)
+            moved.ravel()[self._unknowns] = step
+            felt = (stiffness @ to_complex(moved)[..., None])[..., 0]
+            changed = to_real(felt) + product(moved, frequency)
+            return changed.ravel()[self._unknowns]
+
+        def apart(right: Array) -> Array:
+            forces = np.zeros((2 * len(inverse), inverse.shape[1]))
+            forces.ravel()[self._outer] = right
+            found = (inverse @ (forces[::2] - 1j * forces[1::2])[..., None])[..., 0]
+            moved = np.empty_like(forces)
+            moved[::2], moved[1::2] = found.real, -found.imag
+            return moved.ravel()[self._outer]
+
+        return Parts(times, corner, apart, slope)
+
+
+def _count(active: NDArray[np.bool_], harmonics: int) -> int:
+    """Return the number of unknowns up to an order."""
+    return int(np.count_nonzero(active[: 2 * harmonics + 1]))

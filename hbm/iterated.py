@@ -78,8 +78,21 @@ class Iterated:
             matvec=lambda tried: self._nearly(self._product(units * tried)) / units,
             dtype=float,
         )
+        products = 0
+
+        def counted(_: float) -> None:
+            nonlocal products
+            products += 1
+            if products > right.size // SHARE:
+                raise UnreachedError
+
         found, failed = gmres(
-            made, nearly / units, rtol=PRECISE, restart=right.size // SHARE, maxiter=1
+            made,
+            nearly / units,
+            rtol=PRECISE,
+            restart=right.size // SHARE + 1,
+            callback=counted,
+            callback_type="pr_norm",
         )
         if failed:
             raise UnreachedError

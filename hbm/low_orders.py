@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
+from hbm.banded_orders import BandedOrders
 from hbm.fourier import to_complex, to_real
 from hbm.iterated import Parts
 from hbm.jacobian import assemble, terms
@@ -32,7 +33,7 @@ class LowOrders:
         self._harmonics = low
         self._terms = terms(active[: 2 * low + 1])
         self._unknowns = np.flatnonzero(active)
-        self._wanted = active[2 * low + 1 :: 2]
+        self._high = BandedOrders(active[2 * low + 1 :: 2], low + 1)
         self._outer = np.flatnonzero(active[2 * low + 1 :])
 
     @staticmethod
@@ -63,18 +64,15 @@ class LowOrders:
             Derivative of the residual by the last component, shape ``(unknowns,)``.
         """
         product, low = contact.product(), self._harmonics
+        tangents = contact.spectra(2 * low)
         corner = assemble(
-            *contact.spectra(2 * low),
+            *tangents,
             np.ascontiguousarray(stiffness[: low + 1].real),
             np.ascontiguousarray(stiffness[: low + 1].imag),
             frequency,
             self._terms,
         )
-        elastic, viscous = product.mean
-        orders = np.arange(low + 1, len(stiffness))[:, None, None]
-        high = stiffness[low + 1 :] + elastic + 1j * frequency * orders * viscous
-        both = self._wanted[:, :, None] & self._wanted[:, None, :]
-        inverse = np.linalg.inv(np.where(both, high, np.eye(high.shape[1])))
+        high = self._high.factored(stiffness[low + 1 :], *tangents, frequency)
 
         def times(step: Array) -> Array:
             moved = np.zeros(self._active.shape)
@@ -84,9 +82,9 @@ class LowOrders:
             return changed.ravel()[self._unknowns]
 
         def apart(right: Array) -> Array:
-            forces = np.zeros((2 * len(inverse), inverse.shape[1]))
+            forces = np.zeros((2 * (len(stiffness) - low - 1), stiffness.shape[1]))
             forces.ravel()[self._outer] = right
-            found = (inverse @ (forces[::2] - 1j * forces[1::2])[..., None])[..., 0]
+            found = high.solve(forces[::2] - 1j * forces[1::2])
             moved = np.empty_like(forces)
             moved[::2], moved[1::2] = found.real, -found.imag
             return moved.ravel()[self._outer]

@@ -34,13 +34,6 @@ class TangentProduct:
         """
         self._tangents, self._samples, self._signs = tangents, samples, signs
 
-    @property
-    def mean(self) -> Array:
-        """The tangents' means over the period, shape (2, rank, rank)."""
-        alike = np.multiply.outer(self._signs, self._signs) > 0.0
-        means: Array = self._tangents.mean(axis=3) * alike
-        return means
-
     def __call__(self, coefficients: Array, frequency: float) -> Array:
         """Return the change of the force [N] with that of the motion [m].
 

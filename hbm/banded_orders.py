@@ -62,7 +62,11 @@ class BandedOrders:
         ]
 
     def factored(
-        self, structure: ComplexArray, stiffness: Array, damping: Array, frequency: float
+        self,
+        structure: ComplexArray,
+        stiffness: Array,
+        damping: Array,
+        frequency: float,
     ) -> FactoredOrders:
         """Return what solves with them.
 

@@ -41,7 +41,7 @@ class Linearisation:
             Returns as much of them as it takes to solve by iteration, if that is likely
             to cost less.
         """
-        self._make, self._parts = make, parts
+        self._make, self.parts = make, parts
         self._made: tuple[Array, Array] | None = None
         self._places = np.append(places, size - 1)
         self._factors: tuple[Array, Bordered | Iterated] | None = None
@@ -64,7 +64,7 @@ class Linearisation:
 
     def along(self, slope: Array) -> Linearisation:
         """Return the same, ``slope`` being the derivative by the last component."""
-        places, last, parts = self._places[:-1], int(self._places[-1]), self._parts
+        places, last, parts = self._places[:-1], int(self._places[-1]), self.parts
         inner = slope[places]
         return Linearisation(
             lambda: (self.jacobian, inner),
@@ -115,7 +115,7 @@ class Linearisation:
                 else _turned(factors, border, wanted)
             )
         except UnreachedError:
-            self._parts, self._factors = None, None
+            self.parts, self._factors = None, None
             return self.solve(normal, right)
         if not np.all(np.isfinite(found)):
             raise SingularError
@@ -129,8 +129,8 @@ class Linearisation:
 
     def _factored(self, border: Array) -> Bordered | Iterated:
         """Return what solves with the bordered matrix."""
-        if self._parts is not None:
-            return Iterated(self._parts(), border)
+        if self.parts is not None:
+            return Iterated(self.parts(), border)
         factors = Bordered(self.jacobian, self.slope, border)
         self._made = None  # as large as the factors, and hardly ever asked again
         return factors

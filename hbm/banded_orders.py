@@ -47,7 +47,7 @@ class BandedOrders:
         self._count, self._orders = int(wanted.sum()), first + np.arange(len(wanted))
         most = min(WIDTH, len(wanted) - 1)
         pairs = [_pairs(wanted, places, each) for each in range(-most, most + 1)]
-        self._reach = max(int(np.abs(row - column).max()) for *_, row, column in pairs)
+        self._reach = max(int(np.abs(pair[4] - pair[5]).max()) for pair in pairs)
         height = 3 * self._reach + 1
         self._shape = (height, self._count)
         self._bands = [
@@ -122,7 +122,14 @@ class FactoredOrders(NamedTuple):
 
 def _pairs(
     wanted: NDArray[np.bool_], places: NDArray[np.int64], difference: int
-) -> tuple[int, *tuple[NDArray[np.int64], ...]]:
+) -> tuple[
+    int,
+    NDArray[np.int64],
+    NDArray[np.int64],
+    NDArray[np.int64],
+    NDArray[np.int64],
+    NDArray[np.int64],
+]:
     """Return difference, order of the column, coordinates and places of all couplings.
 
     Orders count from the first one.
@@ -145,8 +152,9 @@ def _pairs(
 def _order(series: Array, order: int) -> ComplexArray:
     """Return a complex order of tangents, shape (rank, rank)."""
     if order == 0:
-        return series[:, :, 0].astype(complex)
-    size = abs(order)
-    half = 0.5 * (series[:, :, 2 * size - 1] - 1j * series[:, :, 2 * size])
-    value: ComplexArray = half if order > 0 else half.conj()
+        return series[:, :, 0] + 0j
+    size, sign = abs(order), np.sign(order)
+    value: ComplexArray = 0.5 * (
+        series[:, :, 2 * size - 1] - sign * 1j * series[:, :, 2 * size]
+    )
     return value

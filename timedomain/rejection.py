@@ -54,7 +54,7 @@ def tried_enough(control: Control, motion: Motion, level: int, error: float) -> 
 @bare_kernel
 def _in_vain(motion: Motion, level: int) -> bool:
     """Return whether halving a step has not helped at this place."""
-    return motion.numbers[WORST] > 0.0 and level >= motion.counts[FIRST] + IN_VAIN
+    return bool(motion.numbers[WORST] > 0.0 and level >= motion.counts[FIRST] + IN_VAIN)
 
 
 @bare_kernel

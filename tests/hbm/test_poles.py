@@ -7,7 +7,7 @@ import microslip
 from hbm.linear_modes import linear_modes
 from hbm.poles import damping_ratios, followed, frequencies, poles
 from hbm.relative import relative_problem
-from microslip_mechanics.static import StaticState, static_equilibrium
+from microslip_mechanics.static import StaticState
 from microslip_mechanics.structure import Structure
 from rigs import rig_problem
 from small_problems import cantilever, oscillator

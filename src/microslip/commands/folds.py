@@ -31,7 +31,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Trace the curve of a scene at the first value of one of its "
         "numbers, such as drive, preload or friction coefficient; follow each of its "
         "folds, between which the response jumps, while that number changes, through "
-        "the cusps at which two folds meet; write SCENE-folds.csv and SCENE-folds.png.",
+        "the cusps at which two folds meet; write SCENE-folds.csv and SCENE-folds.png. "
+        "A curve without folds is told, writes nothing, and is exit status 0.",
         epilog="example: microslip folds two-blades excitation.force 1.8 1 "
         "--set model=A --set friction.law=gkf",
     )
@@ -43,7 +44,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import shown
-    from microslip.studies.folds import FoldError, followed_folds
+    from microslip.studies.folds import FoldError, NoFoldsError, followed_folds
     from microslip.studies.parameter import parameter
 
     data, picture = arguments.outputs(options, "folds")
@@ -67,6 +68,9 @@ def _run(options: argparse.Namespace) -> int:
             folds.append(fold)
             ending = fold.curve.ending if ending == "complete" else ending
             print("\n".join(_lines(fold, len(folds))), flush=True)
+    except NoFoldsError as none:
+        print(none)
+        return 0
     except KeyboardInterrupt:
         ending = "interrupted"
         if not folds:

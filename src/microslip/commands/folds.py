@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import decimal
+from microslip.commands.columns import KEY, decimal, keyed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from microslip.studies.folds import FollowedFold
     from microslip.studies.parameter import Parameter
 
+COLUMNS = (
+    *("fold", KEY, "event", "frequency_hz", "amplitude_m", "other_unstable"),
+    *("frequency_error", "parameter_error"),
+)
 HEADER = """\
      parameter       fold  amplitude    other unstable    estimated error of
           [SI]       [Hz]       [mm]       multipliers  frequency  parameter"""
@@ -119,16 +123,6 @@ def _keep(
     from microslip.figures.folds import FoldLine, folds_figure
     from microslip.store import save_figure, save_table
 
-    names = (
-        "fold",
-        options.key,
-        "event",
-        "frequency_hz",
-        "amplitude_m",
-        "other_unstable",
-        "frequency_error",
-        "parameter_error",
-    )
     rows, lines = [], []
     for number, fold in enumerate(folds, start=1):
         values = fold.curve.parameter.tolist()
@@ -155,6 +149,6 @@ def _keep(
             for place, point in enumerate(fold.points)
         ]
     table, picture = paths
-    save_table(table, names, rows)
+    save_table(table, keyed(COLUMNS, options.key), rows)
     save_figure(picture, folds_figure(lines, along.label, arguments.title(options)))
     print(f"table in {table}, picture in {picture}")

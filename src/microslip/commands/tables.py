@@ -13,6 +13,10 @@ if TYPE_CHECKING:
 
     from microslip.studies.tables import Row
 
+COLUMNS = (
+    *("variant", "paper [J]", "microslip [J]", "ratio", "half-step change"),
+    *("closing error", "march [s]"),
+)
 HEADER = """\
 Energy dissipated by friction over the sweep [J]: the paper's Tables 4 and 5
                                       paper  microslip   ratio half step  closing  time
@@ -114,16 +118,7 @@ def _jamming(row: Row) -> str:
 def _write(path: Path, found: list[Row]) -> None:
     from microslip.store import save_table
 
-    names = (
-        "variant",
-        "paper [J]",
-        "microslip [J]",
-        "ratio",
-        "half-step change",
-        "closing error",
-        "march [s]",
-    )
-    save_table(path, names, [_cells(row) for row in found])
+    save_table(path, COLUMNS, [_cells(row) for row in found])
 
 
 def _cells(row: Row) -> tuple[object, ...]:

@@ -55,6 +55,8 @@ HOLD = 0.5
 """cycles of the load without a rough step before steps grow"""
 ROUNDING = 1e-9
 """of a number of steps, relative"""
+CANCELLED = 4.0
+"""by which errors exceed their sum, whose signs cancel: at most that on eight rigs"""
 SAFETY = 0.05
 """error of one step over the tolerance of the whole march"""
 
@@ -225,7 +227,7 @@ class FastMarch:
         friction, least = energy[:, FLOWS.index("friction")], self._tolerance()
         difference = friction - more[:, OTHER_WORK]
         unkept = more[:, UNKEPT]
-        drift = np.abs(more[:, DRIFT]) + np.abs(difference) + unkept
+        drift = CANCELLED * (np.abs(more[:, DRIFT]) + np.abs(difference)) + unkept
         lost = (more[:, LARGEST_DRIFT] + unkept) / more[:, REFERENCE]
         return TimeHistory(
             times,

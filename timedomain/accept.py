@@ -11,6 +11,10 @@ from timedomain.motion import (
     LARGEST_DRIFT,
     LENGTH,
     OTHER_WORK,
+    REFERENCE,
+    SETTLED_DRIFT,
+    UNKEPT,
+    Control,
     Motion,
     Trial,
 )
@@ -36,9 +40,23 @@ def accept(
     copy(trial.velocity, motion.velocity)
     motion.numbers[LENGTH] = length
     motion.numbers[DRIFT] += trial.numbers[1]
-    drift = abs(motion.numbers[DRIFT])
+    drift = abs(motion.numbers[DRIFT] - motion.numbers[SETTLED_DRIFT])
     motion.numbers[LARGEST_DRIFT] = max(motion.numbers[LARGEST_DRIFT], drift)
     accept_coupling(motion, trial, length)
+
+
+@bare_kernel
+def tell_error(motion: Motion, trial: Trial) -> None:
+    """Count the error of a step that cannot keep the tolerance, whatever its sign."""
+    motion.numbers[UNKEPT] += abs(trial.numbers[1]) + 0.5 * trial.numbers[3]
+
+
+@bare_kernel
+def settle(control: Control, motion: Motion) -> None:
+    """Forget how fast the preload grew: what it moved says nothing of later motion."""
+    motion.numbers[REFERENCE] = control.least
+    motion.numbers[SETTLED_DRIFT] = motion.numbers[DRIFT]
+    motion.numbers[LARGEST_DRIFT] = 0.0
 
 
 @bare_kernel

@@ -14,6 +14,7 @@ from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.contact_newton import empty_local
 from timedomain.coordinates import Contacts, Coordinates, Modes, modal_coordinates
+from timedomain.energy_scale import least_energy, settled
 from timedomain.ladder import DONE, FAILED, TICKS, climb
 from timedomain.motion import (
     DRIFT,
@@ -24,6 +25,7 @@ from timedomain.motion import (
     REFERENCE,
     REJECTED,
     TICK,
+    UNKEPT,
     Control,
     Motion,
     Trial,
@@ -42,7 +44,7 @@ from timedomain.start import (
 )
 from timedomain.tables import LEVELS, empty_tables, fill
 
-NUMBERS = 4
+NUMBERS = 5
 """that a row holds behind the energies"""
 PER_CYCLE, CYCLED = 12, 3e-4
 """least number of steps in a cycle of the load, and the error that they make; it falls
@@ -51,6 +53,10 @@ RESIDUAL = 1e-2
 """of contact forces, over the tolerance of one step"""
 HOLD = 0.5
 """cycles of the load without a rough step before steps grow"""
+ROUNDING = 1e-9
+"""of a number of steps, relative"""
+CANCELLED = 4.0
+"""by which errors exceed their sum, whose signs cancel: at most that on eight rigs"""
 SAFETY = 0.05
 """error of one step over the tolerance of the whole march"""
 
@@ -74,8 +80,8 @@ class FastMarch:
         self._coordinates = modal_coordinates(problem)
         self._segments = history.segments()
         self._force_scale = force_scale(problem, start)
-        self._control = self._controlled()
         state = first_state(problem, history, start)
+        self._control = self._controlled(state)
         self._stored_at_start = stored_energy(problem, state)
         modes, contacts = self._coordinates.modes, self._coordinates.contacts
         first, second = (empty_tables(each, modes, contacts) for each in schemes)
@@ -95,11 +101,11 @@ class FastMarch:
             _relative(modes, inverse, state),
             powers(problem, history, state),
             np.zeros(len(FLOWS)),
-            np.zeros(5),
-            np.zeros(9, dtype=np.int64),
+            np.zeros(8),
+            np.zeros(11, dtype=np.int64),
         )
         self._motion.numbers[LENGTH] = self._control.longest
-        self._motion.numbers[REFERENCE] = self._reference()
+        self._motion.numbers[REFERENCE] = self._control.least
 
     def resume(self, end: Checkpoint) -> int:
         """Go back to the end of a block; return the steps until there.
@@ -168,7 +174,7 @@ class FastMarch:
             step=self._control.longest / 2.0**level,
         )
 
-    def _controlled(self) -> Control:
+    def _controlled(self, state: State) -> Control:
         """Return step, ladder and tolerances."""
         options = self._options
         stride, longest, tolerance = options.store_every, self._step, 0.0
@@ -185,7 +191,13 @@ class FastMarch:
         if tolerance > 0.0:
             residual = max(residual, RESIDUAL * tolerance)
         hold = int(TICKS * HOLD * self._cycle() / longest) if tolerance > 0.0 else 0
-        return Control(longest, stride, tolerance, residual, floor, lowest, hold)
+        modes, inverse = self._coordinates.modes, self._coordinates.inverse
+        least = least_energy(modes, inverse, state, self._segments, longest)
+        still = min(settled(self._segments), self._duration)
+        tick = math.ceil(TICKS * (still / longest) * (1.0 - ROUNDING))
+        return Control(
+            longest, stride, tolerance, residual, floor, lowest, hold, least, tick
+        )
 
     def _cycle(self) -> float:
         """Return the shortest cycle of the load [s], or the whole march."""
@@ -194,13 +206,6 @@ class FastMarch:
         times = np.concatenate([edges, begin + 1e-9 * np.diff(edges)])
         fastest = float(np.abs(clock(self._segments, times)[:, 0]).max())
         return min(2.0 * np.pi / fastest, self._duration) if fastest else self._duration
-
-    def _reference(self) -> float:
-        """Return twice the least energy [J] that errors are compared with."""
-        modes, step = self._coordinates.modes, self._control.longest
-        flexibility = 1.0 / np.maximum(modes.stiffness, 1.0 / step**2)
-        static = float((modes.loads**2 * flexibility).sum(axis=1).max())
-        return max(static, 2.0 * self._stored_at_start, 1e-300)
 
     def _failure(self) -> IntegrationError:
         tick = self._motion.counts[TICK]
@@ -221,7 +226,9 @@ class FastMarch:
         )
         friction, least = energy[:, FLOWS.index("friction")], self._tolerance()
         difference = friction - more[:, OTHER_WORK]
-        drift = np.abs(more[:, DRIFT]) + np.abs(difference)
+        unkept = more[:, UNKEPT]
+        drift = CANCELLED * (np.abs(more[:, DRIFT]) + np.abs(difference)) + unkept
+        lost = (more[:, LARGEST_DRIFT] + unkept) / more[:, REFERENCE]
         return TimeHistory(
             times,
             probes,
@@ -238,7 +245,7 @@ class FastMarch:
             0 if self._options.tolerance else int(counts[REJECTED]),
             checkpoint=self._checkpoint(),
             energy_error=np.maximum(drift, least * np.abs(friction)),
-            peak_error=np.maximum(more[:, LARGEST_DRIFT] / more[:, REFERENCE], least),
+            peak_error=np.maximum(lost, least),
             work_difference=difference,
         )
 
@@ -304,7 +311,7 @@ def _trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
         np.zeros(len(modes.loads)),
         np.zeros((points, 3)),
         np.zeros(rank),
-        np.zeros(3),
+        np.zeros(4),
         np.zeros(count),
         np.zeros(count),
         np.zeros(points),

@@ -21,6 +21,10 @@ SOONEST = 1e-8
 """of a step: how far behind a kink it begins"""
 COUPLINGS = 12
 """tries of a step until the coupling forces at its end are those of its motion"""
+DEEP = 12
+"""level from which on steps are so short that rounding shows"""
+DIGITS = 4e-15
+"""relative error of displacements by rounding"""
 EARLIER = 1.0 - SOONEST
 """loads at the end of a step are those before a jump at that time"""
 
@@ -96,7 +100,7 @@ def _stages(
             trial.relative[1],
             trial.local,
             control.newton,
-            control.floor,
+            control.floor if level < DEEP else _floor(control, modes, answer, motion),
         )
         if taken < 0:
             return -1
@@ -150,6 +154,24 @@ def _answer(tables: Tables, trial: Trial, level: int, stage: int) -> Answer:
         tables.weight[level, stage],
         trial.begins if tables.mean > 0.0 else trial.begins[:0],
     )
+
+
+@bare_kernel
+def _floor(control: Control, modes: Modes, answer: Answer, motion: Motion) -> float:
+    """Return the unbalanced force [N] that rounding leaves in a short step.
+
+    It changes displacements, whose difference over the step is a velocity, by which
+    friction that sticks changes as the compliance tells.
+    """
+    floor = control.floor
+    for i in range(modes.selection.shape[0]):
+        size = 0.0
+        for j in range(motion.displacement.size):
+            size += abs(modes.selection[i, j] * motion.displacement[j])
+        # compliance is that of the mean velocity: half the step makes displacements
+        force = DIGITS * size / max(answer.scalar, 1e-300) * answer.stiffness[i, i]
+        floor = max(floor, force)
+    return floor
 
 
 @bare_kernel

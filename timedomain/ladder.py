@@ -8,22 +8,24 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_energy, normal_response
 from microslip_mechanics.jit import bare_kernel
 from microslip_mechanics.segments import Segments, segment_of
-from timedomain.accept import accept
+from timedomain.accept import accept, settle, tell_error
 from timedomain.coordinates import Contacts, Modes
 from timedomain.fast_step import SOONEST, attempt
 from timedomain.motion import (
     HINT,
+    HOPELESS,
     LEVEL,
-    REJECTED,
     ROUGH,
     SAFE,
     SAFE_STEPS,
     STEPS,
     TICK,
+    WORST,
     Control,
     Motion,
     Trial,
 )
+from timedomain.rejection import SHARE, WELL, reject, tried_enough
 from timedomain.step_error import step_error
 from timedomain.tables import LEVELS, Tables
 
@@ -32,15 +34,13 @@ TICKS = 2 ** (LEVELS - 1)
 KINK = 12
 """level of the steps that may cross a kink of the load"""
 DONE, FAILED = -1, -2
-SAFE_RUN = 32
-"""dissipative steps before another of the first kind is tried"""
 STIFF = 4.0
 """largest contact stiffness times compliance of a step with linear force; alone, a
 contact coordinate is stable up to 2, and this is a sum over the points"""
 GROWTH = 0.08
 """error over tolerance below which the next step is twice as long"""
-SHARE = 16.0
-"""error over tolerance above which half a step would not do"""
+MOST = 4096
+"""steps without a rough one after which the next is longer, if that comes sooner"""
 
 
 @bare_kernel
@@ -100,31 +100,25 @@ def _step(
     length, error = control.longest / 2.0**level, np.inf
     if taken > 0 and (control.tolerance > 0.0 or not stiff):
         error = step_error(control, modes, table, motion, trial, level, safe)
-    if not error <= 1.0:  # nor where it is not a number
+    kept = error <= 1.0
+    if not kept and not tried_enough(control, motion, level, error):
         nearly = taken == 0 or (error <= SHARE and not stiff)
-        return _reject(control, motion, level, nearly)
+        return DONE if reject(control, motion, level, nearly) else FAILED
     accept(contacts, table, motion, trial, level, length)
+    if not kept:
+        tell_error(motion, trial)
+    elif level <= WELL:
+        counts[HOPELESS] = 0
+    if counts[TICK] < control.settled <= counts[TICK] + (TICKS >> level):
+        settle(control, motion)
     counts[TICK] += TICKS >> level
     counts[STEPS] += 1
     if safe:
         counts[SAFE] -= 1
         counts[SAFE_STEPS] += 1
+    motion.numbers[WORST] = 0.0
     _grow(control, motion, level, error)
     return DONE
-
-
-@bare_kernel
-def _reject(control: Control, motion: Motion, level: int, nearly: bool) -> int:
-    """Choose the next attempt: half the step, or a dissipative one."""
-    counts = motion.counts
-    counts[REJECTED] += 1
-    counts[ROUGH] = counts[TICK]
-    counts[LEVEL] = level
-    if counts[SAFE] > 0 or nearly:
-        counts[LEVEL] = level + 1
-    else:
-        counts[SAFE] = SAFE_RUN
-    return FAILED if counts[LEVEL] > control.lowest else DONE
 
 
 @bare_kernel
@@ -137,7 +131,7 @@ def _grow(control: Control, motion: Motion, level: int, error: float) -> None:
         counts[ROUGH] = counts[TICK]
     elif (
         level > 0
-        and counts[TICK] - counts[ROUGH] > control.hold
+        and counts[TICK] - counts[ROUGH] > min(control.hold, MOST * (TICKS >> level))
         and counts[TICK] % (TICKS >> (level - 1)) == 0  # where a longer one may begin
     ):
         counts[LEVEL] = level - 1
@@ -194,5 +188,5 @@ def _store(modes: Modes, contacts: Contacts, motion: Motion, row: Array) -> None
     for flow in range(motion.energies.size):
         row[place + 1 + flow] = motion.energies[flow]
     row[place + 5], row[place + 6], row[place + 7] = kinetic, elastic, stored
-    for number in range(4):
+    for number in range(5):
         row[place + 8 + number] = motion.numbers[number]

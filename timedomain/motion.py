@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array
 from timedomain.contact_newton import Local
 
-TICK, LEVEL, HINT, STEPS, REJECTED, ITERATIONS, SAFE, SAFE_STEPS, ROUGH = range(9)
-REFERENCE, DRIFT, LARGEST_DRIFT, OTHER_WORK, LENGTH = range(5)
+TICK, LEVEL, HINT, STEPS, REJECTED = range(5)
+ITERATIONS, SAFE, SAFE_STEPS, ROUGH, FIRST, HOPELESS = range(5, 11)
+REFERENCE, DRIFT, LARGEST_DRIFT, OTHER_WORK, UNKEPT = range(5)
+SETTLED_DRIFT, LENGTH, WORST = range(5, 8)
 
 
 class Control(NamedTuple):
@@ -31,6 +33,10 @@ class Control(NamedTuple):
     """level of the shortest steps"""
     hold: int
     """ticks without a rough step before steps grow"""
+    least: float
+    """twice the least energy [J] that errors are compared with"""
+    settled: int
+    """tick until which a growing preload alone moves the structure"""
 
 
 class Motion(NamedTuple):
@@ -60,11 +66,14 @@ class Motion(NamedTuple):
     energies: Array
     """of FLOWS so far [J], shape (4,)"""
     numbers: Array
-    """reference energy, drift of energy by the errors of steps, its largest size,
-    friction's discrete work [J]; length of the last step [s]"""
+    """reference energy, drift of energy by the errors of steps, its largest size since
+    more moves than a growing preload, friction's discrete work, errors of steps that
+    could not keep the tolerance, drift until that time [J]; length of the last step
+    [s]; error of the step from which on halving does not help, or 0"""
     counts: NDArray[np.int64]
     """tick, level, segment, steps, rejected steps, iterations, dissipative steps to go
-    and so far, tick of the last step too rough for a longer one"""
+    and so far, tick of the last step too rough for a longer one, level of the
+    step from which on halving does not help, shortest steps that were too rough"""
 
 
 class Trial(NamedTuple):
@@ -89,7 +98,7 @@ class Trial(NamedTuple):
     """second derivative of φ, shape (rank,)"""
     numbers: Array
     """contact stiffness times compliance, drift of energy, structural power at the end
-    of a step with mean force; shape (3,)"""
+    of a step with mean force, twice the energy of its error; shape (4,)"""
     load: Array
     """modal forces of the loads at the begin, shape (modes,)"""
     bulge: Array

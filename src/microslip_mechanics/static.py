@@ -19,6 +19,12 @@ from microslip_mechanics.reduction import reduced
 
 FAR = 1.0
 """displacement [m or rad] from which a body that only contact holds is driven away"""
+NEAR, ENDLESS = 1e-12, 1e12
+"""displacements [m or rad] between which a place lower than rest is sought"""
+NEGATIVE = 1e-10
+"""curvature over stiffness from which on it is more than rounding makes"""
+HILLTOPS = 32
+"""unstable places of rest, one below the other, after which no more are left"""
 HELD = 1e-12
 """smallest stiffness over the largest, from which a structure holds by itself"""
 
@@ -44,17 +50,20 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
     """Return the frictionless equilibrium under the preload.
 
     Regularised friction carries no load at rest, so the normal forces alone balance
-    the preload. The potential energy is convex; it is descended by Newton steps whose
-    matrix is M/τ² + K + contact (pseudo-transient continuation), so that a body which
-    contact alone holds, and even one which nothing holds along a load-free direction,
-    makes no singular matrix.
+    the preload. The potential energy is descended by Newton steps whose matrix is
+    M/τ² + K + contact (pseudo-transient continuation), so that a body which contact
+    alone holds, and even one which nothing holds along a load-free direction, makes no
+    singular matrix. From a hilltop or a saddle, as between two wells, it is left
+    downhill, to the side of the preload.
 
-    A sparse structure deflects in the shapes that its contacts and the preload impose.
+    A sparse structure deflects in the shapes that its contacts and the preload impose;
+    what is unstable in those alone is seen.
 
     Raises
     ------
     StaticError
-        If the preload drives a body away that only contact holds: nothing balances it.
+        If the preload drives a body away that only contact holds: nothing balances it;
+        or if rest is unstable and no spring holds what leaves it.
     ValueError
         If a sparse structure can move freely while all contacts stick.
     """
@@ -63,31 +72,111 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
         small = static_equilibrium(reduction.problem, tolerance=tolerance)
         return replace(small, displacement=reduction.shapes @ small.displacement)
     state = np.zeros(problem.structure.dofs)
-    energy, forces, gradient, hessian = _potential(problem, state)
+    _, forces, gradient, _ = _potential(problem, state)
     load = max(np.abs(problem.preload).max(initial=0.0), np.abs(gradient).max())
-    if load == 0.0:
-        return StaticState(state, forces, 0.0, 0)
-    pseudo_time, limit = 1e-5, _limit(problem)
+    found = StaticState(state, forces, 0.0, 0)
+    if load > 0.0:
+        found = _descended(problem, state, load, _limit(problem), tolerance)
+    for _ in range(HILLTOPS):
+        lower = _below(problem, found.displacement)
+        if lower is None:
+            return found
+        found = _descended(problem, lower, load, np.inf, tolerance)
+    raise StaticError("rest is unstable wherever it is sought: check the springs")
+
+
+def _descended(
+    problem: Problem, state: Array, load: float, limit: float, tolerance: float
+) -> StaticState:
+    """Return where the potential energy has no slope, from a place at least as high.
+
+    ``load`` is what forces are compared with [N], besides what springs hold there.
+    """
+    energy, forces, gradient, hessian = _potential(problem, state)
+    pseudo_time = 1e-5
     for iteration in range(1, 400):
         matrix = problem.structure.mass / pseudo_time**2 + hessian
         step = np.linalg.solve(matrix, -gradient)
         trial = _potential(problem, state + step)
         noise = _rounding(problem, state) * np.abs(state).sum()
-        if trial[0] > energy + 1e-12 * abs(energy) + noise:
+        if trial[0] > energy + 1e-12 * abs(energy) + noise or gradient @ step > 0.0:
             pseudo_time *= 0.25
             continue
         state, pseudo_time = state + step, pseudo_time * 2.0
         energy, forces, gradient, hessian = trial
-        residual = float(np.abs(gradient).max()) / load
-        if residual <= tolerance + _rounding(problem, state) / load:
+        size = load or _held(problem, state)
+        residual = float(np.abs(gradient).max()) / size
+        if residual <= tolerance + _rounding(problem, state) / size:
             return StaticState(state, forces, residual, iteration)
-        if not np.abs(state).max() <= limit:
+        if not np.abs(state).max() <= limit or not np.isfinite(energy):
             break
     raise StaticError(
         f"the static preload (largest load {load:g} N) has no equilibrium in contact "
         f"within {FAR:g} m, after {iteration} steps: check its direction and size, and "
         "the contact"
     )
+
+
+def _below(problem: Problem, state: Array) -> Array | None:
+    """Return a place below one without a slope, or None if that is a minimum.
+
+    It is the lowest along the motion that rest gives way to, which is sought where the
+    Hessian has a negative eigenvalue beyond rounding. A structure without springs has
+    no place to rest then, and keeps that one: its poles tell that it is unstable.
+
+    Raises
+    ------
+    StaticError
+        If the energy falls without end.
+    """
+    energy, _, _, hessian = _potential(problem, state)
+    size, direction = _weakest(hessian)
+    if direction is None or not problem.interface.count:
+        return None
+    if problem.preload @ direction < 0.0:
+        direction = -direction
+    noise = 1e-10 * abs(energy) + _rounding(problem, state) * np.abs(state).sum()
+    far = max(NEAR, (2.0 * noise / size) ** 0.5)
+    lowest, place = energy, state
+    while far < ENDLESS:
+        trial = _potential(problem, state + far * direction)[0]
+        if not trial < lowest:
+            return place if lowest < energy - noise else None
+        lowest, place, far = trial, state + far * direction, 2.0 * far
+    raise StaticError(
+        "rest is unstable, and no spring holds what leaves it: its stiffness is "
+        f"negative along a motion mostly of {_mostly(problem, direction)}"
+    )
+
+
+def _weakest(hessian: Array) -> tuple[float, Array | None]:
+    """Return the most negative curvature and its motion, of length 1, if there is one.
+
+    Degrees of freedom are scaled by their own stiffness, as rotations need it.
+    """
+    diagonal = np.abs(np.diag(hessian))
+    scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, diagonal.max() or 1.0))
+    scaled = scale[:, None] * hessian * scale
+    try:
+        np.linalg.cholesky(scaled + NEGATIVE * np.eye(len(scaled)))
+    except np.linalg.LinAlgError:
+        values, motions = np.linalg.eigh(scaled)
+        if values[0] < -NEGATIVE:
+            motion = scale * motions[:, 0]
+            motion /= np.linalg.norm(motion) * np.sign(motion[np.abs(motion).argmax()])
+            return float(-motion @ hessian @ motion), motion
+    return 0.0, None
+
+
+def _mostly(problem: Problem, motion: Array) -> str:
+    """Return the name of the degree of freedom that moves most."""
+    return problem.structure.names[int(np.abs(motion).argmax())]
+
+
+def _held(problem: Problem, state: Array) -> float:
+    """Return the largest force that springs hold [N]."""
+    held = np.abs(problem.structure.stiffness) @ np.abs(state)
+    return float(held.max()) or 1.0
 
 
 def _limit(problem: Problem) -> float:

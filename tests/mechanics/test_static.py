@@ -11,6 +11,7 @@ from contact_tables import contact_points
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.element import Element
 from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.static import StaticError, static_equilibrium
@@ -232,3 +233,60 @@ def test_fine_meshes_have_the_same_totals(model: str, elements: int) -> None:
 
     half = len(forces) // 2
     assert forces[half:].sum() == pytest.approx(1 / np.tan(np.radians(20)), rel=1e-6)
+
+
+def wells(preload: float) -> Problem:
+    """Return a mass between two wells at ± 10 mm, beside one that a spring holds."""
+    return system(
+        mass=[1.0, 2.0],
+        stiffness=[[-100.0, 0.0], [0.0, 1e5]],
+        names=("x", "y"),
+        elements=[Element(CubicSpring(cubic=1e6), between=("x", "ground"))],
+        preload={"x": preload, "y": 3.0},
+    )
+
+
+@pytest.mark.parametrize("preload", [0.0, 1e-3, -1e-3, 0.1, -0.1, 0.5, 5.0])
+def test_rest_between_two_wells_is_in_the_one_of_the_preload(preload: float) -> None:
+    rest = static_equilibrium(wells(preload))
+
+    roots = np.roots([1e6, 0.0, -100.0, -preload])
+    real = roots[np.abs(roots.imag) < 1e-9].real
+    lowest = real.max() if preload >= 0.0 else real.min()
+    # it was the hilltop
+    assert rest.displacement[0] == pytest.approx(lowest, rel=1e-8)
+    assert rest.displacement[1] == pytest.approx(3e-5, rel=1e-9)
+
+
+def test_rest_of_two_wells_without_any_load_is_in_one_of_them() -> None:
+    problem = replace(wells(0.0), preload=np.zeros(2))
+
+    assert abs(static_equilibrium(problem).displacement[0]) == pytest.approx(0.01)
+
+
+def test_rest_that_no_spring_holds_is_told() -> None:
+    problem = system(
+        mass=[1.0, 2.0],
+        stiffness=[[-100.0, 0.0], [0.0, 1e5]],
+        names=("x", "y"),
+        elements=[Element(CubicSpring(cubic=1e6), between=("y", "ground"))],
+        preload={"y": 3.0},
+    )
+
+    with pytest.raises(StaticError, match=r"unstable.* mostly of x"):
+        static_equilibrium(problem)
+
+
+def test_a_free_body_is_no_hilltop() -> None:
+    problem = system(
+        mass=[1.0, 2.0, 3.0],
+        stiffness=1e8 * np.array([[0.1, -0.1, 0.0], [-0.1, 0.4, -0.3], [0, -0.3, 0.3]]),
+        elements=[Element(CubicSpring(cubic=1e6), between=("x1", "x3"))],
+        preload={"x1": 1.0, "x3": -1.0},
+    )
+
+    rest = static_equilibrium(problem)
+
+    assert rest.displacement[0] - rest.displacement[2] == pytest.approx(
+        1.0 / 1e7 + 1.0 / 3e7, rel=1e-6
+    )

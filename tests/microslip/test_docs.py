@@ -1,8 +1,10 @@
-"""The pages on systems and laws: their examples run, and nothing is missing."""
+"""The pages on systems, laws and files: examples run, and nothing is missing."""
 
+import importlib
 import re
 import subprocess
 import sys
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -72,3 +74,51 @@ def test_importing_the_package_loads_no_numbers() -> None:
     )
 
     assert not {"numpy", "numba", "scipy", "hbm"} & set(ended.stdout.split())
+
+
+FILES = (DOCS / "files.md").read_text(encoding="utf-8")
+COMMANDS = Path(microslip.__file__).parent / "commands"
+TABLES = {
+    path.stem: path
+    for path in sorted(COMMANDS.glob("*.py"))
+    if "save_table(" in path.read_text(encoding="utf-8")
+}
+"""commands that write a table"""
+
+
+def test_every_table_has_the_columns_that_its_command_names() -> None:
+    for path in TABLES.values():
+        (call,) = re.findall(r"save_table\(.*", path.read_text(encoding="utf-8"))
+        assert "COLUMNS" in call
+    assert len(TABLES) == 9
+
+
+@pytest.mark.parametrize("command", TABLES)
+def test_every_column_of_a_table_is_documented_in_its_order(command: str) -> None:
+    module = "precision_tables" if command == "precision" else command
+    columns = importlib.import_module(f"microslip.commands.{module}").COLUMNS
+    section = FILES.split(f"### `microslip {command}`\n")[1].split("\n##")[0]
+    heads = re.findall(r"^\| (`.*?) \|", section, re.MULTILINE)
+
+    documented = [name for head in heads for name in re.findall("`(.*?)`", head)]
+
+    assert documented == list(columns)
+
+
+@pytest.mark.parametrize(
+    ("command", "kinds"),
+    [
+        ("stress", ["stress_finding.Finding"]),
+        ("grid", ["grid.Case", "grid.Attempt"]),
+    ],
+)
+def test_rows_of_records_have_a_column_for_each_field(
+    command: str, kinds: list[str]
+) -> None:
+    columns = importlib.import_module(f"microslip.commands.{command}").COLUMNS
+    for kind in kinds:
+        file, name = kind.split(".")
+        record = getattr(importlib.import_module(f"microslip.studies.{file}"), name)
+        own = [field.name for field in fields(record) if field.name != "case"]
+        first = columns.index(own[0])
+        assert list(columns[first : first + len(own)]) == own

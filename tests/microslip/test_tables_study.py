@@ -98,6 +98,9 @@ def test_halved_row_holds_the_finer_energy_and_what_it_changed() -> None:
     assert row.energy == pytest.approx(fine.energy, rel=1e-12)
     assert row.half_step_change == pytest.approx(coarse.energy / fine.energy - 1.0)
     assert row.half_step_change != 0.0
+    # it was told two times too small
+    assert 1.0 < coarse.estimated / abs(row.half_step_change) < 20.0
+    assert row.estimated == fine.estimated < coarse.estimated
 
 
 def test_rows_come_one_by_one() -> None:

@@ -9,6 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
+from microslip.commands.verify_tables import sweep_rows
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
@@ -135,6 +136,8 @@ def test_sweep_is_compared_with_the_curve_at_its_own_rate(scene: Scene) -> None:
     rate = swept_sine(scene.sweep).rate
     expected = quasi_static_energy(curve, rate, (130.0, 131.0))
     assert found.quasi_static == pytest.approx(expected, rel=1e-9)
+    assert found.estimated == pytest.approx(history.energy_error[-1] / 2.0, rel=1e-9)
+    assert f" {found.estimated:.1e} " in sweep_rows([found])
     largest = np.abs(history.displacement[driven]).max(axis=0)
     assert (found.envelope.max(axis=0) <= largest * (1.0 + 1e-9)).all()
     assert (found.envelope.max(axis=0) > 0.8 * largest).all()

@@ -1,22 +1,83 @@
-"""The fast march of tiny motions, of loads with many kinks, and what it stores."""
+"""The fast march beside large preloads, of tiny motions, jams and kinks of the load."""
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.excitation import Dwell, SweptSine
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.laws.dampers import LinearDamper
 from microslip_mechanics.laws.polynomial_spring import CubicSpring
+from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.sine_test import SineTest, Tone, stepped
+from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
+from microslip_mechanics.time_history import TimeHistory, joined
+from rigs import rig_problem
 from small_problems import marched
 from timedomain.fast import FastMarch
-from timedomain.integrate import MarchOptions, whole_steps
+from timedomain.integrate import MarchOptions, integrate, whole_steps
 from timedomain.motion import STEPS
 from timedomain.start import Start, at_rest
+
+
+def pressed(preload: float, ramp: float = 0.0) -> TimeHistory:
+    """Return a march with a tolerance beside a mass that is pressed aside."""
+    problem = system(
+        mass=[1.0, 0.2, 1.0],
+        stiffness=[[1.1e4, -1e3, 0.0], [-1e3, 3e3, 0.0], [0.0, 0.0, 1e4]],
+        damping=np.diag([2.0, 0.3, 200.0]),
+        names=["x", "z", "y"],
+        elements=[
+            Element(
+                RegularisedCoulomb(load=1.0, mu=0.3, threshold_velocity=1e-4),
+                tangents=[("z", "ground")],
+            ),
+            Element(
+                UnilateralSpring(stiffness=1e6, gap=1e-3, damping=20.0),
+                between=("x", "ground"),
+            ),
+        ],
+        drive={"x": 1.0},
+        preload={"y": preload},
+    )
+    start = at_rest(problem)
+    if ramp == 0.0:
+        start = Start(static_equilibrium(problem).displacement, np.zeros(3))
+    wait = 2.0 * ramp
+    test = SineTest(ramp, wait, (Tone(16.0, 16.0, 1.0),), 0.0)
+    options = MarchOptions(2.5e-4, 10, tolerance=1e-3)
+    return marched(problem, test, options, start=start)
+
+
+@pytest.mark.parametrize("ramp", [0.0, 0.25], ids=["there", "grows"])
+def test_a_preload_elsewhere_makes_no_step_less_accurate(ramp: float) -> None:
+    few, many = pressed(1.0, ramp), pressed(1e5, ramp)
+
+    # energy of the preload counted as the size of the motion: 56 % of it was lost
+    for name in ("friction", "normal_damping"):
+        assert many.of(name)[-1] == pytest.approx(few.of(name)[-1], rel=1e-4)
+    np.testing.assert_allclose(
+        many.displacement[:, :2], few.displacement[:, :2], atol=1e-6
+    )
+    assert many.peak_error[-1] <= 1e-3
+
+
+@pytest.mark.usefixtures("no_hang")
+@pytest.mark.parametrize("law", ["coulomb", "gkf"])
+def test_contacts_that_jam_are_marched_and_their_error_is_told(law: str) -> None:
+    problem = rig_problem(friction__law=law, friction__mu_dynamic=1e10)
+    history = SweptSine(5e-3, 5e-3, 1e-2, 1e-2, 130.0, 130.2)
+    options = MarchOptions(2.5e-5, 10, tolerance=1e-3)
+
+    blocks = list(integrate(problem, history, options, block=2.5e-4))
+
+    # no step was short enough, or millions of the shortest were taken
+    found = joined(blocks, "complete")
+    assert found.time[-1] == pytest.approx(1e-2)
+    assert found.energy_error[-1] > 2e-3 * found.of("friction")[-1]
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-3, 1e-6, 1e-9])

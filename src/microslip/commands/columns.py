@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+KEY = "KEY"
+"""column of a table that has the name and values of the key that changes"""
 WIDTH = 10
 SHOWN = 3
 """probes in a table"""
@@ -12,6 +14,11 @@ DIGITS = 3
 """that a column's largest number has at least"""
 NOTHING = 1e-15
 """largest number of a column, in its unit, that rounding makes of zero"""
+
+
+def keyed(columns: Sequence[str], key: str) -> list[str]:
+    """Return the columns of a table in which a key changes."""
+    return [key if name == KEY else name for name in columns]
 
 
 def headed(names: Sequence[str]) -> str:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from microslip_mechanics.ring_down import RingDown
     from microslip_mechanics.time_history import Checkpoint, TimeHistory
 
+COLUMNS = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
 PERIODS, SHOWN = 300, 20
 
 
@@ -78,10 +79,9 @@ def _run(options: argparse.Namespace) -> int:
             "measured: give more --periods"
         )
     table = data.with_suffix(".csv")
-    names = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
     hertz = decay.frequency / math.tau
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
-    save_table(table, names, zip(*columns, strict=True))
+    save_table(table, COLUMNS, zip(*columns, strict=True))
     title = f"{arguments.title(options)}, let go at {frequency / math.tau:g} Hz"
     save_figure(picture, decay_figure(history, decay, probe, title))
     print("\n".join(_lines(decay, history.probes[probe])))

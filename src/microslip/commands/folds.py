@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import decimal
+from microslip.commands.columns import KEY, decimal, keyed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from microslip.studies.folds import FollowedFold
     from microslip.studies.parameter import Parameter
 
+COLUMNS = (
+    *("fold", KEY, "event", "frequency_hz", "amplitude_m", "other_unstable"),
+    *("frequency_error", "parameter_error"),
+)
 HEADER = """\
      parameter       fold  amplitude    other unstable    estimated error of
           [SI]       [Hz]       [mm]       multipliers  frequency  parameter"""
@@ -31,7 +35,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Trace the curve of a scene at the first value of one of its "
         "numbers, such as drive, preload or friction coefficient; follow each of its "
         "folds, between which the response jumps, while that number changes, through "
-        "the cusps at which two folds meet; write SCENE-folds.csv and SCENE-folds.png.",
+        "the cusps at which two folds meet; write SCENE-folds.csv and SCENE-folds.png. "
+        "A curve without folds is told, writes nothing, and is exit status 0.",
         epilog="example: microslip folds two-blades excitation.force 1.8 1 "
         "--set model=A --set friction.law=gkf",
     )
@@ -43,7 +48,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import shown
-    from microslip.studies.folds import FoldError, followed_folds
+    from microslip.studies.folds import FoldError, NoFoldsError, followed_folds
     from microslip.studies.parameter import parameter
 
     data, picture = arguments.outputs(options, "folds")
@@ -67,6 +72,9 @@ def _run(options: argparse.Namespace) -> int:
             folds.append(fold)
             ending = fold.curve.ending if ending == "complete" else ending
             print("\n".join(_lines(fold, len(folds))), flush=True)
+    except NoFoldsError as none:
+        print(none)
+        return 0
     except KeyboardInterrupt:
         ending = "interrupted"
         if not folds:
@@ -115,16 +123,6 @@ def _keep(
     from microslip.figures.folds import FoldLine, folds_figure
     from microslip.store import save_figure, save_table
 
-    names = (
-        "fold",
-        options.key,
-        "event",
-        "frequency_hz",
-        "amplitude_m",
-        "other_unstable",
-        "frequency_error",
-        "parameter_error",
-    )
     rows, lines = [], []
     for number, fold in enumerate(folds, start=1):
         values = fold.curve.parameter.tolist()
@@ -151,6 +149,6 @@ def _keep(
             for place, point in enumerate(fold.points)
         ]
     table, picture = paths
-    save_table(table, names, rows)
+    save_table(table, keyed(COLUMNS, options.key), rows)
     save_figure(picture, folds_figure(lines, along.label, arguments.title(options)))
     print(f"table in {table}, picture in {picture}")

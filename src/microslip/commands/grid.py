@@ -12,6 +12,10 @@ if TYPE_CHECKING:
 
     from microslip.studies.grid import Attempt
 
+COLUMNS = (
+    *("law", "sigma", "threshold", "friction", "preload", "drive"),
+    *("ending", "points", "error", "gap", "seconds"),
+)
 HEADER = (
     "law        sigma   V_lim    mu preload   drive points   error    gap  time  ending"
 )
@@ -79,11 +83,9 @@ def _line(attempt: Attempt) -> str:
 
 
 def _write(path: Path, found: list[Attempt]) -> None:
-    from dataclasses import astuple, fields
+    from dataclasses import astuple
 
     from microslip.store import save_table
-    from microslip.studies.grid import Attempt, Case
 
-    names = [field.name for field in (*fields(Case), *fields(Attempt)[1:])]
     rows = [(*astuple(each.case), *astuple(each)[1:]) for each in found]
-    save_table(path, names, rows)
+    save_table(path, COLUMNS, rows)

@@ -33,7 +33,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "stable motion ends, at several rates, up or down; extrapolate the jump to no "
         "rate, compare it with the fold; write SCENE-jumps.png. Exit status 1 if one "
         f"is further from its fold than {SPREAD:g} errors of the extrapolation and "
-        f"{STEPS:g} of the frequency.",
+        f"{STEPS:g} of the frequency; a curve without folds is told, and is 0.",
         epilog="example: microslip jumps two-blades --set model=A --set "
         "friction.law=gkf --set excitation.force=1.9",
     )

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
+from microslip.commands.columns import KEY, keyed
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -15,6 +16,11 @@ if TYPE_CHECKING:
     from microslip.studies.poles import Linearised
     from microslip_mechanics.arrays import ComplexArray
 
+COLUMNS = (
+    *(KEY, "branch", "frequency_hz", "damping_ratio", "real_1_s", "imag_rad_s"),
+    *("response_frequency_hz", "response_amplitude_m", "response_error"),
+    "friction_energy_j",
+)
 HEADER = """\
 value      response in one harmonic                poles of the linearised scene
       frequency [Hz]  amplitude [mm]  off by   frequency [Hz] (damping ratio [%])"""
@@ -142,13 +148,9 @@ def _write(path: Path, key: str, found: list[Linearised], lines: ComplexArray) -
     """Write a row for each pole of each value."""
     from microslip.store import save_table
 
-    names = (
-        *(key, "branch", "frequency_hz", "damping_ratio", "real_1_s", "imag_rad_s"),
-        *("response_frequency_hz", "response_amplitude_m", "response_error"),
-        "friction_energy_j",
-    )
     pairs = zip(found, lines, strict=True)
-    save_table(path, names, (row for pair in pairs for row in _rows(*pair)))
+    rows = (row for pair in pairs for row in _rows(*pair))
+    save_table(path, keyed(COLUMNS, key), rows)
 
 
 def _rows(each: Linearised, poles: ComplexArray) -> list[list[object]]:

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from microslip.studies.stress_case import Case
     from microslip.studies.stress_finding import Tried
 
+COLUMNS = (
+    *("parameter", "value", "outcome", "cause", "points", "harmonics", "iterations"),
+    *("compared", "difference", "estimated", "steps", "condition", "seconds"),
+)
 HEADER = (
     "parameter          value        harm.  iter.  difference  estimated  condition"
     "   time  outcome"
@@ -136,12 +140,10 @@ def _write(
     found: Sequence[Tried],
 ) -> None:
     """Write table and picture of what there is."""
-    from dataclasses import astuple, fields
+    from dataclasses import astuple
 
     from microslip.store import save_table
-    from microslip.studies.stress_finding import Finding
 
-    names = ["parameter", "value", *(each.name for each in fields(Finding)), "seconds"]
     rows = [
         (
             each.case.parameter,
@@ -153,7 +155,7 @@ def _write(
         for each in found
     ]
     table = picture.with_suffix(".csv")
-    save_table(table, names, rows)
+    save_table(table, COLUMNS, rows)
     _draw(options, picture, chosen, found)
     print(f"picture in {picture}, table in {table}")
 

@@ -7,13 +7,16 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import about, decimal
+from microslip.commands.columns import KEY, about, decimal, keyed
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from microslip.studies.track import Tracked
 
+COLUMNS = (
+    *(KEY, "event", "frequency_hz", "frequency_error_hz", "amplitude_m", "error"),
+)
 HEADER = (
     "value           event             frequency [Hz]           amplitude [mm]    error"
 )
@@ -93,8 +96,6 @@ def _keep(
     from microslip.store import save_figure, save_table
     from microslip.studies.axis import axis
 
-    numbers = ("frequency_hz", "frequency_error_hz", "amplitude_m", "error")
-    names = (options.key, "event", *numbers)
     rows = [
         (
             each.value,
@@ -107,7 +108,7 @@ def _keep(
         for each in found
         for event in each.events
     ]
-    save_table(table, names, rows)
+    save_table(table, keyed(COLUMNS, options.key), rows)
     values = [each.value for each in found]
     places, label = axis(
         options.key,

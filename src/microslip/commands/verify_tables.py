@@ -23,7 +23,8 @@ steady state: march started on the orbit that harmonic balance found
 frequency  amplitude  {deviation}  distance from orbit  drift
      [Hz]       [mm]  {heads}       first      last"""
 SWEEPS = "swept sine beside the curve's prediction for an infinitely slow one"
-SLOWER, ENERGY = "  slower", "   energy of friction [J]  predicted [J]  difference"
+SLOWER = "  slower"
+ENERGY = "   energy of friction [J]    error  predicted [J]  difference"
 ENVELOPE = "  envelope  closing error"
 
 
@@ -68,8 +69,8 @@ def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
     lines = [SWEEPS, SLOWER + (ENERGY if rubs else "") + ENVELOPE]
     for sweep in sweeps:
         energy = (
-            f" {sweep.energy:24.6f} {sweep.quasi_static:14.6f}"
-            f" {100.0 * sweep.energy_error:9.2f} %"
+            f" {sweep.energy:24.6f} {_about(sweep.estimated)}"
+            f" {sweep.quasi_static:14.6f} {100.0 * sweep.energy_error:9.2f} %"
         )
         lines.append(
             f"{sweep.slower:8g}{energy if rubs else ''}"
@@ -79,6 +80,11 @@ def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
     if rate is not None:
         lines.append(f"the difference falls as duration^-{rate:.2f}")
     return "\n".join(lines)
+
+
+def _about(error: float) -> str:
+    """Return an estimated error in a column; a dash if it is not known."""
+    return f"{'-' if math.isnan(error) else format(error, '.1e'):>8s}"
 
 
 def sweeps_said(sweeps: Sequence[SweepAgreement], *, agree: bool) -> str:

@@ -28,7 +28,11 @@ SAME = 1e-2
 
 
 class FoldError(MicroslipError):
-    """A curve without folds; the text says where they were sought."""
+    """Folds that are not found or not followed; the text says where and why."""
+
+
+class NoFoldsError(FoldError):
+    """A curve without folds, which was traced to its end: nothing went wrong."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +60,10 @@ def followed_folds(parameter: Parameter, watch: Watch = iter) -> Iterator[Follow
 
     Raises
     ------
-    FoldError
+    NoFoldsError
         If the curve has no folds.
+    FoldError
+        If it has none up to where it ends early.
     ContinuationError
         If the curve has no first point.
     """
@@ -82,7 +88,7 @@ def _located(parameter: Parameter) -> list[PeriodicResponse]:
     found = [response for response in traced.responses if response.event == "fold"]
     if not found:
         reached = "" if ending == "complete" else f" up to where it ends ({ending})"
-        raise FoldError(
+        raise (NoFoldsError if ending == "complete" else FoldError)(
             f"the curve at {parameter.name} = {parameter.first:g} has no folds between "
             f"{wanted.lowest:g} and {wanted.highest:g} Hz{reached}: begin at a value "
             "where it has, which microslip track finds"

@@ -63,6 +63,8 @@ class Row:
     rest: np.ndarray
     """normal force of each point at rest [N]"""
     history: TimeHistory
+    estimated: float = float("nan")
+    """error of the energy by its march's steps, relative; NaN if it estimates none"""
 
 
 def rows(source: str, variants: tuple[Variant, ...], *, halve: bool) -> Iterator[Row]:
@@ -74,11 +76,20 @@ def rows(source: str, variants: tuple[Variant, ...], *, halve: bool) -> Iterator
         seconds = time.perf_counter() - start
         energy, change = float(history.of("friction")[-1]), float("nan")
         if halve:
-            finer = float(_march(scene, 0.5).of("friction")[-1])
-            energy, change = finer, energy / finer - 1.0
+            finer = _march(scene, 0.5)
+            before, energy = energy, float(finer.of("friction")[-1])
+            change = before / energy - 1.0
         closing = np.abs(history.closing_error).max() / history.of("input").max()
         rest = static_equilibrium(problem_of(scene)).normal_force
-        yield Row(variant, energy, change, float(closing), seconds, rest, history)
+        told = _estimated(finer if halve else history)
+        yield Row(variant, energy, change, float(closing), seconds, rest, history, told)
+
+
+def _estimated(history: TimeHistory) -> float:
+    """Return the estimated error of friction's energy, relative; NaN without one."""
+    if not history.energy_error.size or history.of("friction")[-1] == 0.0:
+        return float("nan")
+    return float(history.energy_error[-1] / abs(history.of("friction")[-1]))
 
 
 def _march(scene: Scene, share: float) -> TimeHistory:

@@ -42,6 +42,8 @@ class SweepAgreement:
     """excitation frequency of each cycle [Hz]"""
     envelope: Array
     """largest deflection of each cycle [m], shape (cycles, probes)"""
+    estimated: float = float("nan")
+    """error of ``energy`` by the march's time steps [J]; NaN if it estimates none"""
 
     @property
     def rubs(self) -> bool:
@@ -104,7 +106,15 @@ def sweep_agreement(
         float(np.abs(history.closing_error).max() / history.of("input").max()),
         frequency,
         envelope,
+        _estimated(history, sweep.end) / slower,
     )
+
+
+def _estimated(history: TimeHistory, time: float) -> float:
+    """Return the estimated error of friction's energy so far [J]; NaN without one."""
+    if not history.energy_error.size:
+        return float("nan")
+    return float(np.interp(time, history.time, history.energy_error))
 
 
 def falls(agreements: list[SweepAgreement]) -> bool:

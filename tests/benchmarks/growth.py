@@ -23,6 +23,7 @@ sys.path.append(str(Path(__file__).parents[1]))
 import numpy as np
 
 import hbm.fourier
+import hbm.low_orders
 from hbm.active import extended, moving, symmetric
 from hbm.fourier import FourierBasis, Transform
 from hbm.options import CurveOptions
@@ -43,6 +44,7 @@ NOISE = 0.1
 SLOWEST = 0.15
 """of one Newton iteration of the full rig with 63 harmonics [s]"""
 HARMONICS = (1, 2, 4, 8, 16, 32, 48, 63)
+MANY = (127, 255, 511)
 SAMPLES = (64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384)
 POINTS = (2, 4, 8, 16, 32, 64, 128, 256, 512)
 CONTACTS = (2, 4, 8, 16, 32, 64)
@@ -85,7 +87,14 @@ def main() -> int:
     """Print all tables; return the exit status."""
     rig = rig_problem(model="full")
     started = time.perf_counter()
-    tables = [by_harmonics(rig), by_samples(rig), by_points(), by_contacts(), by_dofs()]
+    tables = [
+        by_harmonics(rig),
+        by_many_harmonics(rig),
+        by_samples(rig),
+        by_points(),
+        by_contacts(),
+        by_dofs(),
+    ]
     met = [table.met() for table in tables]
     slowest = 1e-3 * tables[0].rows[-1][1]
     print(
@@ -111,6 +120,25 @@ def by_harmonics(problem: Problem) -> Sizes:
     case = Case(problem, 133.0 * HERTZ)
     for harmonics in HARMONICS:
         table.add(harmonics, *case.costs(harmonics, 16 * (harmonics + 1)))
+    return table
+
+
+def by_many_harmonics(problem: Problem) -> Sizes:
+    """Measure it beyond, where faces jam; by factors of all orders too."""
+    table = Sizes(
+        "full rig near its peak, 8 (H + 1) samples",
+        "harmonics H",
+        ("Newton [ms]", "by factors [ms]"),
+        (2.5, None),
+    )
+    case, large = Case(problem, 134.9 * HERTZ), hbm.low_orders.LARGE
+    for harmonics in MANY:
+        samples = 8 * (harmonics + 1)
+        iterated, _, _ = case.costs(harmonics, samples)
+        hbm.low_orders.LARGE = sys.maxsize
+        factored, _, _ = case.costs(harmonics, samples)
+        hbm.low_orders.LARGE = large
+        table.add(harmonics, iterated, factored)
     return table
 
 

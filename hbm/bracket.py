@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-PUSHED = 0.2
-"""share of the bracket, squared, by which a secant's zero is pushed to the middle"""
+CLOSING = 0.9
+"""of the precision: how far a value is taken from an end that a zero seems to be at"""
 SLACK = 1
 """values that may be taken beyond those of bisection"""
 
@@ -27,40 +27,47 @@ def bracketed(
 
     References
     ----------
-    Oliveira & Takahashi (2020), An enhancement of the bisection method average
-    performance preserving minmax optimality, ACM Trans. Math. Softw. 47.
+    Anderson & Björck (1973), A new high order method of regula falsi type, BIT 13; the
+    limit on its steps is that of Oliveira & Takahashi (2020), An enhancement of the
+    bisection method average performance preserving minmax optimality, ACM Trans. Math.
+    Softw. 47.
     """
-    ends, place = (low, high), low
-    first, last = value(low), value(high)
+    ends, known = (low, high), {low: value(low), high: value(high)}
+    first, last = known[low], known[high]
     near = max(xtol, rtol * max(abs(low), abs(high)))
-    end = high - low
-    most = near * 2.0 ** (math.ceil(math.log2(max(end / near, 1.0))) + SLACK - 1)
-    while high - low > near:
-        place = _tried(low, high, first, last, end, most)
-        found = value(place)
+    halvings = math.ceil(math.log2(max((high - low) / near, 1.0)))
+    most = near * 2.0 ** (halvings + SLACK - 1)
+    while high - low > near * (1.0 + 1e-9):
+        place = _tried(low, high, first, last, near, most)
+        found = known[place] = value(place)
         if found == 0.0:
             return place
         if (found > 0.0) == (first > 0.0):
+            last *= _share(found, first)
             low, first = place, found
         else:
+            first *= _share(found, last)
             high, last = place, found
         most *= 0.5
     inner = [each for each in (low, high) if each not in ends]
-    known = {low: abs(first), high: abs(last)}
-    return min(inner, key=known.__getitem__, default=place)
+    return min(inner, key=lambda each: abs(known[each]), default=low)
+
+
+def _share(found: float, before: float) -> float:
+    """Return by how much the value at the other end counts less: it may be stale."""
+    share = 1.0 - found / before
+    return share if share > 0.0 else 0.5
 
 
 def _tried(
-    low: float, high: float, first: float, last: float, end: float, most: float
+    low: float, high: float, first: float, last: float, near: float, most: float
 ) -> float:
-    """Return where the next value is taken: interpolate, truncate, project.
+    """Return where the next value is taken.
 
-    ``most`` is how far from the bracket's end it may be at the most.
+    The bracket that is left is no longer than ``most`` then.
     """
-    middle, wide = 0.5 * (low + high), high - low
     secant = (last * low - first * high) / (last - first)
-    side = math.copysign(1.0, middle - secant)
-    pushed = min(PUSHED * wide * wide / end, abs(middle - secant))
-    within = max(most - 0.5 * wide, 0.0)
-    away = min(abs(middle - secant) - pushed, within)
-    return middle - side * away
+    closest = min(CLOSING * near, 0.5 * (high - low))
+    secant = min(max(secant, low + closest), high - closest)
+    middle, within = 0.5 * (low + high), max(most - 0.5 * (high - low), 0.0)
+    return min(max(secant, middle - within), middle + within)

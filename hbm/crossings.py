@@ -21,6 +21,9 @@ LEAP = 0.1
 is located, from which on it leaps"""
 REAL = 1e-6
 """imaginary part of a multiplier, over its modulus, below which it is real"""
+BESIDE = 1e-3
+"""distance from +1 within which one that is real may pair with another: one of a free
+mean position that hardly decays is there all the time"""
 TORUS, BRANCH = "Neimark-Sacker", "branch point"
 
 
@@ -144,6 +147,7 @@ def crossed(multiplier: complex) -> str:
     At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
     elsewhere, together with its conjugate, a torus begins.
     """
-    if abs(multiplier.imag) > REAL * abs(multiplier):
+    turns = abs(multiplier.imag) > REAL * abs(multiplier)
+    if turns and abs(multiplier - 1.0) > BESIDE:
         return TORUS
     return BRANCH if multiplier.real > 0.0 else "period doubling"

@@ -8,6 +8,9 @@ from scipy.optimize import linear_sum_assignment
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.response import MARGIN
 
+ALIKE = 1e-9
+"""relative distance of conjugates that rounding leaves"""
+
 
 class Moving:
     """The multiplier that crosses the unit circle somewhere between two orbits."""
@@ -34,8 +37,12 @@ class Moving:
         if ordered > 0.0:
             self._known, self.outside = multipliers, multipliers[self._which]
             return ordered
-        paired = excess(partner(self._which, self._known, multipliers))
-        return paired if paired < 0.0 else ordered
+        inside = [
+            each
+            for each in map(excess, partners(self._which, self._known, multipliers))
+            if each < 0.0
+        ]
+        return max(inside, default=ordered)
 
 
 def excess(multiplier: complex) -> float:
@@ -48,15 +55,14 @@ def outside(multipliers: ComplexArray) -> int:
     return int((np.abs(multipliers) > 1.0 + MARGIN).sum())
 
 
-def partner(which: int, known: ComplexArray, others: ComplexArray) -> complex:
-    """Return what has become of a multiplier at another orbit.
+def partners(which: int, known: ComplexArray, others: ComplexArray) -> list[complex]:
+    """Return what has become of a multiplier, and of its conjugate, at another orbit.
 
     All are paired so that the roots of the distances add up to the least: that leaves
-    alone what hardly moves, such as one at +1, when another passes it. One of a
-    conjugate pair stands for both.
+    alone what hardly moves, such as one at +1, when another passes it.
     """
     one, two = (each.real + 1j * np.abs(each.imag) for each in (known, others))
     apart = np.sqrt(np.abs(one[:, None] - two))
     rows, columns = linear_sum_assignment(apart)
-    paired = dict(zip(rows.tolist(), columns.tolist(), strict=True))
-    return complex(others[paired.get(which, which)])
+    alike = np.abs(one[rows] - one[which]) <= ALIKE * abs(one[which])
+    return [complex(each) for each in others[columns[alike]]]

@@ -32,6 +32,9 @@ LEADING = 3
 """how many of them are looked at"""
 ASIDE = 0.02
 """relative change of the amplitude from which a finer orbit is another one"""
+CHORD = 0.5
+"""share of the residual that a Newton step leaves, below which its factors serve again:
+so many harmonics take longer to factor than many steps"""
 SMALL = 1e-6
 """relative change of the motion that Newton's iteration may neglect"""
 
@@ -120,6 +123,7 @@ class Multipliers:
             normal,
             tolerance=self.control.tolerance,
             small=Small(lambda _: changes, self.control.loose),
+            chord=CHORD,
         )
         if found.outcome is not Outcome.CONVERGED:
             return None

@@ -91,8 +91,10 @@ class Crossings:
         They are found between those that are reported; None if one is not.
         """
         system = self.multipliers.resolution.at(finer)
-        ends = {"before": before.reported, "after": after.reported}
-        orbits = replace(segment, system=system, tangents=False, **ends)
+        ends = before.reported, after.reported
+        orbits = replace(
+            segment, system=system, before=ends[0], after=ends[1], tangents=False
+        )
         located = orbits.locate(
             lambda each: moving.growth(self.multipliers.at(each.point, finer)),
             moving.ends,

@@ -1,57 +1,72 @@
 """When the multipliers of an orbit as it is reported are known well enough."""
 
+from typing import cast
+
 import numpy as np
 import pytest
 
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
-from hbm.options import CurveOptions
-from hbm.solve import frequency_response, with_multipliers
-from microslip_mechanics.arrays import Array
-from microslip_mechanics.static import static_equilibrium
-from rigs import rig_problem
+from hbm.resolution import PathResolution
+from hbm.step_control import StepControl
+from microslip_mechanics.arrays import Array, ComplexArray
 
-HERTZ = 2.0 * np.pi
+COARSE, REPORTED = FourierBasis(7, 64), FourierBasis(15, 128)
+LIFTS, STAYS = np.array([0.0, 0.0]), np.array([1.0, 1.0])
 
 
 @pytest.fixture
 def sought(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """Return the harmonics of the finer orbits that are sought from now on."""
+    """Return the harmonics of the finer orbits that are sought from now on.
+
+    An orbit with H harmonics has the multiplier 1.1 + (its first component) / H².
+    """
     harmonics: list[int] = []
-    finer = Multipliers.finer
 
-    def noted(self: Multipliers, point: Array, fourier: FourierBasis) -> Array | None:
+    def finer(_: Multipliers, point: Array, fourier: FourierBasis) -> Array:
         harmonics.append(fourier.harmonics)
-        return finer(self, point, fourier)
+        return point
 
-    monkeypatch.setattr(Multipliers, "finer", noted)
+    def at(_: Multipliers, point: Array, fourier: FourierBasis) -> ComplexArray:
+        return np.array([1.1 + point[0] / fourier.harmonics**2, 1.0, 0.9, 0.1 + 0j])
+
+    monkeypatch.setattr(Multipliers, "finer", finer)
+    monkeypatch.setattr(Multipliers, "at", at)
     return harmonics
 
 
-def test_rattling_contacts_whose_multipliers_are_known_need_no_finer_orbit(
-    sought: list[int],
-) -> None:
-    problem = rig_problem(model="full")
-    rest = static_equilibrium(problem)
-    options = CurveOptions(HERTZ * 134.85, HERTZ * 135.0)
-
-    first = next(frequency_response(problem, rest, options))
-    assert sought == []
-
-    # what knows of no coarser orbit seeks a finer one
-    again = with_multipliers(problem, rest, first, options)
-    assert max(sought) > first.harmonics
-    np.testing.assert_allclose(
-        np.abs(first.multipliers[:3]), np.abs(again.multipliers[:3]), atol=1e-4
+def sure(
+    change: float, lifts: Array, *, falls: bool, monkeypatch: pytest.MonkeyPatch
+) -> tuple[ComplexArray, FourierBasis, bool]:
+    """Return what is known where the leading multiplier is 1.1 + ``change`` / H²."""
+    monkeypatch.setattr(Multipliers, "_falls", lambda *_: falls)
+    multipliers = Multipliers(
+        cast(PathResolution, None), None, cast(StepControl, None), fixed=False
     )
+    point = np.array([change, 0.0, 1.0])
+    return multipliers.sure(point, REPORTED, lifts, (point, COARSE))
 
 
-def test_rattling_contacts_whose_multipliers_change_still_need_one(
+@pytest.mark.parametrize(
+    ("change", "lifts", "falls", "expected"),
+    [
+        (0.05, LIFTS, False, []),  # they differ by 8e-4
+        (0.1, LIFTS, False, [31]),  # by 1.6e-3
+        (5.0, LIFTS, False, [31, 63]),
+        (0.05, STAYS, True, [31]),  # there the orbit itself is in doubt
+        (5.0, STAYS, False, []),
+    ],
+)
+def test_finer_orbits_are_sought_where_the_reported_one_says_too_little(
+    change: float,
+    lifts: Array,
+    falls: bool,
+    expected: list[int],
     sought: list[int],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    problem = rig_problem(model="full")
-    options = CurveOptions(HERTZ * 135.1, HERTZ * 135.3)
+    _, fourier, confirmed = sure(change, lifts, falls=falls, monkeypatch=monkeypatch)
 
-    first = next(frequency_response(problem, static_equilibrium(problem), options))
-
-    assert max(sought) > first.harmonics
+    assert sought == expected
+    assert fourier.harmonics == (expected[-1] if expected else REPORTED.harmonics)
+    assert confirmed

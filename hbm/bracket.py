@@ -26,8 +26,7 @@ def bracketed(
 
     It is known to ``xtol``, or to ``rtol`` of itself. Where the function is smooth a
     few values are enough; where it leaps they are no more than for bisection, and one
-    more where it is neither. What is returned is not an end, if there is a value
-    between.
+    more where it is neither. What is returned is interpolated in the last bracket.
 
     References
     ----------
@@ -36,7 +35,6 @@ def bracketed(
     the bisection method average performance preserving minmax optimality, ACM Trans.
     Math. Softw. 47.
     """
-    ends = low, high
     near = max(xtol, rtol * max(abs(low), abs(high)))
     halvings = math.ceil(math.log2(max((high - low) / near, 1.0)))
     most = near * 2.0 ** (halvings + SLACK - 1)
@@ -52,8 +50,7 @@ def bracketed(
         else:
             one, two, third = found, one, two
         most *= 0.5
-    inner = [each for each in (one, two) if each[0] not in ends]
-    return min(inner, key=lambda each: abs(each[1]), default=one)[0]
+    return (one[0] * two[1] - two[0] * one[1]) / (two[1] - one[1])
 
 
 def _tried(

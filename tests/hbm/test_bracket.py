@@ -51,7 +51,8 @@ def test_smooth_functions_take_half_the_values_of_bisection(name: str) -> None:
     assert values <= 5
 
 
-def test_a_place_between_is_preferred_to_an_end() -> None:
-    root, _ = counted(lambda place: place - 1e-3 * LENGTH, 1e-2)
+@pytest.mark.parametrize("name", SMOOTH)
+def test_smooth_functions_are_interpolated_in_the_last_bracket(name: str) -> None:
+    root, _ = counted(SMOOTH[name], 1e-2)
 
-    assert root > 0.0
+    assert abs(root - ZERO) <= 1e-3 * LENGTH

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from hbm.adaptive import AdaptiveBalance
 from hbm.fourier import FourierBasis
+from hbm.moving import Moving, outside
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction
 from hbm.segment import ROUGH, ROUGHER, Segment
 from hbm.settled import Settled, by_harmonics
 from microslip_mechanics.arrays import ComplexArray
-from microslip_mechanics.response import MARGIN
 
 LOCATING = FourierBasis(31, 256)
 """most that is taken, if the curve has no more, to locate a change of stability"""
@@ -23,6 +21,9 @@ LEAP = 0.1
 is located, from which on it leaps"""
 REAL = 1e-6
 """imaginary part of a multiplier, over its modulus, below which it is real"""
+BESIDE = 1e-3
+"""distance from +1 within which one that is real may pair with another: one of a free
+mean position that hardly decays is there all the time"""
 TORUS, BRANCH = "Neimark-Sacker", "branch point"
 
 
@@ -60,22 +61,52 @@ class Crossings:
         good, and nothing branches.
         """
         finer, precision = self._asked(before, after)
-        ends = before.multipliers[which], after.multipliers[which]
-        outside = max(ends, key=abs)
+        moving = Moving(which, before.multipliers, after.multipliers)
 
         def growth(correction: Correction) -> float:
-            nonlocal outside  # the bracket shrinks: the last one is the nearest
-            multiplier = self._finest(correction, finer)[which]
-            if excess(multiplier) > 0.0:
-                outside = multiplier
-            return excess(multiplier)
+            return moving.growth(self._finest(correction, finer))
 
-        first, last = map(excess, ends)
-        located = segment.locate(growth, (first, last), precision)
+        located = None
+        if finer is not None:
+            located = self._among(segment, moving, finer, before, after, precision)
+        if located is None:
+            located = segment.locate(growth, moving.ends, precision)
         if self.recalls and located is not None:
+            first, last = moving.ends
             leaps = abs(growth(located)) > LEAP * abs(last - first)
             located = None if leaps else located
-        return located, outside
+        return located, moving.outside
+
+    def _among(
+        self,
+        segment: Segment,
+        moving: Moving,
+        finer: FourierBasis,
+        before: Settled,
+        after: Settled,
+        precision: float,
+    ) -> Correction | None:
+        """Return where a multiplier of orbits with a finer resolution crosses.
+
+        They are found between those that are reported; None if one is not.
+        """
+        system = self.multipliers.resolution.at(finer)
+        ends = before.reported, after.reported
+        orbits = replace(
+            segment, system=system, before=ends[0], after=ends[1], tangents=False
+        )
+        located = orbits.locate(
+            lambda each: moving.growth(self.multipliers.at(each.point, finer)),
+            moving.ends,
+            precision,
+        )
+        if located is None:
+            return None
+        guess = located.point.copy()
+        guess[
+            self.system.fourier.coefficients * self.multipliers.resolution.rank : -1
+        ] = 0.0
+        return segment.across(guess, precision * segment.length)
 
     def _asked(
         self, before: Settled, after: Settled
@@ -104,17 +135,12 @@ class Crossings:
         return self.multipliers.at(point, fourier)
 
 
-def excess(multiplier: complex) -> float:
-    """Return by how much the modulus of a multiplier exceeds one."""
-    return float(abs(multiplier) - 1.0 - MARGIN)
-
-
 def crossings(before: ComplexArray, after: ComplexArray) -> range:
     """Return which Floquet multipliers cross the unit circle between two points.
 
     A multiplier is known by its place in the order of moduli, the largest first.
     """
-    return range(*sorted((_outside(before), _outside(after))))
+    return range(*sorted((outside(before), outside(after))))
 
 
 def crossed(multiplier: complex) -> str:
@@ -123,11 +149,7 @@ def crossed(multiplier: complex) -> str:
     At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
     elsewhere, together with its conjugate, a torus begins.
     """
-    if abs(multiplier.imag) > REAL * abs(multiplier):
+    turns = abs(multiplier.imag) > REAL * abs(multiplier)
+    if turns and abs(multiplier - 1.0) > BESIDE:
         return TORUS
     return BRANCH if multiplier.real > 0.0 else "period doubling"
-
-
-def _outside(multipliers: ComplexArray) -> int:
-    """Return the number of multipliers outside the unit circle."""
-    return int((np.abs(multipliers) > 1.0 + MARGIN).sum())

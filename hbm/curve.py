@@ -78,8 +78,10 @@ class Curve:
             event=event,
             parameter=float(kept[-1]),
         )
-        told, finer = self._examined(made, kept, fourier)
-        asks, settled = finer != fourier, self.system.settled
+        settled = self.system.settled
+        coarser = (correction.point, settled) if settled != fourier else None
+        told, finer = self._examined(made, kept, fourier, coarser)
+        asks = finer != fourier
         return told, Settled(
             correction, told.multipliers, finer, asks, correction, settled
         )
@@ -94,13 +96,20 @@ class Curve:
         return self._examined(known, point if orbit is None else orbit, fourier)[0]
 
     def _examined(
-        self, made: PeriodicResponse, point: Array, fourier: FourierBasis
+        self,
+        made: PeriodicResponse,
+        point: Array,
+        fourier: FourierBasis,
+        coarser: tuple[Array, FourierBasis] | None = None,
     ) -> tuple[PeriodicResponse, FourierBasis]:
-        """Return a response with its multipliers, and the resolution they ask for."""
+        """Return a response with its multipliers, and the resolution they ask for.
+
+        ``coarser`` is the orbit with fewer harmonics, if it is known.
+        """
         points = self.problem.interface.points
         presses = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
         multipliers, finer, confirmed = self.multipliers.sure(
-            point, fourier, made.normal_smallest[presses]
+            point, fourier, made.normal_smallest[presses], coarser
         )
         error = made.error if confirmed else np.inf
         return replace(made, error=error, multipliers=multipliers), finer

@@ -25,10 +25,16 @@ HARMONICS = 63
 """most that are taken for multipliers alone"""
 CHANGE = 1e-2
 """of the leading multipliers from one order to the next, from which they are known"""
+ALIKE = 1e-3
+"""of those from the order that the curve has to that of the reported orbit, up to which
+the latter are known: a finer orbit need not be sought"""
 LEADING = 3
 """how many of them are looked at"""
 ASIDE = 0.02
 """relative change of the amplitude from which a finer orbit is another one"""
+CHORD = 0.5
+"""share of the residual that a Newton step leaves, below which its factors serve again:
+so many harmonics take longer to factor than many steps"""
 SMALL = 1e-6
 """relative change of the motion that Newton's iteration may neglect"""
 
@@ -54,7 +60,11 @@ class Multipliers:
         return motions.multipliers(balance.contact, float(orbit[-1]))
 
     def sure(
-        self, point: Array, fourier: FourierBasis, normal_smallest: Array
+        self,
+        point: Array,
+        fourier: FourierBasis,
+        normal_smallest: Array,
+        coarser: tuple[Array, FourierBasis] | None = None,
     ) -> tuple[ComplexArray, FourierBasis, bool]:
         """Return the multipliers, of more harmonics if they ask for it, and which.
 
@@ -67,11 +77,15 @@ class Multipliers:
             An orbit and its resolution.
         normal_smallest
             Of each contact point that can lift off, during a period [N].
+        coarser
+            The same orbit with fewer harmonics, if it is known.
         """
         known = self.at(point, fourier)
         falls = self._falls(point, fourier)
         asks = falls or _rattles(normal_smallest)
         if self.fixed or known.size == 0 or not asks:
+            return known, fourier, True
+        if coarser and not falls and _change(self.at(*coarser), known) < ALIKE:
             return known, fourier, True
         orbit, trusted, confirmed = point, fourier, True
         while fourier.harmonics < HARMONICS:
@@ -109,6 +123,7 @@ class Multipliers:
             normal,
             tolerance=self.control.tolerance,
             small=Small(lambda _: changes, self.control.loose),
+            chord=CHORD,
         )
         if found.outcome is not Outcome.CONVERGED:
             return None

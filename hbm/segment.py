@@ -1,8 +1,8 @@
 """The part of a curve between two of its points, and the place of a zero on it.
 
 It is parametrised by the distance along the tangent at the first point; a sign change
-of a test function is refined by Brent's method, or by bisection where the precision is
-:data:`ROUGHER`, each of its evaluations being a corrected point (theory §6).
+of a test function is refined by Brent's method, or by one that hardly takes more values
+than bisection where it may leap, each of them being at a corrected point (theory §6).
 """
 
 from __future__ import annotations
@@ -11,17 +11,18 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.optimize
 from scipy.interpolate import BarycentricInterpolator
+from scipy.optimize import brentq
 
 from hbm.arc_step import tangent
+from hbm.bracket import bracketed
 from hbm.newton import Correction, Outcome, SingularError, Small, System, correct
 from microslip_mechanics.arrays import Array
 
 PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
 """of a located place, over the length of the step in which it is; the second where a
-test function is less accurate than that, the third where it is costly too, and leaps:
-bisection takes fewer of its values then"""
+test function is less accurate than that, the third where it is costly too; both where
+it may leap"""
 NEAREST = 3
 """points through which a guess between them is interpolated"""
 SURE = 0.1
@@ -42,6 +43,8 @@ class Segment:
     loose: float = 0.0
     """residual with which a point may do whose next step is too small to matter; no
     point may if it is zero"""
+    tangents: bool = True
+    """whether points between have the tangent that a test function may need"""
 
     @property
     def length(self) -> float:
@@ -80,8 +83,7 @@ class Segment:
         near = precision * length
         solved: dict[float, Correction] = {}
         try:
-            rough = precision >= ROUGHER
-            seek = scipy.optimize.bisect if rough else scipy.optimize.brentq
+            seek = bracketed if precision >= ROUGH else brentq
             root = seek(value, 0.0, length, xtol=near, rtol=1e-12)
             return solved.get(root) or self._at(self._guess(root, solved), near)
         except (_LostError, SingularError):
@@ -136,6 +138,8 @@ class Segment:
         )
         if found.outcome is not Outcome.CONVERGED:
             raise _LostError
+        if not self.tangents:
+            return found
         return replace(found, tangent=tangent(found.linearised, direction, self.scale))
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg
@@ -17,12 +16,12 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from hbm.aft import AlternatingFrequencyTime
+from hbm.carried import Structure, carried
 from hbm.recalled import recalled_multipliers
 from hbm.stuck_poles import split
 from hbm.tangents import StepTangents, step_tangents
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.memory import remembers
-from microslip_mechanics.jit import bare_kernel, kernel
 from microslip_mechanics.problem import Problem
 
 SMALLEST = 0.004
@@ -31,26 +30,6 @@ frequency, relative to the largest of all modes; what has less is left out"""
 
 BEYOND = 1e150
 """modulus of half a period's multiplier that counts as any larger one"""
-ROOT = 3.0 + 1j * np.sqrt(3.0)
-FACTOR = 12.0 * ROOT / (2j * ROOT.imag)
-STICKING_ROOT = 2.0 + 1j * np.sqrt(2.0)
-STICKING_FACTOR = (3.0 + STICKING_ROOT) / (1j * STICKING_ROOT.imag)
-"""poles ρ and residues a of the Padé approximations (2, 2) and (1, 2)"""
-
-
-class Structure(NamedTuple):
-    """Coordinates y and modes of a structure; nothing elastic couples them."""
-
-    mass: Array
-    """rows of y, shape (rank, rank + modes)"""
-    coupling: Array
-    """mass of the modes by y, shape (modes, rank); that of the modes is one"""
-    damping: Array
-    """shape (rank + modes, rank + modes)"""
-    stiffness: Array
-    """of y, shape (rank, rank)"""
-    squares: Array
-    """of the modes' frequencies [rad²/s²], shape (modes,)"""
 
 
 @dataclass(frozen=True)
@@ -115,7 +94,7 @@ class SmallMotions:
             np.ascontiguousarray(stiffness[:rank, :rank]),
             stiffness.diagonal()[rank:].copy(),
         )
-        return _carried(structure, elastic, viscous, steps.lengths, steps.sticks)
+        return carried(structure, elastic, viscous, steps.lengths, steps.sticks)
 
     def _signs(self, contact: AlternatingFrequencyTime) -> Array | None:
         """Return by which signs the coordinates differ after half a period.
@@ -192,116 +171,3 @@ def small_motions(problem: Problem) -> SmallMotions:
     moves = ((basis @ mobility) * basis).sum(axis=1)
     inertia = np.divide(1.0, moves, out=np.full(moves.size, np.inf), where=moves > 0.0)
     return SmallMotions(mass, damping, stiffness, basis, inertia)
-
-
-@kernel
-def _carried(
-    structure: Structure,
-    elastic: Array,
-    viscous: Array,
-    lengths: Array,
-    sticks: NDArray[np.bool_],
-) -> Array:
-    """Return the map of (displacement, velocity) over all steps.
-
-    ``elastic`` and ``viscous`` are the tangents during each step, shape
-    ``(steps, rank, rank)``. The exponential of a step is its Padé approximation (2, 2),
-    x + 2 Re a (hA − ρ)⁻¹ x, or, where a contact begins to stick, (1, 2),
-    2 Re a (hA − ρ)⁻¹ x, which lets no speed through.
-    """
-    rank, count = structure.mass.shape
-    moved, moving = np.eye(count, 2 * count), np.zeros((count, 2 * count))
-    for i in range(count):
-        moving[i, count + i] = 1.0
-    stage = np.empty((count, 2 * count), dtype=np.complex128)
-    inner, outer = stage[:rank], stage[rank:]
-    step, root = 0.0, ROOT
-    parts = _eliminated(structure, 1.0, root)
-    for place in range(lengths.size):
-        wanted = STICKING_ROOT if sticks[place] else ROOT
-        # lengths of equal intervals differ by rounding
-        if root != wanted or abs(step - lengths[place]) > 1e-9 * step:
-            step, root = lengths[place], wanted
-            parts = _eliminated(structure, step, root)
-        inverse, lowered, raised, matrix = parts
-        stiffness = structure.stiffness + elastic[place]
-        holding = matrix + (step * step / root) * elastic[place] + step * viscous[place]
-        _loads(structure, stiffness, moved, moving, step / root, stage)
-        free = np.dot(inverse, outer)
-        inner[:] = np.linalg.solve(holding, inner - np.dot(raised, outer))
-        outer[:] = free - np.dot(lowered, inner)
-        if sticks[place]:
-            _advance(moved, moving, stage, step, root, STICKING_FACTOR, 0.0)
-        else:
-            _advance(moved, moving, stage, step, root, FACTOR, 1.0)
-    return np.concatenate((moved, moving))
-
-
-@kernel
-def _eliminated(
-    structure: Structure, step: float, root: complex
-) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
-    """Return what the modes leave of h²K/ρ + hC + ρM, in a step without contact.
-
-    They are the inverse of the modes' block, that times the column of y, the row of y
-    times it, and the block of y without what goes through the modes.
-    """
-    rank = structure.mass.shape[0]
-    squares, damping = structure.squares, structure.damping
-    modes = (step * damping[rank:, rank:]).astype(np.complex128)
-    for mode in range(squares.size):
-        modes[mode, mode] += step * step * squares[mode] / root + root
-    inverse = np.linalg.inv(modes)
-    coupling = np.ascontiguousarray(structure.mass[:, rank:])
-    column = step * damping[rank:, :rank] + root * coupling.T
-    row = step * damping[:rank, rank:] + root * coupling
-    raised = np.dot(row, inverse)
-    matrix = (step * step / root) * structure.stiffness + step * damping[:rank, :rank]
-    matrix = matrix + root * structure.mass[:, :rank] - np.dot(raised, column)
-    return inverse, np.dot(inverse, column), raised, matrix
-
-
-@kernel
-def _loads(
-    structure: Structure,
-    stiffness: Array,
-    moved: Array,
-    moving: Array,
-    factor: complex,
-    result: ComplexArray,
-) -> None:
-    """Write (h/ρ) K u − M u̇."""
-    rank = stiffness.shape[0]
-    elastic = np.dot(stiffness, moved[:rank])
-    inertial = np.dot(structure.mass, moving)
-    coupled = np.dot(structure.coupling, moving[:rank])
-    for row in range(rank):
-        for column in range(moved.shape[1]):
-            result[row, column] = factor * elastic[row, column] - inertial[row, column]
-    for mode in range(structure.squares.size):
-        row, share = rank + mode, factor * structure.squares[mode]
-        for column in range(moved.shape[1]):
-            inertia = coupled[mode, column] + moving[row, column]
-            result[row, column] = share * moved[row, column] - inertia
-
-
-@bare_kernel
-def _advance(
-    moved: Array,
-    moving: Array,
-    stage: ComplexArray,
-    step: float,
-    root: complex,
-    factor: complex,
-    kept: float,
-) -> None:
-    """Bring displacement and velocity to the end of a step; ``stage`` is (hA − ρ)⁻¹."""
-    share = factor / root
-    rest, length = kept - 2.0 * share.real, 2.0 * step * share
-    for row in range(moved.shape[0]):
-        for column in range(moved.shape[1]):
-            speed = stage[row, column]
-            change = length.real * speed.real - length.imag * speed.imag
-            moved[row, column] = rest * moved[row, column] + change
-            change = factor.real * speed.real - factor.imag * speed.imag
-            moving[row, column] = kept * moving[row, column] + 2.0 * change

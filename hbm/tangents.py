@@ -12,7 +12,6 @@ halved until A changes in it by little beside the inertia of its points.
 
 from __future__ import annotations
 
-import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -105,12 +104,12 @@ def _edges(cuts: Array, longest: float) -> Array:
     """Return the edges of the intervals: the cuts, and equal parts between them."""
     kept = cuts[np.append(np.diff(cuts) > 1e-9 * cuts[-1], True)]
     kept[0] = 0.0
-    counts = np.maximum(1, np.ceil(np.diff(kept) / longest - 0.25)).astype(int)
-    parts = [
-        np.linspace(left, right, count, endpoint=False)
-        for (left, right), count in zip(itertools.pairwise(kept), counts, strict=True)
-    ]
-    return np.concatenate([*parts, kept[-1:]])
+    gaps = np.diff(kept)
+    counts = np.maximum(1, np.ceil(gaps / longest - 0.25)).astype(int)
+    firsts = np.cumsum(counts) - counts
+    parts = np.arange(counts.sum()) - firsts.repeat(counts)
+    edges = kept[:-1].repeat(counts) + parts * (gaps / counts).repeat(counts)
+    return np.append(edges, kept[-1])
 
 
 @kernel

@@ -1,0 +1,49 @@
+"""The multiplier that crosses the circle, among others that stay or take its place."""
+
+import numpy as np
+import pytest
+
+from hbm.crossings import BRANCH, TORUS, crossed
+from hbm.moving import Moving
+
+NEUTRAL = 0.999996
+
+
+def ordered(*values: complex) -> np.ndarray:
+    """Return multipliers, the largest modulus first."""
+    found = np.array(values, dtype=complex)
+    return found[np.argsort(-np.abs(found))]
+
+
+def test_one_at_plus_one_does_not_stand_for_what_has_moved_below_it() -> None:
+    out, inside = ordered(1.05, NEUTRAL, 0.9), ordered(NEUTRAL, 0.93, 0.9)
+
+    moving = Moving(0, out, inside)
+
+    assert moving.ends == pytest.approx((0.05, -0.07), abs=1e-5)
+    assert moving.growth(ordered(NEUTRAL, 0.99, 0.9)) == pytest.approx(-0.01, abs=1e-5)
+    assert moving.growth(ordered(1.01, NEUTRAL, 0.9)) == pytest.approx(0.01, abs=1e-5)
+    assert moving.outside == pytest.approx(1.01)
+
+
+def test_a_conjugate_pair_that_splits_leaves_one_outside() -> None:
+    pair = ordered(1.03 + 0.02j, 1.03 - 0.02j, NEUTRAL, 0.7)
+    split = ordered(1.2, NEUTRAL, 0.98, 0.7)
+
+    moving = Moving(1, pair, split)
+
+    assert moving.ends[0] > 0.0
+    assert moving.ends[1] == pytest.approx(-0.02, abs=1e-5)
+
+
+def test_signs_are_those_of_the_number_outside() -> None:
+    moving = Moving(0, ordered(1.1, NEUTRAL), ordered(NEUTRAL, 0.8))
+
+    assert moving.growth(ordered(1.3, 1.2)) > 0.0
+    assert moving.growth(ordered(NEUTRAL, 0.2)) < 0.0
+
+
+def test_what_pairs_with_a_neutral_multiplier_still_crosses_at_plus_one() -> None:
+    assert crossed(1.00003 - 8e-5j) == BRANCH
+    assert crossed(1.0022 - 0.0145j) == TORUS
+    assert crossed(-1.0001 + 0.0j) == "period doubling"

@@ -1,7 +1,7 @@
 """Solutions of a large bordered Jacobian by GMRES, its low orders factored (theory §6).
 
-Factors of all orders cost the cube of their number. In the high orders inertia
-outweighs what contacts couple: there each order alone is nearly the inverse.
+Factors of all orders cost the cube of their number. Of the high orders a band is enough
+for nearly the inverse.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from hbm.bordered import Bordered
+from hbm.newton import SingularError
 from microslip_mechanics.arrays import Array
 
 PRECISE, ROUGH = 1e-7, 1e-5
@@ -34,7 +35,7 @@ class Parts(NamedTuple):
     corner: Array
     """its low orders, shape (low, low)"""
     apart: Callable[[Array], Array]
-    """nearly its inverse in the high orders, each alone; (unknowns − low,)"""
+    """nearly its inverse in the high orders, shape (unknowns − low,)"""
     slope: Array
     """derivative by the last component of a point, shape (unknowns,)"""
 
@@ -55,7 +56,7 @@ class Iterated:
         Raises
         ------
         SingularError
-            If the low orders have none.
+            If the low orders or the high ones alone have none.
         UnreachedError
             If it takes more than one product for :data:`SHARE` unknowns.
         """
@@ -70,6 +71,8 @@ class Iterated:
         component counts as much as all of the motion.
         """
         nearly = self._nearly(right)
+        if not np.isfinite(nearly).all():
+            raise SingularError
         units = np.ones_like(nearly)
         moved, last = float(np.linalg.norm(nearly[:-1])), abs(float(nearly[-1]))
         if moved > 0.0 and last > 0.0:
@@ -107,7 +110,7 @@ class Iterated:
         return np.append(changed, self._border @ step)
 
     def _nearly(self, right: Array) -> Array:
-        """Return about the solution: low orders together, high ones each alone."""
+        """Return about the solution: low orders by themselves, and high ones."""
         low, parts = self._low, self._parts
         inner = self._corner.solve(np.append(right[:low], right[-1]))
         outer = parts.apart(right[low:-1] - inner[-1] * parts.slope[low:])

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from hbm.newton import SingularError
+from hbm.iterated import UnreachedError
 from microslip_mechanics.arrays import Array, ComplexArray
 
 WIDTH = 8
@@ -47,7 +47,10 @@ class BandedOrders:
         self._count, self._orders = int(wanted.sum()), first + np.arange(len(wanted))
         most = min(WIDTH, len(wanted) - 1)
         pairs = [_pairs(wanted, places, each) for each in range(-most, most + 1)]
-        self._reach = max(int(np.abs(pair[4] - pair[5]).max()) for pair in pairs)
+        # orders of another parity may have no coordinate
+        self._reach = max(
+            int(np.abs(each[4] - each[5]).max(initial=0)) for each in pairs
+        )
         height = 3 * self._reach + 1
         self._shape = (height, self._count)
         self._bands = [
@@ -82,7 +85,7 @@ class BandedOrders:
 
         Raises
         ------
-        SingularError
+        UnreachedError
             If the banded matrix has no inverse.
         """
         band = np.zeros(self._shape, complex)
@@ -97,7 +100,7 @@ class BandedOrders:
             band, self._reach, self._reach, overwrite_ab=True
         )
         if failed != 0:
-            raise SingularError
+            raise UnreachedError
         return FactoredOrders(factors, pivots, self._reach, self._wanted)
 
 

@@ -74,12 +74,17 @@ def _monotone(one: Known, two: Known, third: Known) -> bool:
     """Return whether the inverse parabola through three points is monotone."""
     place = (one[0] - two[0]) / (third[0] - two[0])
     share = (one[1] - two[1]) / (third[1] - two[1])
+    if not 0.0 < share < 1.0:
+        return False
     return share**2 < place and (1.0 - share) ** 2 < 1.0 - place
 
 
 def _interpolated(one: Known, two: Known, third: Known) -> float:
     """Return where the inverse parabola through three points is zero."""
-    (first, a), (second, b), (last, c) = one, two, third
+    size = max(abs(value) for _, value in (one, two, third))
+    (first, a), (second, b), (last, c) = (
+        (place, value / size) for place, value in (one, two, third)
+    )
     return (
         first * b * c / ((a - b) * (a - c))
         + second * a * c / ((b - a) * (b - c))

@@ -41,13 +41,15 @@ class Crossings:
     ) -> Iterator[tuple[str, Correction]]:
         """Yield what happens where a multiplier crosses the circle, and the point."""
         paired = False
+        if before.multipliers.size != after.multipliers.size:
+            return  # one of the two has none that are known
         for which in crossings(before.multipliers, after.multipliers):
             if paired:  # a conjugate crosses where the one before it does
                 paired = False
                 continue
             located, multiplier = self._crossing(segment, which, before, after)
             kind = crossed(multiplier)
-            paired = kind == TORUS
+            paired = _turns(multiplier)
             if located is not None:
                 yield kind, located
 
@@ -149,7 +151,11 @@ def crossed(multiplier: complex) -> str:
     At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
     elsewhere, together with its conjugate, a torus begins.
     """
-    turns = abs(multiplier.imag) > REAL * abs(multiplier)
-    if turns and abs(multiplier - 1.0) > BESIDE:
+    if _turns(multiplier) and abs(multiplier - 1.0) > BESIDE:
         return TORUS
     return BRANCH if multiplier.real > 0.0 else "period doubling"
+
+
+def _turns(multiplier: complex) -> bool:
+    """Return whether a multiplier has a conjugate beside it."""
+    return abs(multiplier.imag) > REAL * abs(multiplier)

@@ -24,7 +24,7 @@ SHARE = 10
 
 
 class UnreachedError(ArithmeticError):
-    """GMRES took too many products."""
+    """GMRES took too many products, or the parts of a Jacobian have no inverse."""
 
 
 class Parts(NamedTuple):
@@ -44,21 +44,29 @@ class Iterated:
     """What solves [Jacobian slope; border] d = right from the parts of a Jacobian."""
 
     def __init__(self, parts: Parts, border: Array) -> None:
-        """Factor the low orders, bordered by what ``border``, (unknowns + 1,), has."""
+        """Factor the low orders, bordered by what ``border``, (unknowns + 1,), has.
+
+        Raises
+        ------
+        UnreachedError
+            If they alone are singular, which says nothing of all orders.
+        """
         self._parts, self._border = parts, border
         self._low = low = len(parts.corner)
         ends = np.append(border[:low], border[-1])
-        self._corner = Bordered(parts.corner, parts.slope[:low], ends)
+        try:
+            self._corner = Bordered(parts.corner, parts.slope[:low], ends)
+        except SingularError:
+            raise UnreachedError from None
 
     def solve(self, right: Array) -> Array:
         """Return the solution, of shape ``(unknowns + 1,)`` or with several columns.
 
         Raises
         ------
-        SingularError
-            If the low orders or the high ones alone have none.
         UnreachedError
-            If it takes more than one product for :data:`SHARE` unknowns.
+            If it takes more than one product for :data:`SHARE` unknowns, or if low or
+            high orders alone have none.
         """
         if right.ndim == 1:
             return self._solution(right)
@@ -72,7 +80,7 @@ class Iterated:
         """
         nearly = self._nearly(right)
         if not np.isfinite(nearly).all():
-            raise SingularError
+            raise UnreachedError
         units = np.ones_like(nearly)
         moved, last = float(np.linalg.norm(nearly[:-1])), abs(float(nearly[-1]))
         if moved > 0.0 and last > 0.0:

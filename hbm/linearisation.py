@@ -67,7 +67,7 @@ class Linearisation:
         places, last, parts = self._places[:-1], int(self._places[-1]), self.parts
         inner = slope[places]
         return Linearisation(
-            lambda: (self.jacobian, inner),
+            lambda: (self._make()[0], inner),
             places,
             last + 1,
             None if parts is None else lambda: parts()._replace(slope=inner),
@@ -77,7 +77,8 @@ class Linearisation:
         """Return that of 2 R(border) − R(image), this one being at the border."""
 
         def made() -> tuple[Array, Array]:
-            return 2.0 * self.jacobian - image.jacobian, image.slope
+            there, slope = image._make()
+            return 2.0 * self._make()[0] - there, slope
 
         return Linearisation(made, self._places[:-1], int(self._places[-1]) + 1)
 
@@ -85,10 +86,8 @@ class Linearisation:
         """Return that of 2 R(this) − R(image) at one point."""
 
         def made() -> tuple[Array, Array]:
-            return (
-                2.0 * self.jacobian - image.jacobian,
-                2.0 * self.slope - image.slope,
-            )
+            (here, slope), (there, other) = self._make(), image._make()
+            return 2.0 * here - there, 2.0 * slope - other
 
         return Linearisation(made, self._places[:-1], int(self._places[-1]) + 1)
 
@@ -104,24 +103,26 @@ class Linearisation:
             If there is no solution.
         """
         border = normal[self._places]
-        if self._factors is None:
-            self._factors = border, self._factored(border)
-        known, factors = self._factors
         wanted = right[self._places]
         try:
-            found = (
-                factors.solve(wanted)
-                if np.array_equal(border, known)
-                else _turned(factors, border, wanted)
-            )
+            found = self._bordered(border, wanted)
         except UnreachedError:
             self.parts, self._factors = None, None
-            return self.solve(normal, right)
+            found = self._bordered(border, wanted)
         if not np.all(np.isfinite(found)):
             raise SingularError
         solution = np.zeros_like(right)
         solution[self._places] = found
         return solution
+
+    def _bordered(self, border: Array, right: Array) -> Array:
+        """Return the solution of the unknowns, and keep what solves."""
+        if self._factors is None:
+            self._factors = border, self._factored(border)
+        known, factors = self._factors
+        if np.array_equal(border, known):
+            return factors.solve(right)
+        return _turned(factors, border, right)
 
     def forget(self) -> None:
         """Let go of derivatives and factors: what solves again makes them anew."""

@@ -17,8 +17,6 @@ LARGE = 1200
 MANY, LEAST = 800, 31
 """unknowns whose factors cost as much as their iterations, and harmonics that are
 factored however many unknowns they have"""
-WIDE = 2**24
-"""most tangents at samples that are held, which is 128 MB"""
 
 
 class LowOrders:
@@ -29,7 +27,7 @@ class LowOrders:
         self._active, harmonics = active, len(active) // 2
         low = max((harmonics - 1) // 2, 1)
         while low > LEAST and _count(active, low) > MANY:
-            low = (low - 1) // 2
+            low = max((low - 1) // 2, LEAST)
         self._harmonics = low
         self._terms = terms(active[: 2 * low + 1])
         self._unknowns = np.flatnonzero(active)
@@ -39,9 +37,10 @@ class LowOrders:
     @staticmethod
     def serve(active: NDArray[np.bool_], samples: int) -> bool:
         """Return whether taking it apart is likely to cost less than all factors."""
-        harmonics, rank = len(active) // 2, active.shape[1]
-        large = np.count_nonzero(active) > LARGE and harmonics > 2 * LEAST
-        return bool(large and 2 * rank**2 * samples <= WIDE)
+        unknowns, rank = np.count_nonzero(active), active.shape[1]
+        held = 2 * rank**2 * samples  # tangents, in place of the Jacobian
+        large = unknowns > LARGE and len(active) // 2 > 2 * LEAST
+        return bool(large and held <= unknowns**2)
 
     def parts(
         self,

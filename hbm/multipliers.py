@@ -85,7 +85,7 @@ class Multipliers:
         asks = falls or _rattles(normal_smallest)
         if self.fixed or known.size == 0 or not asks:
             return known, fourier, True
-        if coarser and not falls and _change(self.at(*coarser), known) < ALIKE:
+        if coarser and not falls and self._alike(coarser, known):
             return known, fourier, True
         orbit, trusted, confirmed = point, fourier, True
         while fourier.harmonics < HARMONICS:
@@ -99,6 +99,11 @@ class Multipliers:
             if _change(before, known) < CHANGE:
                 break
         return known, trusted, confirmed
+
+    def _alike(self, coarser: tuple[Array, FourierBasis], known: ComplexArray) -> bool:
+        """Return whether an orbit with fewer harmonics has the same multipliers."""
+        others = self.at(*coarser)
+        return others.size == known.size and _change(others, known) < ALIKE
 
     def _falls(self, point: Array, fourier: FourierBasis) -> bool:
         """Return whether friction falls with the speed on an orbit just looked at."""

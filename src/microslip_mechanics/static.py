@@ -130,7 +130,7 @@ def _below(problem: Problem, state: Array) -> Array | None:
         return None
     if problem.preload @ direction < 0.0:
         direction = -direction
-    noise = 1e-10 * abs(energy) + _rounding(problem, state) * np.abs(state).sum()
+    noise = 1e-14 * abs(energy) + _rounding(problem, state) * np.abs(state).sum()
     far = max(NEAR, (2.0 * noise / size) ** 0.5)
     lowest, place = energy, state
     while far < ENDLESS:

@@ -16,7 +16,10 @@ from hbm.path import along_frequency
 from hbm.residual import HarmonicBalance
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from rigs import rig_problem
 
 FREQUENCY = 2.0 * np.pi * 134.9
@@ -132,6 +135,54 @@ def test_what_takes_too_many_products_is_solved_by_factors(
     missing = linearised.jacobian @ found[unknowns] + found[-1] * linearised.slope
     size = np.abs(linearised.jacobian) @ np.abs(found[unknowns])
     assert np.abs(missing - right[unknowns]).max() <= 1e-10 * size.max()
+
+
+@pytest.mark.parametrize("harmonics", [127, 140])
+def test_coordinates_of_odd_harmonics_alone_are_solved(harmonics: int) -> None:
+    masses = 12
+    names = tuple(f"x{each}" for each in range(masses))
+    law = RegularisedCoulomb(mu=0.3, load=1.0, threshold_velocity=1e-3)
+    ring = 2.0 * np.eye(masses) - np.eye(masses, k=1) - np.eye(masses, k=-1)
+    problem = system(
+        mass=np.ones(masses),
+        stiffness=1e3 * ring,
+        names=names,
+        elements=[Element(law, tangents=[(name, "ground")]) for name in names],
+        drive={"x0": (3.0, 0.0)},
+    )
+    path = along_frequency(problem, static_equilibrium(problem), 30.0, 31.0)
+    assert not path.mask(harmonics)[4::4].any()
+    balance = path.balance(FourierBasis(harmonics, 8 * (harmonics + 1)))
+    rng = np.random.default_rng(6)
+    moved = 1e-4 * rng.standard_normal((2 * harmonics + 1, masses))
+    point = np.append(moved.ravel(), 30.0)
+    residual, linearised = balance(point)
+    unit = np.zeros(point.size)
+    unit[-1] = 1.0
+
+    found = linearised.solve(unit, np.append(residual, 0.0))
+
+    assert linearised.parts is not None
+    unknowns = np.flatnonzero(path.mask(harmonics))
+    expected = np.linalg.solve(linearised.jacobian, residual[unknowns])
+    away = np.linalg.norm(found[unknowns] - expected)
+    assert away <= 1e-3 * np.linalg.norm(expected)
+
+
+def test_another_last_component_has_its_own_slope() -> None:
+    balance, point, unknowns = case(symmetry=True)
+    _, linearised = balance(point)
+    balance.contact(np.zeros((FOURIER.coefficients, balance.rank)), FREQUENCY)
+    slope = np.zeros(point.size - 1)
+    slope[unknowns] = np.random.default_rng(7).standard_normal(unknowns.size)
+    unit = np.zeros(point.size)
+    unit[-1] = 1.0
+
+    found = linearised.along(slope).solve(unit, unit)
+
+    expected = -np.linalg.solve(linearised.jacobian, slope[unknowns])
+    away = np.linalg.norm(found[unknowns] - expected)
+    assert away <= 1e-4 * np.linalg.norm(expected)
 
 
 def test_few_unknowns_are_factored_at_once(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -264,6 +264,20 @@ def test_rest_of_two_wells_without_any_load_is_in_one_of_them() -> None:
     assert abs(static_equilibrium(problem).displacement[0]) == pytest.approx(0.01)
 
 
+def test_shallow_wells_are_seen_beside_a_large_preload() -> None:
+    problem = system(
+        mass=[1.0, 2.0],
+        stiffness=[[-100.0, 0.0], [0.0, 1e5]],
+        names=("x", "y"),
+        elements=[Element(CubicSpring(cubic=1e12), between=("x", "ground"))],
+        preload={"y": 1e4},
+    )
+
+    assert abs(static_equilibrium(problem).displacement[0]) == pytest.approx(
+        1e-5, rel=1e-3
+    )
+
+
 def test_rest_that_no_spring_holds_is_kept() -> None:
     problem = system(
         mass=[1.0, 2.0],

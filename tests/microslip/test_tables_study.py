@@ -103,6 +103,16 @@ def test_halved_row_holds_the_finer_energy_and_what_it_changed() -> None:
     assert row.estimated == fine.estimated < coarse.estimated
 
 
+def test_a_row_is_told_no_less_than_half_the_step_shows(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(tables, "_estimated", lambda _: 1e-12)
+
+    (row,) = rows("two-blades", (COULOMB,), halve=True)
+
+    assert row.estimated == pytest.approx(abs(row.half_step_change) / 3.0)
+
+
 def test_rows_come_one_by_one() -> None:
     wrong = Variant("wrong", ("model=C",), 0.0)
 

@@ -44,7 +44,7 @@ class BandedOrders:
         """
         self._first, self._wanted = first, wanted
         places = np.cumsum(wanted.ravel()).reshape(wanted.shape) - 1
-        self._count, self._orders = int(wanted.sum()), first + np.arange(len(wanted))
+        self._count = int(wanted.sum())
         most = min(WIDTH, len(wanted) - 1)
         pairs = [_pairs(wanted, places, each) for each in range(-most, most + 1)]
         # orders of another parity may have no coordinate

@@ -26,7 +26,7 @@ def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
     contact = problem.contact(PROBE)
     still = np.zeros((PROBE.coefficients, problem.rank))
     still[0] = problem.rest
-    at_rest, _ = contact(still, frequency)
+    at_rest = contact(still, frequency)
     largest = _stuck(problem, frequency)
     driven = [_large(_load(problem, share * frequency)) for share in BESIDE]
     active = np.zeros(still.shape, dtype=bool)
@@ -42,7 +42,7 @@ def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
             motion = size * largest * random.normal(size=active.shape) * active
             motion[0] = problem.rest + 1e-3 * motion[0]
             with np.errstate(over="ignore", invalid="ignore"):
-                force, _ = contact(motion, frequency)
+                force = contact(motion, frequency)
                 grown |= _large(np.nan_to_num(force - at_rest))
         grown = _paired(grown)
         if np.array_equal(grown, active):

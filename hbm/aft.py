@@ -13,7 +13,7 @@ from hbm.contact_cycle import ContactCycle, contact_cycle
 from hbm.fourier import FourierBasis, Transform
 from hbm.memory import FrictionMemory, marched
 from hbm.sampling import sample
-from hbm.symmetry import Symmetry, holds, symmetry
+from hbm.symmetry import Symmetry, holds, mirror, symmetry
 from hbm.tangent_entries import kinds, mixing, tangent_entries
 from hbm.tangent_product import TangentProduct
 from hbm.traces import Traces
@@ -29,7 +29,7 @@ class Call(NamedTuple):
     motion: tuple[float, float]
     """frequency and decay"""
     coefficients: Array
-    result: tuple[Array, Array]
+    force: Array
 
     def answers(
         self, number: int, motion: tuple[float, float], coefficients: Array
@@ -99,8 +99,10 @@ class AlternatingFrequencyTime:
             self._entries,
             None if recalls or samples % 2 else odd,
         )
-        self._seen = samples // 2 + 1 if self._symmetry.signs.size else samples
-        self._traces = Traces(basis, fourier)
+        self._signs = np.empty(0)
+        if odd is not None and self._symmetry.signs.size:
+            self._signs = np.where(odd, -1.0, 1.0)
+        self._traces = Traces(basis, fourier, self._signs)
         self._spectrum = Transform(len(self._entries), samples)
         self._mixing = mixing(basis, self._entries)
         self._calls = [0]
@@ -133,8 +135,8 @@ class AlternatingFrequencyTime:
 
     def __call__(
         self, coefficients: Array, frequency: float, decay: float = 0.0
-    ) -> tuple[Array, Array]:
-        """Return force and its derivative by ω for y, each shape (2H + 1, rank).
+    ) -> Array:
+        """Return the coefficients of the force on y [N], shape (2H + 1, rank).
 
         Parameters
         ----------
@@ -144,30 +146,29 @@ class AlternatingFrequencyTime:
             Excitation frequency ω [rad/s]; turns the derivative by phase into velocity.
         decay
             Rate β [1/s] at which the motion about its mean dies away: it slows the
-            velocity by β times that motion (theory, eq. 27). The derivative by ω is
-            that of a steady motion.
-
-        Returns
-        -------
-        Coefficients of the force on y [N] and of ∂force/∂ω [N s/rad].
+            velocity by β times that motion (theory, eq. 27).
         """
         last, motion = self._last, (frequency, decay)
         if last is not None and last.answers(self.calls, motion, coefficients):
-            return last.result
-        result = self._evaluated(coefficients, frequency, decay)
-        self._last = Call(self.calls, motion, coefficients.copy(), result)
-        return result
+            return last.force
+        force = self._evaluated(coefficients, frequency, decay)
+        self._last = Call(self.calls, motion, coefficients.copy(), force)
+        return force
 
-    def _evaluated(
-        self, coefficients: Array, frequency: float, decay: float
-    ) -> tuple[Array, Array]:
-        """Return force and its derivative by ω, and fill the buffers."""
+    def by_frequency(self, frequency: float) -> Array:
+        """Return ∂force/∂ω [N s/rad] of the last call, shape (2H + 1, rank).
+
+        It is that of a steady motion; ``frequency`` is the one that was asked for.
+        """
+        return self._traces.changes() / frequency
+
+    def _evaluated(self, coefficients: Array, frequency: float, decay: float) -> Array:
+        """Return the force, and fill the buffers."""
         self._calls[0] += 1
         traces = self._traces
-        displacement, velocity = traces.motion(
-            coefficients, frequency, decay, self._seen
-        )
-        self._moved = displacement + self._offset[:, None], velocity
+        displacement, velocity = traces.motion(coefficients, frequency, decay)
+        displacement += self._offset[:, None]
+        self._moved = displacement, velocity
         sample(
             self._points,
             *self._moved,
@@ -179,8 +180,7 @@ class AlternatingFrequencyTime:
         )
         if self._memory is not None:
             self._memory.add(self._points, self._moved, frequency, *traces.regular)
-        force, change = traces.forces()
-        return force, change / frequency
+        return traces.forces()
 
     @property
     def calls(self) -> int:
@@ -189,7 +189,10 @@ class AlternatingFrequencyTime:
 
     @property
     def tangents(self) -> Array:
-        """Tangents of the last call over the period, shape (entries, samples)."""
+        """Tangents of the last call at the samples, shape (entries, samples).
+
+        With a symmetry those of the second half of the period are not filled in.
+        """
         return self._spectrum.samples
 
     def spectra(self, harmonics: int) -> tuple[Array, Array]:
@@ -197,19 +200,22 @@ class AlternatingFrequencyTime:
 
         Each has shape ``(rank, rank, 2 harmonics + 1)`` in the order a₀, a₁, b₁, ….
         """
+        symmetry, rank = self._symmetry, self._basis.shape[1]
+        mirror(self.tangents, symmetry.entry_partners, symmetry.entry_signs)
         kept = self._spectrum.analysis(harmonics)
-        rank = self._basis.shape[1]
         mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, len(kept))
         return mixed[0], mixed[1]
 
     def product(self) -> TangentProduct:
         """Return what multiplies motions by the tangents of the last call."""
-        rank, samples, half = self._basis.shape[1], self.samples, self._seen
-        signs = np.ones(rank)
-        if self._symmetry.signs.size and self._odd is not None:
-            half, signs = samples // 2, np.where(self._odd, -1.0, 1.0)
+        rank, samples, signs = self._basis.shape[1], self.samples, self._signs
+        half = samples // 2 if signs.size else samples
         mixed = np.dot(self._mixing, self.tangents[:, :half])
-        return TangentProduct(mixed.reshape(2, rank, rank, half), samples, signs)
+        return TangentProduct(
+            mixed.reshape(2, rank, rank, half),
+            samples,
+            signs if signs.size else np.ones(rank),
+        )
 
     def add_remembered(
         self, frequency: float, places: NDArray[np.int64], jacobian: Array

@@ -204,7 +204,7 @@ def _evaluated(
     points = problem.interface.points
     fourier = FourierBasis(1, samples)
     contact = AlternatingFrequencyTime(points, np.eye(motion.shape[1]), fourier)
-    force, _ = contact(motion, frequency)
+    force = contact(motion, frequency)
     stiffness, damping = (np.diagonal(each[..., 0]) for each in contact.spectra(0))
     count = motion.shape[1]
     cosines, remembered = np.full((3, count), -1), np.zeros((count, count))

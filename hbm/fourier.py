@@ -14,9 +14,9 @@ import pyfftw
 
 from microslip_mechanics.arrays import Array, ComplexArray
 
-PRODUCT = 2**14
-"""entries of a matrix up to which a product by it is faster than a fast transform, by
-``tests/benchmarks/growth.py``"""
+PRODUCT, FEW = 2**14, 7
+"""entries of a matrix, or harmonics, up to which a product by it is faster than a fast
+transform, by ``tests/benchmarks/growth.py``"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,8 @@ class FourierBasis:
 class Transform:
     """Transforms of a fixed number of signals: products by a matrix, or FFTW's.
 
-    Products are faster up to :data:`PRODUCT` entries of the matrix.
+    Products are faster up to :data:`PRODUCT` entries of the matrix, or :data:`FEW`
+    harmonics.
     """
 
     def __init__(self, signals: int, samples: int) -> None:
@@ -67,7 +68,7 @@ class Transform:
         ``coefficients`` has shape ``(2 harmonics + 1, signals)``.
         """
         harmonics, samples = len(coefficients) // 2, self._time.shape[1]
-        if len(coefficients) * samples <= PRODUCT:
+        if multiplies(harmonics, samples):
             there, _ = _small_waves(harmonics, samples)
             np.dot(coefficients.T, there, out=self._time)
             return self._time
@@ -90,7 +91,7 @@ class Transform:
         Of the first ``signals``, or of all.
         """
         samples = self._time.shape[1]
-        if (2 * harmonics + 1) * samples <= PRODUCT:
+        if multiplies(harmonics, samples):
             _, back = _small_waves(harmonics, samples)
             coefficients: Array = np.dot(back, self._time[:signals].T)
             return coefficients
@@ -115,6 +116,11 @@ class Transform:
                 spectrum, self._time, direction="FFTW_BACKWARD", flags=estimate
             ),
         )
+
+
+def multiplies(harmonics: int, samples: int) -> bool:
+    """Return whether signals are transformed by a product."""
+    return harmonics <= FEW or (2 * harmonics + 1) * samples <= PRODUCT
 
 
 def waves(harmonics: int, samples: int) -> tuple[Array, Array]:

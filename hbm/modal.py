@@ -82,7 +82,7 @@ class ModalBalance:
         self._outer = wide[1:3, self.rank :].ravel()
         self._still = np.zeros(active.shape)
         self._still[0] = problem.rest
-        self._held, _ = self._contact(self._still, self._speed)
+        self._held = self._contact(self._still, self._speed)
 
     def point(self, parts: ModalParts, size: int) -> Array:
         """Return the point of some parts, with ``size`` components."""
@@ -130,8 +130,12 @@ class ModalBalance:
         moved[1] = self.free.motion(parts.pole, amplitudes[1], parts.modal)
         return parts.amplitude * to_real(moved)
 
-    def residual(self, point: Array) -> tuple[Array, _State]:
-        """Return the residual, (size − 1,), and what led to it."""
+    def residual(self, point: Array) -> Array:
+        """Return the residual, (size − 1,)."""
+        return self._evaluated(point)[0]
+
+    def _evaluated(self, point: Array) -> tuple[Array, _State]:
+        """Return the residual, and what led to it."""
         parts = self.parts(point)
         amplitudes = to_complex(parts.shape)
         first = self._first(parts.pole, amplitudes[1], parts.modal)
@@ -144,7 +148,7 @@ class ModalBalance:
         left[1], by_pole[0], by_pole[1] = first.left, 0.0, first.by_pole
         # A trial may go so far that forces overflow: the corrector turns back then.
         with np.errstate(over="ignore", invalid="ignore"):
-            force, _ = self._contact(
+            force = self._contact(
                 self._still + parts.amplitude * parts.shape,
                 parts.pole.imag,
                 -parts.pole.real,
@@ -158,7 +162,7 @@ class ModalBalance:
 
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
         """Return the residual, (size − 1,), and what solves with its Jacobian."""
-        whole, state = self.residual(point)
+        whole, state = self._evaluated(point)
         structure = self._assembled(None, state.stiffness)
         contact, by_pole, by_logarithm = self._contacts(state)
         turned = state.by_pole

@@ -53,14 +53,12 @@ class ParametricBalance:
         residual, linearised = self._inside(here)
         return 2.0 * residual - before, linearised.continued(falling)
 
-    def residual(self, point: Array) -> tuple[Array, Array]:
-        """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
+    def residual(self, point: Array) -> Array:
+        """Return the residual [N], (size − 1,)."""
         here, mirrored = self._reflected(point)
         if mirrored is None:
             return self._residual(here)
-        before, earlier = self._residual(mirrored)
-        residual, by_frequency = self._residual(here)
-        return 2.0 * residual - before, 2.0 * by_frequency - earlier
+        return 2.0 * self._residual(here) - self._residual(mirrored)
 
     def _reflected(self, point: Array) -> tuple[Array, Array | None]:
         """Return a point, or where it leaves the limits and its mirror image there."""
@@ -76,12 +74,12 @@ class ParametricBalance:
             difference = -difference
         ahead = point.copy()
         ahead[-1] += difference
-        later, _ = self._residual(ahead)
+        later = self._residual(ahead)
         balance, inner = self.at_frequency(point)
         residual, linearised = balance(inner)
         return residual, linearised.along((later - residual) / difference)
 
-    def _residual(self, point: Array) -> tuple[Array, Array]:
+    def _residual(self, point: Array) -> Array:
         balance, inner = self.at_frequency(point)
         return balance.residual(inner)
 

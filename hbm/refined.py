@@ -30,8 +30,8 @@ class Resolved(Protocol):
     def __call__(self, point: Array) -> tuple[Array, Linearised]:
         """Return the residual, and what solves with its Jacobian."""
 
-    def residual(self, point: Array) -> tuple[Array, object]:
-        """Return the residual, and what belongs to it."""
+    def residual(self, point: Array) -> Array:
+        """Return the residual alone."""
 
     def impulses(self, above: int, most: int) -> float:
         """Return the norm of the contact impulses between two orders, last call."""

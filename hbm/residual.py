@@ -29,8 +29,8 @@ class Balance(Protocol):
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
         """Return the residual [N], (size − 1,), and what solves with its Jacobian."""
 
-    def residual(self, point: Array) -> tuple[Array, Array]:
-        """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
+    def residual(self, point: Array) -> Array:
+        """Return the residual [N], (size − 1,)."""
 
     def impulses(self, above: int, most: int) -> float:
         """Return the norm of the contact impulses between two orders, last call."""
@@ -103,13 +103,13 @@ class HarmonicBalance:
 
         Derivatives are taken by the active coefficients and by the frequency.
         """
-        residual, by_frequency = self.residual(point)
+        residual = self.residual(point)
         calls, frequency, low = self.contact.calls, float(point[-1]), self._low
 
         def slope() -> Array:
             if self.contact.calls != calls:
                 self.residual(point)  # other tangents lie in the buffers
-            return self._slope(point, by_frequency)
+            return self._slope(point)
 
         def made() -> tuple[Array, Array]:
             by_last = slope()
@@ -135,14 +135,15 @@ class HarmonicBalance:
         self.contact.add_remembered(frequency, self._places, jacobian)
         return jacobian
 
-    def _slope(self, point: Array, by_frequency: Array) -> Array:
+    def _slope(self, point: Array) -> Array:
         """Return ∂R/∂ω of the unknowns where the contacts were called."""
         coefficients, frequency = self.split(point)
         _, _, load_change = self._linear(frequency)
         variable, amplitudes = self._orders * frequency, to_complex(coefficients)
         turned = self.problem.condensed.slope(variable, amplitudes) - load_change
         change = to_real(self._orders[:, None] * turned)
-        slope: Array = (change + by_frequency).ravel()[self._terms.unknowns]
+        whole = change + self.contact.by_frequency(frequency)
+        slope: Array = whole.ravel()[self._terms.unknowns]
         return slope
 
     def _held(self, frequency: float) -> ComplexArray:
@@ -151,17 +152,17 @@ class HarmonicBalance:
         stiffness[0] += self.problem.gauge
         return stiffness
 
-    def residual(self, point: Array) -> tuple[Array, Array]:
-        """Return the residual [N], and ∂(contact force)/∂ω of shape (2H + 1, rank)."""
+    def residual(self, point: Array) -> Array:
+        """Return the residual [N], (size − 1,)."""
         coefficients, frequency = self.split(point)
         stiffness, load, _ = self._linear(frequency)
         amplitudes = to_complex(coefficients)[..., None]
-        force, by_frequency = self.contact(coefficients, frequency)
+        force = self.contact(coefficients, frequency)
         residual = to_real((stiffness @ amplitudes)[..., 0] - load) + force
         residual[0] += self.problem.gauge @ coefficients[0]
         whole = np.zeros(point.size - 1)
         whole[: residual.size] = np.where(self._active, residual, 0.0).ravel()
-        return whole, by_frequency
+        return whole
 
     def impulses(self, above: int, most: int) -> float:
         """Return the norm of the contact impulses between two orders, last call."""
@@ -188,7 +189,7 @@ class HarmonicBalance:
         if tractions is None:
             return point
         count, rank = tractions.rows.shape
-        missing = self.residual(point)[0].reshape(-1, rank + count)[:, :rank]
+        missing = self.residual(point).reshape(-1, rank + count)[:, :rank]
         filled = point.copy()
         filled[:-1].reshape(missing.shape[0], -1)[:, rank:] = (
             -missing @ np.linalg.pinv(tractions.rows) / tractions.scale

@@ -134,7 +134,7 @@ class Resolution(ABC):
     ) -> Array:
         """Return how a point changes, to first order, if friction is resolved."""
         smoother = replace(fourier, threshold=(1.0 + SMOOTHER) * fourier.threshold)
-        other, _ = self.at(smoother).residual(correction.point)
+        other = self.at(smoother).residual(correction.point)
         slope = (other - correction.residual) / SMOOTHER
         return correction.linearised.solve(normal, np.append(slope, 0.0))
 

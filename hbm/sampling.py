@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.refinement import Samples, Work, refine
-from hbm.symmetry import Symmetry, mirror
+from hbm.symmetry import Symmetry
 from hbm.transitions import EVENTS, faded, locate, passes
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ContactPoints, contact_force, edge, rubs
@@ -41,7 +41,9 @@ def sample(
     extra: Forces,
     tangents: Array,
 ) -> None:
-    """Write forces, (∂force/∂velocity) velocity, and chosen tangents at all samples.
+    """Write forces, (∂force/∂velocity) velocity, and chosen tangents at the samples.
+
+    With a symmetry those are the ones of the first half of the period.
 
     Parameters
     ----------
@@ -55,7 +57,7 @@ def sample(
     symmetry
         Of half a period.
     regular
-        Written: what the samples see, the last axis with all samples.
+        Written: what the samples see; the last axis has all samples.
     extra
         Written: what cells with events add to it, for :func:`hat`.
     tangents
@@ -102,10 +104,6 @@ def sample(
                     points, point, displacement, velocity, work, made, bounds[point],
                     bounds[point + 1], place, after, events[: found + 2], symmetry,
                 )  # fmt: skip
-    for forces in (regular, extra):
-        mirror(forces.force, symmetry.partners, symmetry.signs)
-        mirror(forces.change, symmetry.partners, symmetry.signs)
-    mirror(tangents, symmetry.entry_partners, symmetry.entry_signs)
 
 
 def hat(harmonics: int, samples: int) -> Array:

@@ -282,25 +282,27 @@ EXTENSIVE = ("stiffness", "damping", "load", "viscous")
 
 def transforms() -> None:
     """Compare FFTW with products by a matrix, there and back, and what is chosen."""
-    print("\ntransforms of 6 signals, there and back [µs]; samples 16 (H + 1), and 8")
+    print("\ntransforms of 6 signals, there and back [µs]; samples 8, 16, 512 (H + 1)")
     print("   harmonics     samples        FFTW      matrix  matrix/FFTW  chosen")
-    chosen = hbm.fourier.PRODUCT
+    chosen = hbm.fourier.multiplies
     for harmonics in (1, 3, 7, 15, 31, 63):
-        for share in (8, 16):
+        for share in (8, 16, 512):
             samples = share * (harmonics + 1)
-            fast = transformed(6, harmonics, samples, 0)
-            plain = transformed(6, harmonics, samples, sys.maxsize)
-            small = (2 * harmonics + 1) * samples <= chosen
+            fast = transformed(6, harmonics, samples, by_product=False)
+            plain = transformed(6, harmonics, samples, by_product=True)
+            small = chosen(harmonics, samples)
             print(
                 f"{harmonics:12d}{samples:12d}{1e6 * fast:12.1f}{1e6 * plain:12.1f}"
                 f"{plain / fast:13.2f}  {'matrix' if small else 'FFTW'}"
             )
-    hbm.fourier.PRODUCT = chosen
+    hbm.fourier.multiplies = chosen
 
 
-def transformed(signals: int, harmonics: int, samples: int, product: int) -> float:
-    """Return the seconds there and back with a limit on the size of matrices."""
-    hbm.fourier.PRODUCT = product
+def transformed(
+    signals: int, harmonics: int, samples: int, *, by_product: bool
+) -> float:
+    """Return the seconds there and back, by a product or by a fast transform."""
+    hbm.fourier.multiplies = lambda *_: by_product
     coefficients = np.random.default_rng(0).normal(size=(2 * harmonics + 1, signals))
     transform = Transform(signals, samples)
     transform.synthesis(coefficients)

@@ -40,7 +40,7 @@ def sliding(samples: int, threshold: float) -> tuple[Array, ContactCycle]:
     )
     contact = one_point(points, samples=samples)
     motion = moved(first=(SINE, AMPLITUDE))
-    return contact(motion, FREQUENCY)[0], contact.cycle(motion, FREQUENCY)
+    return contact(motion, FREQUENCY), contact.cycle(motion, FREQUENCY)
 
 
 @pytest.mark.parametrize("order", [1, 3])
@@ -100,7 +100,7 @@ def test_a_contact_that_opens_half_of_the_time_rectifies_the_motion() -> None:
     contact, motion = one_point(points, samples=samples), moved(normal=(COSINE, 1.0))
 
     force, cycle = (
-        contact(motion, FREQUENCY)[0][:, 0],
+        contact(motion, FREQUENCY)[:, 0],
         contact.cycle(motion, FREQUENCY),
     )
 
@@ -116,7 +116,8 @@ def test_separated_faces_exchange_no_force() -> None:
     contact = one_point(contact_points(threshold=1e-3))
     motion = moved(normal=(MEAN, -1.0), first=(SINE, 1.0))
 
-    force, by_frequency = contact(motion, FREQUENCY)
+    force = contact(motion, FREQUENCY)
+    by_frequency = contact.by_frequency(FREQUENCY)
     cycle = contact.cycle(motion, FREQUENCY)
 
     for each in (force, by_frequency, contact.tangents, *contact.spectra(3)):
@@ -184,10 +185,10 @@ def test_force_on_the_coordinates_is_that_of_the_points_brought_back() -> None:
     basis = np.linalg.qr(rng.standard_normal((6, 4)))[0]
     motion = rng.standard_normal((5, 4))
 
-    force, _ = AlternatingFrequencyTime(points, basis, fourier)(motion, FREQUENCY)
+    force = AlternatingFrequencyTime(points, basis, fourier)(motion, FREQUENCY)
 
     at_points = AlternatingFrequencyTime(points, np.eye(6), fourier)
-    expected = at_points(motion @ basis.T, FREQUENCY)[0] @ basis
+    expected = at_points(motion @ basis.T, FREQUENCY) @ basis
     np.testing.assert_allclose(force, expected, atol=1e-14)
 
 

@@ -121,7 +121,8 @@ def test_without_events_the_tangents_are_those_of_the_law_at_each_sample(
     samples = 20
     contact = AlternatingFrequencyTime(points, basis, FourierBasis(HARMONICS, samples))
 
-    _, by_frequency = contact(motion, FREQUENCY)
+    contact(motion, FREQUENCY)
+    by_frequency = contact.by_frequency(FREQUENCY)
 
     values, rates = waves(samples)
     expected = tangents_at(points, values @ motion, rates @ motion)

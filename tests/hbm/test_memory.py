@@ -53,7 +53,7 @@ def test_first_harmonic_of_jenkins_is_that_of_the_describing_function(
     times: float,
 ) -> None:
     amplitude = times * LIMIT / STIFFNESS
-    force, _ = contact(JENKINS, TANGENT)(sine(amplitude), FREQUENCY)
+    force = contact(JENKINS, TANGENT)(sine(amplitude), FREQUENCY)
     turn = np.arccos(1.0 - 2.0 / times)
     in_phase = STIFFNESS * amplitude / np.pi * (turn - 0.5 * np.sin(2.0 * turn))
     out_of_phase = 4.0 * LIMIT / np.pi * (1.0 - 1.0 / times)
@@ -62,7 +62,7 @@ def test_first_harmonic_of_jenkins_is_that_of_the_describing_function(
 
 
 def test_stuck_slider_is_a_spring_that_carries_no_mean_force() -> None:
-    force, _ = contact(JENKINS, TANGENT)(sine(0.9 * LIMIT / STIFFNESS, 3.0), FREQUENCY)
+    force = contact(JENKINS, TANGENT)(sine(0.9 * LIMIT / STIFFNESS, 3.0), FREQUENCY)
     expected = np.zeros(11)
     expected[2] = 0.9 * LIMIT
     assert force[:, 0] == pytest.approx(expected, abs=1e-12)
@@ -119,7 +119,8 @@ def test_tangents_agree_with_differences(kind: int, constant: bool) -> None:
     points = contact(law, EVERY, harmonics=3, samples=256)
     random = np.random.default_rng(4)
     coefficients = 0.25 * random.normal(size=(7, 3))
-    force, change = points(coefficients, FREQUENCY)
+    force = points(coefficients, FREQUENCY)
+    change = points.by_frequency(FREQUENCY)
     remembered = np.zeros((21, 21))
     points.add_remembered(FREQUENCY, np.arange(21).reshape(7, 3), remembered)
     assert np.abs(force[:, 1:]).max() > 0.05
@@ -127,13 +128,13 @@ def test_tangents_agree_with_differences(kind: int, constant: bool) -> None:
     for place in ((0, 0), (3, 1), (6, 2)):
         moved = np.zeros_like(coefficients)
         moved[place] = step
-        forward, _ = points(coefficients + moved, FREQUENCY)
-        backward, _ = points(coefficients - moved, FREQUENCY)
+        forward = points(coefficients + moved, FREQUENCY)
+        backward = points(coefficients - moved, FREQUENCY)
         slope = (forward - backward)[:, 1:] / (2.0 * step)
         known = remembered.reshape(7, 3, 7, 3)[:, 1:, *place]
         assert known == pytest.approx(slope, abs=2e-5 * np.abs(slope).max())
     # rounding of the forces is a ten-millionth of this difference
-    faster, _ = points(coefficients, FREQUENCY * (1.0 + 1e-5))
-    slower, _ = points(coefficients, FREQUENCY * (1.0 - 1e-5))
+    faster = points(coefficients, FREQUENCY * (1.0 + 1e-5))
+    slower = points(coefficients, FREQUENCY * (1.0 - 1e-5))
     by_frequency = (faster - slower) / (2e-5 * FREQUENCY)
     assert change == pytest.approx(by_frequency, abs=1e-6 * np.abs(by_frequency).max())

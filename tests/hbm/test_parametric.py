@@ -54,7 +54,7 @@ def test_the_derivatives_are_those_of_the_residual_beyond_the_range_too(
     _, linearised = balance(point)
     step = draw.normal(size=point.size) * np.append(np.full(point.size - 1, 1e-3), 1.0)
     ahead, behind = (point + sign * 1e-5 * step for sign in (1.0, -1.0))
-    change = (balance.residual(ahead)[0] - balance.residual(behind)[0]) / 2e-5
+    change = (balance.residual(ahead) - balance.residual(behind)) / 2e-5
 
     unknowns = np.flatnonzero(path.mask(fourier.harmonics))
     found = linearised.jacobian @ step[unknowns] + linearised.slope * step[-1]

@@ -36,10 +36,10 @@ class Root:
 
     def __call__(self, point: Array) -> tuple[Array, Linearised]:
         slope = 2.0 * point[0] if not self._away else -0.3 * point[0]
-        return self.residual(point)[0], Slope(slope)
+        return self.residual(point), Slope(slope)
 
-    def residual(self, point: Array) -> tuple[Array, None]:
-        return point[:1] ** 2 - 2.0, None
+    def residual(self, point: Array) -> Array:
+        return point[:1] ** 2 - 2.0
 
     def impulses(self, above: int, most: int) -> float:
         assert most == 2 * above + 1

@@ -191,7 +191,7 @@ def test_residual_is_what_the_full_equations_of_motion_miss(model: str) -> None:
 
     structure = problem.structure
     coefficients, frequency = balance.split(point)
-    contact = to_complex(balance.contact(coefficients, frequency)[0])
+    contact = to_complex(balance.contact(coefficients, frequency))
     selection = balance.problem.selection
     motion = to_complex(balance.motion(point))
     missed = to_complex(residual.reshape(coefficients.shape))

@@ -233,8 +233,8 @@ def test_jacobian_is_that_of_differences(
     for column in range(point.size):
         step = np.zeros(point.size)
         step[column] = 1e-6
-        high, _ = balance.residual(point + step)
-        low, _ = balance.residual(point - step)
+        high = balance.residual(point + step)
+        low = balance.residual(point - step)
         slope = (high - low) / 2e-6
         np.testing.assert_allclose(exact[:, column], slope, atol=1e-6 * scale)
 

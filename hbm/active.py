@@ -85,7 +85,7 @@ def _parities(
 def _load(problem: RelativeProblem, frequency: float) -> ComplexArray:
     """Return the drive as the coordinates see it [N], shape (rank,)."""
     variable = np.array([1j * frequency])
-    load, _ = problem.condensed.load(variable, problem.force[1:])
+    load, _ = problem.condensed.loading(problem.force[1:])(variable)
     seen: ComplexArray = load[0]
     return seen
 

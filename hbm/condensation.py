@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.condensed import Loading
 from hbm.dynamic_stiffness import dynamic_stiffness, returned_load, stiffness_slope
 from hbm.stuck_poles import split, stuck_poles
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -153,16 +154,15 @@ class CondensedStructure:
         )
         return value
 
-    def load(
-        self, variable: ComplexArray, force: ComplexArray
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return the load that reaches y and its derivative by s.
+    def loading(self, force: ComplexArray) -> Loading:
+        """Return how loads reach y; ``force`` [N] has shape (orders, dofs)."""
+        modal, direct = force @ self.participation.T, force @ self.static
 
-        ``force`` [N] has shape ``(orders, dofs)``; the results ``(orders, rank)``.
-        """
-        modal = force @ self.participation.T
-        returned, change = returned_load(self.poles, *self._back, variable, modal)
-        return force @ self.static + returned, change
+        def load(variable: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+            returned, change = returned_load(self.poles, *self._back, variable, modal)
+            return direct + returned, change
+
+        return load
 
     def motion(
         self, variable: ComplexArray, relative: ComplexArray, force: ComplexArray

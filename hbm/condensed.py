@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections.abc import Callable
+from typing import Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array, ComplexArray
+
+Loading: TypeAlias = Callable[[ComplexArray], tuple[ComplexArray, ComplexArray]]
+"""s of each order ↦ the load that reaches y and its derivative by s, (orders, rank)"""
 
 
 class Condensed(Protocol):
@@ -39,10 +43,8 @@ class Condensed(Protocol):
     def slope(self, variable: ComplexArray, relative: ComplexArray) -> ComplexArray:
         """Return (dS/ds) y of each order, (orders, rank)."""
 
-    def load(
-        self, variable: ComplexArray, force: ComplexArray
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return the load that reaches y and its derivative by s, (orders, rank)."""
+    def loading(self, force: ComplexArray) -> Loading:
+        """Return how loads reach y; ``force`` [N] has shape (orders, dofs)."""
 
     def motion(
         self, variable: ComplexArray, relative: ComplexArray, force: ComplexArray

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from hbm.condensed import Loading
 from hbm.errors import hertz, placed
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency, among
@@ -138,10 +140,13 @@ class CyclicStructure:
             change[order, wave.sees] = out @ (slope @ moved)
         return change
 
-    def load(
-        self, variable: ComplexArray, force: ComplexArray
+    def loading(self, force: ComplexArray) -> Loading:
+        """Return how loads reach y; ``force`` [N] has shape (orders, dofs)."""
+        return partial(self._load, force)
+
+    def _load(
+        self, force: ComplexArray, variable: ComplexArray
     ) -> tuple[ComplexArray, ComplexArray]:
-        """Return the load that reaches y and its derivative by s, (orders, rank)."""
         value, change = np.zeros((2, variable.size, len(self._own)), complex)
         for order, wave in enumerate(self._orders(variable)):
             s = variable[order]

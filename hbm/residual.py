@@ -95,6 +95,7 @@ class HarmonicBalance:
             (len(self._still) // 2 + 1, problem.force.shape[1]), complex
         )
         self._force[:2] = problem.force
+        self._load = problem.condensed.loading(problem.force)
         self._at = np.nan
         self._structure: tuple[ComplexArray, ...] = ()
 
@@ -238,7 +239,7 @@ class HarmonicBalance:
             condensed, shape = self.problem.condensed, (variable.size, self.rank)
             # only the orders 0 and 1 are loaded
             loads = np.zeros((2, *shape), complex)
-            loads[:, :2] = condensed.load(variable[:2], self._force[:2])
+            loads[:, :2] = self._load(variable[:2])
             stiffness = condensed.dynamic_stiffness(variable, self._wanted)
             self._structure = (stiffness, *loads)
             self._at = frequency

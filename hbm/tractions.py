@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.condensed import Condensed
+from hbm.condensed import Condensed, Loading
 from microslip_mechanics.arrays import Array, ComplexArray
 
 LOOSE = 1e-9
@@ -132,13 +132,16 @@ class PushedStructure:
         inertial[rank:, :rank] = -(1.0 + LOOSE) * felt
         return inertial
 
-    def load(
-        self, variable: ComplexArray, force: ComplexArray
-    ) -> tuple[ComplexArray, ComplexArray]:
-        """Return the load on the coordinates and its derivative by s."""
-        none = np.zeros((len(variable), len(self.tractions.rows)))
-        load, change = self.inner.load(variable, force)
-        return np.hstack([load, none]), np.hstack([change, none])
+    def loading(self, force: ComplexArray) -> Loading:
+        """Return how loads reach the coordinates; none of them are pushes."""
+        inner, none = self.inner.loading(force), np.zeros(len(self.tractions.rows))
+
+        def load(variable: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+            left = np.tile(none, (len(variable), 1))
+            value, change = inner(variable)
+            return np.hstack([value, left]), np.hstack([change, left])
+
+        return load
 
     def motion(
         self, variable: ComplexArray, relative: ComplexArray, force: ComplexArray

@@ -77,7 +77,7 @@ def test_condensed_stiffness_and_motion_are_those_of_a_direct_solution() -> None
     stiffness = condensed.dynamic_stiffness(variable)
 
     force = np.tile(problem.drive.astype(complex), (variable.size, 1))
-    load, _ = condensed.load(variable, force)
+    load, _ = condensed.loading(force)(variable)
     for place, s in enumerate(variable):
         dynamic = structure.stiffness + s * structure.damping + s**2 * structure.mass
         compliance = selection @ np.linalg.solve(dynamic, selection.T.astype(complex))

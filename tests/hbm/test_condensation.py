@@ -105,7 +105,7 @@ def test_load_is_what_holds_the_contacts_in_place(problem: Problem) -> None:
     variable = 2j * np.pi * HERTZ
     force = random_complex(len(HERTZ), problem.structure.dofs)
 
-    load, _ = structure.load(variable, force)
+    load, _ = structure.loading(force)(variable)
 
     for value, s, pushed in zip(load, variable, force, strict=True):
         _, holding = direct(problem, s, pushed, np.zeros(len(selection)))
@@ -138,11 +138,11 @@ def test_slopes_are_those_of_differences_on_a_small_circle(problem: Problem) -> 
     for middle in middles:
         near = middle + radius * turns
         stiffness = structure.dynamic_stiffness(near)
-        load, _ = structure.load(near, np.tile(force, (12, 1)))
+        load, _ = structure.loading(np.tile(force, (12, 1)))(near)
         rank = len(structure.stiffness)
         units = np.eye(rank, dtype=complex)
         stiffness_slope = structure.slope(np.full(rank, middle), units).T
-        _, load_slope = structure.load(middle[None], force[None])
+        _, load_slope = structure.loading(force[None])(middle[None])
 
         expected = np.tensordot(1.0 / turns, stiffness, 1) / (12 * radius)
         unit = np.abs(stiffness / near[:, None, None]).max(initial=0.0)

@@ -90,7 +90,7 @@ def whole_stiffness(
     condensed = condense(problem, selection)
     force = np.tile(problem.drive.astype(complex), (variable.size, 1))
     stiffness = condensed.dynamic_stiffness(variable)
-    load, _ = condensed.load(variable, force)
+    load, _ = condensed.loading(force)(variable)
     return basis @ stiffness @ basis.T, load @ basis.T
 
 

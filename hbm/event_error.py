@@ -10,9 +10,11 @@ from hbm.arc_step import Metric
 from hbm.newton import Correction
 from hbm.resolution import PathResolution
 from hbm.segment import PRECISION, Segment, folds
+from microslip_mechanics.arrays import Array
 
-AROUND = (-0.5, 0.5, -1.5, 1.5)
-"""places about a fold, over the step, at which its curve has slopes of both signs"""
+AROUND = (0.5, 1.5)
+"""distances from a fold, over the step, to whose sides its curve has slopes of both
+signs: the second if not the first"""
 
 
 def fold_error(
@@ -38,12 +40,25 @@ def fold_error(
     error = system.aside
     point, system.fourier, _ = system.kept(fold.point)
     step, near = segment.length * fold.along, PRECISION * segment.length
-    places = [point + share * step for share in (0.0, *AROUND)]
-    at, *around = [segment.across(place, near) for place in places]
-    slopes = [folds(each) for each in around if each]
-    if None not in around[:2] and not min(slopes) <= 0.0 <= max(slopes):
+    if not _turns(segment, point, step, near):
         return None
+    at = segment.across(point, near)
     return error + folds(at) ** 2 / bend if at else math.inf
+
+
+def _turns(segment: Segment, point: Array, step: Array, near: float) -> bool:
+    """Return whether a curve has slopes of both signs about a point, or is lost."""
+    slopes: list[float] = []
+    for distance in AROUND:
+        sides = [
+            segment.across(point + side * distance * step, near) for side in (-1.0, 1.0)
+        ]
+        if None in sides and not slopes:
+            return True
+        slopes += [folds(each) for each in sides if each]
+        if min(slopes) <= 0.0 <= max(slopes):
+            return True
+    return False
 
 
 def peak_error(

@@ -47,6 +47,11 @@ class Linearisation:
         self._factors: tuple[Array, Bordered | Iterated] | None = None
 
     @property
+    def exact(self) -> bool:
+        """Whether solutions come from factors, not from iterations."""
+        return self.parts is None
+
+    @property
     def jacobian(self) -> Array:
         """∂R/∂y of the unknowns, shape (unknowns, unknowns)."""
         return self._derivatives[0]

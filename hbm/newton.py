@@ -27,6 +27,10 @@ CHORD = 0.1
 class Linearised(Protocol):
     """The derivative of a residual at a point."""
 
+    @property
+    def exact(self) -> bool:
+        """Whether solutions are exact but for rounding; else tangents err by 1e-4."""
+
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian; normal] d = right.
 

@@ -21,8 +21,8 @@ from microslip_mechanics.arrays import Array
 
 PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
 """of a located place, over the length of the step in which it is; the second where a
-test function is less accurate than that, the third where it is costly too; both where
-it may leap"""
+test function is less accurate than that, as with tangents of iterations, the third
+where it is costly too; both where it may leap"""
 NEAREST = 3
 """points through which a guess between them is interpolated"""
 SURE = 0.1
@@ -51,18 +51,24 @@ class Segment:
         """Distance of the points along the tangent at the first."""
         return self.place(self.after.point)
 
+    @property
+    def precision(self) -> float:
+        """The best of a located place: what tangents of iterations know is less."""
+        return PRECISION if self.before.linearised.exact else ROUGH
+
     def locate(
         self,
         test: Callable[[Correction], float],
         ends: tuple[float, float] | None = None,
-        precision: float = PRECISION,
+        precision: float | None = None,
     ) -> Correction | None:
         """Return the point between the two at which ``test`` is zero.
 
         ``ends`` are its values at the two, if they are known better; ``precision`` is
-        over the length of the step. None if it has no change of sign, or if a point
-        between does not converge.
+        over the length of the step, the best if left out. None if it has no change of
+        sign, or if a point between does not converge.
         """
+        precision = precision or self.precision
         first, last = ends or (test(self.before), test(self.after))
         if not first * last < 0.0:
             return None

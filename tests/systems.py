@@ -10,6 +10,8 @@ from microslip_mechanics.arrays import Array
 class Dense:
     """A Jacobian, shape (n, n + 1), solved as it stands."""
 
+    exact = True
+
     def __init__(self, rows: ArrayLike) -> None:
         """Take the rows."""
         self.rows = np.asarray(rows, dtype=float)

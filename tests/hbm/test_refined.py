@@ -17,6 +17,8 @@ FEW, MANY = 7, 31
 class Slope:
     """A derivative by the first of two components."""
 
+    exact = True
+
     def __init__(self, slope: float) -> None:
         self._slope = slope
 

@@ -33,7 +33,7 @@ from microslip.commands import (
     verify,
 )
 from microslip.errors import GivenError
-from microslip.interruption import unmasked
+from microslip.interruption import heeded, unmasked
 from microslip_mechanics.errors import MicroslipError
 
 EPILOG = """\
@@ -78,7 +78,7 @@ def _silence() -> None:
 def _run(options: argparse.Namespace) -> int:
     """Run a command; return the exit status, errors that are known made one line."""
     try:
-        with warnings.catch_warnings(), unmasked():
+        with warnings.catch_warnings(), heeded(), unmasked():
             # an overflow ends the command instead of running on with nonsense
             warnings.simplefilter("error", RuntimeWarning)
             status = int(options.run(options))

@@ -1,9 +1,15 @@
-"""Interruptions of which the call of a kernel has made another error."""
+"""Interruptions that kernels, or what compiles them, turn into something else."""
 
 from __future__ import annotations
 
+import _thread
 import contextlib
+import sys
 from collections.abc import Iterator
+from threading import Timer
+
+LATER = 0.05
+"""seconds after which an interruption that was lost comes again"""
 
 
 @contextlib.contextmanager
@@ -23,3 +29,25 @@ def unmasked() -> Iterator[None]:
         if isinstance(cause, KeyboardInterrupt):
             raise cause from None
         raise
+
+
+@contextlib.contextmanager
+def heeded() -> Iterator[None]:
+    """Let an interruption come again that was lost where nothing can be raised.
+
+    While kernels compile, a signal is handled in functions that LLVM calls, from which
+    an exception does not come back: Python reports it, and goes on.
+    """
+    before = sys.unraisablehook
+
+    def hook(lost: sys.UnraisableHookArgs) -> None:
+        if issubclass(lost.exc_type, KeyboardInterrupt):
+            Timer(LATER, _thread.interrupt_main).start()
+        else:
+            before(lost)
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before

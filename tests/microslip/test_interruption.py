@@ -2,6 +2,7 @@
 
 import _thread
 import contextlib
+import ctypes
 import itertools
 import os
 import pty
@@ -10,6 +11,7 @@ import signal
 import subprocess
 import sys
 import termios
+import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -22,7 +24,7 @@ import pytest
 
 from hbm.errors import ContinuationError
 from hbm.solve import frequency_response
-from microslip.interruption import unmasked
+from microslip.interruption import heeded, unmasked
 from microslip.progress import shown
 from microslip.result_file import load
 from microslip.studies.curve import gathered
@@ -285,6 +287,41 @@ def test_an_interruption_within_a_kernel_remains_one(
             assert taking(forever()) == ([0], "interrupted")
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def test_an_interruption_that_a_foreign_call_loses_comes_again() -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    called = ctypes.CFUNCTYPE(None)(interrupted)
+
+    def run() -> None:
+        with heeded():
+            called()
+            time.sleep(10.0)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            run()
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_what_else_a_foreign_call_loses_is_reported(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    reported: list[sys.UnraisableHookArgs] = []
+    monkeypatch.setattr(sys, "unraisablehook", reported.append)
+
+    def failed() -> None:
+        raise ValueError("a defect")
+
+    with heeded():
+        ctypes.CFUNCTYPE(None)(failed)()
+
+    assert [str(each.exc_value) for each in reported] == ["a defect"]
 
 
 def test_another_error_of_a_kernels_call_is_not_taken_for_an_interruption() -> None:

@@ -184,6 +184,15 @@ def test_frc_draws_and_prints_a_system(run: Run) -> None:
     assert Path("duffing-frc.nc").is_file()
 
 
+@pytest.mark.parametrize(("drive", "said"), [("0 N", True), ("1 N", False)])
+def test_frc_says_that_nothing_moves_without_a_drive(
+    drive: str, said: bool, run: Run
+) -> None:
+    _, output, _ = run("frc", "duffing", "--set", f"drive.x={drive}")
+
+    assert ("nothing moves at any frequency" in output) == said
+
+
 def test_frc_knows_the_stability_of_contacts_that_remember(run: Run) -> None:
     short = ("curve.tolerance=1e-2", "curve.lowest=18", "curve.highest=18.8")
     sets = (word for each in short for word in ("--set", each))

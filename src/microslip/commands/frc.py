@@ -127,6 +127,8 @@ def events_said(curve: ResponseCurve) -> str:
                 f"{name:<16} {hertz:12.6f} Hz{aside:<10} {size} mm"
                 f"{about(100.0 * curve.error[place], ' %')}"
             )
+    if not curve.peak.any():
+        lines.append("nothing moves at any frequency: the scene has no drive")
     unstable = curve.unstable > 0
     if unstable.any():
         hertz = curve.frequency[unstable] / math.tau

@@ -36,14 +36,16 @@ def approaches(
     control: StepControl,
     effort: Effort,
     metric: Metric,
+    *,
+    folded: bool = True,
 ) -> Iterator[Array]:
     """Yield coefficients of coarse responses at a parameter, (2H + 1, rank) each.
 
     The drive grows from nothing, or the threshold velocity of friction falls from a
-    large value, or friction grows from nothing, at coarse resolutions in turn; at last
-    the drive grows along an arc, through folds. Some of what is found may exist at its
-    resolution alone, or be the same again. ``effort`` counts what it takes; ``metric``
-    measures steps of Newton's iteration.
+    large value, or friction grows from nothing, at coarse resolutions in turn; at last,
+    if ``folded``, the drive grows along an arc, through folds. Some of what is found
+    may exist at its resolution alone, or be the same again. ``effort`` counts what it
+    takes; ``metric`` measures steps of Newton's iteration.
     """
     problem, _ = path.at(parameter)
     rubs = bool(problem.points.dynamic.any() or problem.points.static.any())
@@ -55,7 +57,7 @@ def approaches(
                 )
             except ContinuationError:
                 continue
-    for fourier in FOURIERS:
+    for fourier in FOURIERS if folded else ():
         try:
             yield _along_an_arc(path, parameter, fourier, control, effort, metric)
         except ContinuationError:

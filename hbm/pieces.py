@@ -34,6 +34,9 @@ PUSHES = 10.0
 arc; it jumps, so that every harmonic that is added changes it"""
 FIRST = (0.0, 1e-2)
 """the same where there is no curve yet"""
+FOLDED = (0.0, LEAPS[0], LEAPS[-1])
+"""leaps behind which a first point is also sought through folds of the drive, which
+takes thousands of evaluations where there is none"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,7 +230,12 @@ class Pieces:
             if (heading - parameter) * way <= 0.0:
                 return None
             for coefficients in approaches(
-                self.path, parameter, self.control, self.effort, self.metric
+                self.path,
+                parameter,
+                self.control,
+                self.effort,
+                self.metric,
+                folded=leap in FOLDED,
             ):
                 settled = self._settled(coefficients, parameter)
                 if settled is not None:

@@ -39,3 +39,7 @@ def test_without_friction_the_drive_alone_makes_a_problem_easier(
 
     # what may take long comes last
     assert found == tried * len(FOURIERS) + ["arc"] * len(FOURIERS)
+
+    found.clear()
+    list(approaches(path, 1.0, nothing, nothing, nothing, folded=False))
+    assert found == tried * len(FOURIERS)

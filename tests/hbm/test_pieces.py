@@ -66,7 +66,7 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
     monkeypatch.setattr("hbm.pieces.trace", trace)
     monkeypatch.setattr("hbm.pieces.round_corner", lambda *_: None)
     monkeypatch.setattr(
-        "hbm.pieces.approaches", lambda *_: (np.array([[y]]) for y in (0.0, 0.9))
+        "hbm.pieces.approaches", lambda *_, **__: (np.array([[y]]) for y in (0.0, 0.9))
     )
     return found
 
@@ -96,10 +96,31 @@ def test_a_restart_takes_the_first_response_that_exists(
     assert [y for y, _ in begun[1:]] == pytest.approx([1.0] * 3, abs=1e-8)
 
 
+def test_folds_of_the_drive_are_followed_at_the_nearest_and_the_farthest_place(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tried: list[tuple[float, bool]] = []
+
+    def approaches(
+        _path: Any, parameter: float, *_: Any, folded: bool
+    ) -> Iterator[Array]:
+        tried.append((parameter, folded))
+        return iter(())
+
+    monkeypatch.setattr("hbm.pieces.approaches", approaches)
+
+    list(pieces(0.0, 1.0))
+
+    places, folded = zip(*tried, strict=True)
+    assert begun[0][1] == 0.0
+    assert places == pytest.approx([0.3001, 0.301, 0.305, 0.32, 0.35])
+    assert folded == (True, False, False, False, True)
+
+
 def test_a_curve_that_stops_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
 
     points = [each.point for each in pieces(0.0, 1.0)]
 
@@ -119,7 +140,7 @@ def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
         return traced(system, start, back, **options)
 
     monkeypatch.setattr("hbm.pieces.trace", trace)
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
         list(pieces(0.0, 1.0))
@@ -130,7 +151,7 @@ def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
 def test_a_curve_that_stops_from_both_ends_says_where_it_did_first(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
     kept: list[Correction] = []
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
@@ -174,7 +195,7 @@ def test_what_lies_between_curves_that_turn_back_is_sought(
 def test_what_lies_between_curves_that_turn_back_and_is_not_found_is_told(
     returned: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
 
     with pytest.raises(ContinuationError, match=r"turns back at parameter 0\.4,"):
         list(pieces(0.0, 1.0))
@@ -195,7 +216,7 @@ def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
         return traced(system, start, end, **options)
 
     monkeypatch.setattr("hbm.pieces.trace", trace)
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_: iter(()))
+    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
 
     points = [each.point for each in pieces(0.0, 1.0)]
 

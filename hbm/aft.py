@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.contact_cycle import ContactCycle, contact_cycle
-from hbm.fourier import FourierBasis, Transform
+from hbm.fourier import FourierBasis
 from hbm.memory import FrictionMemory, marched
+from hbm.sampled_tangents import SampledTangents
 from hbm.sampling import sample
-from hbm.symmetry import Symmetry, holds, mirror, symmetry
-from hbm.tangent_entries import kinds, mixing, tangent_entries
-from hbm.tangent_product import TangentProduct
+from hbm.symmetry import Symmetry, holds, symmetry
+from hbm.tangent_entries import kinds, tangent_entries
 from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import RIGID, ContactPoints
@@ -87,7 +87,7 @@ class AlternatingFrequencyTime:
         rows = len(basis)
         self._points, self._basis, self._fourier = points, basis, fourier
         self._offset = np.zeros(rows) if offset is None else offset
-        self._entries = tangent_entries(points, pruned)
+        entries = tangent_entries(points, pruned)
         recalls = bool(marched(points).any())
         self._memory = FrictionMemory(basis, fourier) if recalls else None
         samples = fourier.samples
@@ -96,15 +96,14 @@ class AlternatingFrequencyTime:
             points,
             self._offset,
             basis,
-            self._entries,
+            entries,
             None if recalls or samples % 2 else odd,
         )
-        self._signs = np.empty(0)
+        signs = np.empty(0)
         if odd is not None and self._symmetry.signs.size:
-            self._signs = np.where(odd, -1.0, 1.0)
-        self._traces = Traces(basis, fourier, self._signs)
-        self._spectrum = Transform(len(self._entries), samples)
-        self._mixing = mixing(basis, self._entries)
+            signs = np.where(odd, -1.0, 1.0)
+        self._traces = Traces(basis, fourier, signs)
+        self._tangents = SampledTangents(basis, entries, self._symmetry, signs, samples)
         self._calls = [0]
         self._last: Call | None = None
         self._moved: tuple[Array, Array] = (
@@ -172,11 +171,11 @@ class AlternatingFrequencyTime:
         sample(
             self._points,
             *self._moved,
-            self._entries,
+            self._tangents.entries,
             self._symmetry,
             traces.regular,
             traces.extra,
-            self.tangents,
+            self._tangents.samples,
         )
         if self._memory is not None:
             self._memory.add(self._points, self._moved, frequency, *traces.regular)
@@ -188,34 +187,9 @@ class AlternatingFrequencyTime:
         return self._calls[0]
 
     @property
-    def tangents(self) -> Array:
-        """Tangents of the last call at the samples, shape (entries, samples).
-
-        With a symmetry those of the second half of the period are not filled in.
-        """
-        return self._spectrum.samples
-
-    def spectra(self, harmonics: int) -> tuple[Array, Array]:
-        """Return the tangents ∂force/∂y and ∂force/∂ẏ of the last call.
-
-        Each has shape ``(rank, rank, 2 harmonics + 1)`` in the order a₀, a₁, b₁, ….
-        """
-        symmetry, rank = self._symmetry, self._basis.shape[1]
-        mirror(self.tangents, symmetry.entry_partners, symmetry.entry_signs)
-        kept = self._spectrum.analysis(harmonics)
-        mixed = np.dot(self._mixing, kept.T).reshape(2, rank, rank, len(kept))
-        return mixed[0], mixed[1]
-
-    def product(self) -> TangentProduct:
-        """Return what multiplies motions by the tangents of the last call."""
-        rank, samples, signs = self._basis.shape[1], self.samples, self._signs
-        half = samples // 2 if signs.size else samples
-        mixed = np.dot(self._mixing, self.tangents[:, :half])
-        return TangentProduct(
-            mixed.reshape(2, rank, rank, half),
-            samples,
-            signs if signs.size else np.ones(rank),
-        )
+    def tangents(self) -> SampledTangents:
+        """Of the last call."""
+        return self._tangents
 
     def add_remembered(
         self, frequency: float, places: NDArray[np.int64], jacobian: Array

@@ -62,8 +62,8 @@ class LowOrders:
         slope
             Derivative of the residual by the last component, shape ``(unknowns,)``.
         """
-        product, low = contact.product(), self._harmonics
-        tangents = contact.spectra(2 * low)
+        product, low = contact.tangents.product(), self._harmonics
+        tangents = contact.tangents.spectra(2 * low)
         corner = assemble(
             *tangents,
             np.ascontiguousarray(stiffness[: low + 1].real),

@@ -218,7 +218,7 @@ class ModalBalance:
         log a, shape (unknowns,).
         """
         shape, pole = state.parts.shape, state.parts.pole
-        elastic, viscous = self._contact.spectra(2 * self.fourier.harmonics)
+        elastic, viscous = self._contact.tangents.spectra(2 * self.fourier.harmonics)
         stiff, damped = self._assembled(elastic), self._assembled(viscous)
         vibration = shape.copy()
         vibration[0] = 0.0

@@ -127,7 +127,7 @@ class HarmonicBalance:
         """Return ∂R/∂y of the unknowns where the contacts were called."""
         stiffness = self._held(frequency)
         jacobian = assemble(
-            *self.contact.spectra(2 * self.fourier.harmonics),
+            *self.contact.tangents.spectra(2 * self.fourier.harmonics),
             np.ascontiguousarray(stiffness.real),
             np.ascontiguousarray(stiffness.imag),
             frequency,

@@ -38,7 +38,7 @@ def coefficients(
     """Return the force's amplitudes by orders, shape (H + 1, 3)."""
     fourier = FourierBasis(HARMONICS, samples)
     contact = AlternatingFrequencyTime(points, np.eye(3), fourier)
-    return to_complex(contact(moved, FREQUENCY)[0])
+    return to_complex(contact(moved, FREQUENCY))
 
 
 def turned(amplitudes: ComplexArray, phase: float) -> ComplexArray:

@@ -102,7 +102,7 @@ def test_products_by_samples_are_those_by_the_assembled_jacobian(
     moved = np.zeros((FOURIER.coefficients, balance.rank))
     moved.ravel()[unknowns] = np.random.default_rng(5).standard_normal(unknowns.size)
 
-    found = balance.contact.product()(moved, FREQUENCY).ravel()[unknowns]
+    found = balance.contact.tangents.product()(moved, FREQUENCY).ravel()[unknowns]
 
     orders = 1j * FREQUENCY * np.arange(FOURIER.harmonics + 1)
     held = balance.problem.condensed.dynamic_stiffness(orders)

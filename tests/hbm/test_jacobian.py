@@ -90,12 +90,13 @@ def test_jacobian_is_exactly_the_multiplication_by_the_tangents(
     contact = AlternatingFrequencyTime(points, basis, fourier)
 
     contact(motion, FREQUENCY)
-    spectra = contact.spectra(2 * HARMONICS)
+    spectra = contact.tangents.spectra(2 * HARMONICS)
     jacobian = assemble(*spectra, nothing, nothing, FREQUENCY, EVERYTHING)
 
     values, rates = waves(samples)
     stiffness, damping = (
-        basis.T @ tangent @ basis for tangent in scattered(points, contact.tangents)
+        basis.T @ tangent @ basis
+        for tangent in scattered(points, contact.tangents.samples)
     )
     weights = values * np.r_[1.0, np.full(SIZE - 1, 2.0)] / samples
     expected = np.einsum("sa,sij,sb->aibj", weights, stiffness, values)
@@ -126,7 +127,9 @@ def test_without_events_the_tangents_are_those_of_the_law_at_each_sample(
 
     values, rates = waves(samples)
     expected = tangents_at(points, values @ motion, rates @ motion)
-    for found, exact in zip(scattered(points, contact.tangents), expected, strict=True):
+    for found, exact in zip(
+        scattered(points, contact.tangents.samples), expected, strict=True
+    ):
         np.testing.assert_allclose(found, exact, rtol=1e-12, atol=1e-12)
     weights = values * np.r_[1.0, np.full(SIZE - 1, 2.0)] / samples
     change = np.einsum("sa,sij,sj->ai", weights, expected[1], rates @ motion)
@@ -153,7 +156,7 @@ def test_without_contact_the_jacobian_multiplies_by_the_dynamic_stiffness() -> N
     still = separated_tangents()
     still(np.zeros((SIZE, RANK)), FREQUENCY)
 
-    spectra = still.spectra(2 * HARMONICS)
+    spectra = still.tangents.spectra(2 * HARMONICS)
     jacobian = assemble(*spectra, elastic, viscous, FREQUENCY, EVERYTHING)
 
     amplitudes = to_complex(motion)[..., None]
@@ -173,7 +176,7 @@ def test_the_jacobian_of_some_terms_is_a_part_of_the_whole() -> None:
     contact = AlternatingFrequencyTime(points, basis, FourierBasis(HARMONICS, 20))
 
     contact(motion, FREQUENCY)
-    spectra = contact.spectra(2 * HARMONICS)
+    spectra = contact.tangents.spectra(2 * HARMONICS)
     whole = assemble(*spectra, elastic, viscous, FREQUENCY, EVERYTHING)
     part = assemble(*spectra, elastic, viscous, FREQUENCY, terms(active))
 

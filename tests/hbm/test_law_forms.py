@@ -32,7 +32,7 @@ def cycled(
     balance = AlternatingFrequencyTime(table, basis, FourierBasis(5, samples))
     motion = np.zeros((11, 1))
     motion[2] = amplitude
-    force, _ = balance(motion, FREQUENCY)
+    force = balance(motion, FREQUENCY)
     return force[:, 0], balance.cycle(motion, FREQUENCY)
 
 

@@ -61,7 +61,9 @@ def test_half_a_period_says_all_of_the_rig(model: str, law: str, samples: int) -
             unit = np.abs(exact).max()
             np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-11 * unit)
         for found, exact in zip(
-            one.spectra(HARMONICS), other.spectra(HARMONICS), strict=True
+            one.tangents.spectra(HARMONICS),
+            other.tangents.spectra(HARMONICS),
+            strict=True,
         ):
             unit = np.abs(exact).max()
             np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-10 * unit)
@@ -85,7 +87,7 @@ def test_a_turn_in_the_last_cell_of_half_a_period_is_shared_with_its_first(
     for odd in (np.array([True]), None):
         contact = AlternatingFrequencyTime(points, basis, fourier, odd=odd)
         force.append(contact(moved, FREQUENCY))
-        tangents.append(contact.spectra(2 * HARMONICS)[1])
+        tangents.append(contact.tangents.spectra(2 * HARMONICS)[1])
 
     np.testing.assert_allclose(force[0], force[1], rtol=0.0, atol=1e-14)
     unit = np.abs(tangents[1]).max()

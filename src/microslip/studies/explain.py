@@ -205,7 +205,7 @@ def _evaluated(path: AlongFrequency, fourier: FourierBasis) -> tuple[int, int, i
     halved = contact.symmetry.signs.size > 0
     moments = fourier.samples // 2 if halved else fourier.samples
     points = int(contact.points.load.size)
-    return moments, moments * points, len(contact.tangents)
+    return moments, moments * points, len(contact.tangents.samples)
 
 
 def _code() -> Iterator[Pruned]:

@@ -14,10 +14,10 @@ from functools import partial
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from hbm.condensed import Loading
 from hbm.errors import hertz, placed
+from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency, among
 from hbm.relative import RelativeProblem, held_mean_positions
@@ -49,7 +49,7 @@ def cyclic_response(
     standing = problem.standing()
     path = along_sector(problem, options.start, options.end, pruned=options.pruned)
     tracer = Tracer(standing, path, replace(options, stability=False))
-    with threadpool_limits(1, "blas"), placed(hertz):
+    with one_thread(), placed(hertz):
         yield from tracer.responses()
 
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from hbm.active import moving, symmetric
 from hbm.adaptive import AdaptiveBalance
@@ -20,6 +19,7 @@ from hbm.linear_modes import LinearMode, linear_modes
 from hbm.modal import Reference
 from hbm.modal_resolution import ModalResolution
 from hbm.newton import Correction
+from hbm.one_thread import one_thread
 from hbm.relative import relative_problem
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -154,7 +154,7 @@ def nonlinear_mode(
         tolerance=options.error if options.harmonics is None else None,
         most=MOST,
     )
-    with threadpool_limits(1, "blas"), placed(_millimetres):
+    with one_thread(), placed(_millimetres):
         for correction in Leaping(
             system,
             resolution.start(math.log(options.smallest), system.size),

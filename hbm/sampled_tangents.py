@@ -64,7 +64,7 @@ class SampledTangents:
             series = np.dot(self._mixing, self._of_points.analysis(harmonics).T)
         else:
             self._mix(self._of_coordinates.samples)
-            series = self._of_coordinates.analysis(harmonics).T
+            series = self._of_coordinates.analysis(harmonics).T.copy()
         shape = 2, self._rank, self._rank, 2 * harmonics + 1
         elastic, viscous = series.reshape(shape)
         return elastic, viscous

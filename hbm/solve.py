@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from hbm.along_parameter import AlongParameter
 from hbm.branches import Branching
@@ -18,6 +17,7 @@ from hbm.errors import hertz, placed
 from hbm.fold_curve import FoldCurve, FoldPoint
 from hbm.fourier import FourierBasis
 from hbm.linear_curve import linear_curve
+from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
 from hbm.step_control import StepControl
@@ -62,7 +62,7 @@ def frequency_response(
     if path.rank == 0 and isinstance(condensed, CondensedStructure):
         linear = linear_curve(condensed, path.problem.force[1], small.probes.rows)
         responses = tracer.at_places(linear.places(options.start, options.end))
-    with threadpool_limits(1, "blas"), placed(hertz):
+    with one_thread(), placed(hertz):
         for made in responses:
             yield replace(made, shapes=shapes)
 
@@ -89,7 +89,7 @@ def with_multipliers(
     path = along_frequency(small, still, options.start, options.end)
     tracer = Tracer(small, path, replace(options, stability=True))
     point = tracer.guess(response, path.problem.selection)
-    with threadpool_limits(1, "blas"):
+    with one_thread():
         return tracer.curve.examined(response, point)
 
 
@@ -117,7 +117,7 @@ def branches(
     """
     small, still, shapes = _small(problem, rest, options.highest or _most(options))
     path = along_frequency(small, still, options.start, options.end, symmetry=False)
-    with threadpool_limits(1, "blas"), placed(hertz):
+    with one_thread(), placed(hertz):
         for made in Branching(small, path, options).curves(known):
             yield replace(made, shapes=shapes)
 
@@ -159,7 +159,7 @@ def detached(
     path = along_frequency(small, still, options.start, options.end)
     shares = (np.arange(frequencies) + 0.5) / frequencies
     places = options.start + shares * (options.end - options.start)
-    with threadpool_limits(1, "blas"), placed(hertz):
+    with one_thread(), placed(hertz):
         search = Search(small, path, options, effort)
         for made in search.curves(known, places.tolist()):
             if isinstance(made, Sought):
@@ -191,7 +191,7 @@ def parameter_response(
     """
     path = AlongParameter(problem_at, frequency, options.start, options.end)
     tracer = Tracer(_driven(problem_at, options), path, options)
-    with threadpool_limits(1, "blas"):
+    with one_thread():
         yield from tracer.responses()
 
 
@@ -218,7 +218,7 @@ def fold_curve(
         If the fold is lost; what was yielded before stays valid.
     """
     path = AlongParameter(problem_at, fold.frequency, options.start, options.end)
-    with threadpool_limits(1, "blas"):
+    with one_thread():
         problem = _driven(problem_at, options)
         yield from FoldCurve(problem, path, options, fold).points()
 
@@ -253,7 +253,7 @@ def periodic_response(
     balance = path.balance(FourierBasis(harmonics, samples))
     rows = path.problem.map_from(problem.interface.displacement)
     start = balance.pushed(balance.point(guess.seen(rows), guess.frequency))
-    with threadpool_limits(1, "blas"), placed(hertz):
+    with one_thread(), placed(hertz):
         correction = correct_at(balance, start, control)
     return replace(response(small, balance, correction), shapes=shapes)
 
@@ -285,7 +285,7 @@ def settled_response(
     first = guess.seen(rows)[:3].ravel()
     start = np.zeros(tracer.system.size)
     start[: first.size], start[-1] = first, frequency
-    with threadpool_limits(1, "blas"), placed(hertz):
+    with one_thread(), placed(hertz):
         found = correct_at(tracer.system, start, tracer.control, tracer.system)
         made = next(tracer.curve.followed([found], tracer.pieces.metric))
     return replace(made, shapes=shapes)

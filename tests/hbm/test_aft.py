@@ -197,6 +197,29 @@ def test_force_on_the_coordinates_is_that_of_the_points_brought_back() -> None:
     np.testing.assert_allclose(force, expected, atol=1e-14)
 
 
+@pytest.mark.parametrize("rank", [1, 2, 4], ids="{} coordinates".format)
+def test_tangents_of_the_coordinates_are_those_of_the_points_brought_back(
+    rank: int,
+) -> None:
+    # with one and two coordinates theirs are fewer than those of the points
+    points = contact_points(2, stiffness=[3.0, 5.0])
+    rng = np.random.default_rng(8)
+    fourier = FourierBasis(2, 32)
+    basis = np.linalg.qr(rng.standard_normal((6, rank)))[0]
+    motion = rng.standard_normal((5, rank))
+    contact = AlternatingFrequencyTime(points, basis, fourier)
+    at_points = AlternatingFrequencyTime(points, np.eye(6), fourier)
+
+    contact(motion, FREQUENCY)
+    at_points(motion @ basis.T, FREQUENCY)
+
+    pairs = zip(contact.tangents.spectra(4), at_points.tangents.spectra(4), strict=True)
+    for found, whole in pairs:
+        expected = np.einsum("ia,ijk,jb->abk", basis, whole, basis)
+        assert np.abs(expected).max() > 0.0
+        np.testing.assert_allclose(found, expected, atol=1e-13)
+
+
 def test_values_that_were_zero_have_their_tangents_when_they_are_not() -> None:
     still = contact_points(friction=0, stiffness=3.0, damping=0.0)
     damped = still._replace(damping=np.array([0.7]))

@@ -41,7 +41,7 @@ def heeded() -> Iterator[None]:
     before = sys.unraisablehook
 
     def hook(lost: sys.UnraisableHookArgs) -> None:
-        if issubclass(lost.exc_type, KeyboardInterrupt):
+        if lost.exc_type is KeyboardInterrupt:  # not one that ends a part of the work
             Timer(LATER, _thread.interrupt_main).start()
         else:
             before(lost)

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from microslip.cli import main
@@ -14,12 +13,9 @@ from microslip.studies.grid import (
     QUICK,
     SIGMAS,
     THRESHOLDS,
-    Attempt,
     attempts,
     cases,
-    uncovered,
 )
-from microslip_mechanics.response import ResponseCurve
 
 RIG = load_scene("two-blades")
 
@@ -72,54 +68,6 @@ def test_an_attempt_tells_how_it_ended() -> None:
     assert wrong.points == 0
     assert not wrong.whole
     assert "[contact] sigma = -1.0" in wrong.ending
-
-
-@pytest.mark.parametrize(
-    ("frequencies", "restarts", "share"),
-    [
-        ([1.0, 2.0, 1.5, 3.0], [], 0.0),
-        ([1.0, 2.0, 1.5, 2.4, 3.0], [3], 0.2),
-        ([1.0, 1.6, 1.4, 3.0, 2.0, 1.0], [3], 0.0),
-        ([1.0, 1.2, 1.3, 1.5, 1.9, 3.0], [2, 4], 0.25),
-        ([1.0, 3.0, 1.5, 2.0, 2.8, 4.0], [2, 4], 0.0),
-        ([1.0], [], 0.0),
-    ],
-    ids=[
-        "whole",
-        "a gap behind a fold",
-        "traced back from its end",
-        "two gaps",
-        "a piece within another",
-        "a point",
-    ],
-)
-def test_a_gap_is_what_no_piece_covers(
-    small_curve: ResponseCurve,
-    frequencies: list[float],
-    restarts: list[int],
-    share: float,
-) -> None:
-    events = tuple(
-        "restart" if place in restarts else "" for place in range(len(frequencies))
-    )
-    curve = replace(small_curve, frequency=np.array(frequencies), event=events)
-
-    assert uncovered(curve) == pytest.approx(share)
-
-
-@pytest.mark.parametrize(
-    ("ending", "gap", "whole"),
-    [
-        ("complete", 0.0, True),
-        ("complete", 0.009, True),
-        ("complete", 0.011, False),
-        ("interrupted", 0.0, False),
-    ],
-)
-def test_a_whole_curve_comes_to_its_end_without_a_wide_gap(
-    ending: str, gap: float, whole: bool
-) -> None:
-    assert Attempt(cases(RIG)[0], ending, 68, 1e-4, gap, 1.0).whole == whole
 
 
 @pytest.mark.parametrize("name", ["bladed-disk", "jenkins"])

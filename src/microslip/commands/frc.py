@@ -115,7 +115,9 @@ def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
 
 
 def events_said(curve: ResponseCurve) -> str:
-    """Return what was located on the curve, and where it is unstable."""
+    """Return what was located on the curve, where it is missing and unstable."""
+    from microslip.studies.gaps import lines as gap_lines
+
     lines = []
     for place, name in enumerate(curve.event):
         if name:
@@ -127,6 +129,7 @@ def events_said(curve: ResponseCurve) -> str:
                 f"{name:<16} {hertz:12.6f} Hz{aside:<10} {size} mm"
                 f"{about(100.0 * curve.error[place], ' %')}"
             )
+    lines += gap_lines(curve)
     if not curve.peak.any():
         lines.append("nothing moves at any frequency: the scene has no drive")
     unstable = curve.unstable > 0

@@ -16,6 +16,7 @@ from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.quantity import SceneError
 from microslip.studies.detached import Searched, search
+from microslip.studies.gaps import MISSING, told
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
@@ -70,7 +71,8 @@ def trace_curve(
     options = replace(curve_options(curve), pruned=pruned, stability=stability)
     traced = traced_of(problem, rest, _all(problem, rest, options, wanted), watch)
     ending = traced.curve.ending
-    if not wanted.detached or not (ending == "complete" or ending.startswith(LOST)):
+    ended = ending == "complete" or ending.startswith((LOST, MISSING))
+    if not wanted.detached or not ended:
         return traced
     known = traced.responses
     found = search(problem, rest, options, known, effort=wanted.effort, watch=searching)
@@ -118,7 +120,7 @@ def traced_of(
 ) -> Traced:
     """Return what is traced until it ends or is stopped."""
     responses, ending = gathered(watch(traced))
-    made = response_curve(problem, responses, ending)
+    made = told(response_curve(problem, responses, ending))
     return Traced(made, tuple(responses), rest)
 
 

@@ -6,6 +6,7 @@ from hbm.options import CurveOptions
 from hbm.solve import parameter_response
 from microslip.progress import Watch
 from microslip.studies.curve import gathered
+from microslip.studies.gaps import told
 from microslip.studies.parameter import Parameter
 from microslip_mechanics.response import ResponseCurve, response_curve
 
@@ -40,4 +41,4 @@ def follow(
     traced = parameter_response(parameter.problem_at, frequency, options)
     responses, ending = gathered(watch(traced))
     problem = parameter.problem_at(parameter.last)
-    return response_curve(problem, responses, ending, parameter.label)
+    return told(response_curve(problem, responses, ending, parameter.label))

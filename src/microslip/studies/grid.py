@@ -7,16 +7,14 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.curve import trace_curve
+from microslip.studies.gaps import uncovered
 from microslip_mechanics.errors import MicroslipError
-from microslip_mechanics.response import ResponseCurve
 
 LAWS = ("coulomb", "gkf")
 SIGMAS = (3e-9, 3e-7)
@@ -24,8 +22,6 @@ THRESHOLDS = (1e-2, 1e-4, 1e-6)
 FRICTIONS = (0.0, 0.3, 5.0)
 LOADS = tuple(itertools.product((0.01, 1.0, 100.0), (0.1, 1.0, 100.0)))
 """preload and drive [N]"""
-NARROW = 0.01
-"""share of the range that a whole curve may leave out"""
 QUICK = 10
 """every so-many-th case is enough for a quick look, in which no value is missing"""
 
@@ -76,7 +72,7 @@ class Attempt:
     @property
     def whole(self) -> bool:
         """Whether the curve comes to its end, without a gap that matters."""
-        return self.ending == "complete" and self.gap <= NARROW
+        return self.ending == "complete"
 
 
 def cases(scene: Scene) -> list[Case]:
@@ -123,18 +119,3 @@ def attempts(
         yield Attempt(case, ending, points, error, gap, time.perf_counter() - began)
         if ending == "interrupted":
             raise KeyboardInterrupt
-
-
-def uncovered(curve: ResponseCurve) -> float:
-    """Return the share of a curve's range that lies between its pieces."""
-    begins = [place for place, name in enumerate(curve.event) if name == "restart"]
-    pieces = sorted(
-        (float(piece.min()), float(piece.max()))
-        for piece in np.split(curve.frequency, begins)
-        if piece.size
-    )
-    reached, missing = pieces[0][1], 0.0
-    for low, high in pieces[1:]:
-        missing += max(low - reached, 0.0)
-        reached = max(reached, high)
-    return missing / (reached - pieces[0][0]) if missing > 0.0 else 0.0

@@ -1,0 +1,94 @@
+"""Gaps of a curve: found, told, and in its ending where they are not narrow."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from microslip.cli import main
+from microslip.studies.gaps import gaps, lines, told, uncovered
+from microslip_mechanics.response import ResponseCurve
+
+
+@pytest.mark.parametrize(
+    ("frequencies", "restarts", "share"),
+    [
+        ([1.0, 2.0, 1.5, 3.0], [], 0.0),
+        ([1.0, 2.0, 1.5, 2.4, 3.0], [3], 0.2),
+        ([1.0, 1.6, 1.4, 3.0, 2.0, 1.0], [3], 0.0),
+        ([1.0, 1.2, 1.3, 1.5, 1.9, 3.0], [2, 4], 0.25),
+        ([1.0, 3.0, 1.5, 2.0, 2.8, 4.0], [2, 4], 0.0),
+        ([1.0], [], 0.0),
+    ],
+    ids=[
+        "whole",
+        "a gap behind a fold",
+        "traced back from its end",
+        "two gaps",
+        "a piece within another",
+        "a point",
+    ],
+)
+def test_a_gap_is_what_no_piece_covers(
+    small_curve: ResponseCurve,
+    frequencies: list[float],
+    restarts: list[int],
+    share: float,
+) -> None:
+    curve = _pieces(small_curve, frequencies, dict.fromkeys(restarts, "restart"))
+
+    assert uncovered(curve) == pytest.approx(share)
+
+
+def test_a_branch_covers_no_gap_of_the_curve(small_curve: ResponseCurve) -> None:
+    curve = _pieces(
+        small_curve, [1.0, 1.2, 1.5, 3.0, 1.1, 1.9], {2: "restart", 4: "branch"}
+    )
+
+    assert gaps(curve) == [(1.2, 1.5)]
+
+
+@pytest.mark.parametrize(
+    ("ending", "begins", "said"),
+    [
+        ("complete", 1.018, "complete"),
+        ("complete", 1.022, "no curve is found between 1 and 1.022 of mass: more"),
+        ("interrupted", 1.5, "interrupted"),
+    ],
+)
+def test_a_gap_that_is_not_narrow_stands_in_the_ending(
+    small_curve: ResponseCurve, ending: str, begins: float, said: str
+) -> None:
+    curve = _pieces(small_curve, [0.0, 1.0, begins, 2.0], {2: "restart"})
+
+    found = told(replace(curve, along="mass", ending=ending))
+
+    assert found.ending.startswith(said)
+
+
+def test_gaps_along_frequency_are_told_in_hertz(small_curve: ResponseCurve) -> None:
+    curve = _pieces(small_curve, [math.tau, 2.0 * math.tau, 20.0], {2: "restart"})
+
+    assert lines(curve) == ["no curve is found between 2 and 3.1830989 Hz"]
+
+
+def test_a_curve_without_its_peak_is_not_whole(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # without friction the element rattles from where its points open: 2 % of the range
+    scene = ["two-blades", "--set", "friction.law=none"]
+
+    assert main(["frc", *scene, "-o", str(tmp_path / "none")]) == 1
+
+    said = capsys.readouterr()
+    assert "no curve is found between 136.7" in said.out
+    assert "no curve is found between 136.7" in said.err
+
+
+def _pieces(
+    curve: ResponseCurve, parameter: list[float], events: dict[int, str]
+) -> ResponseCurve:
+    names = tuple(events.get(place, "") for place in range(len(parameter)))
+    return replace(curve, parameter=np.array(parameter), event=names)

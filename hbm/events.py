@@ -203,13 +203,17 @@ class Events:
         # At rest any change does: to both sides the amplitude is the same.
         size = float(np.linalg.norm(point[moved])) or 1.0
         small = 1e-6 * size / float(np.linalg.norm(along[moved]))
-        beside = point + np.outer((-small, small), along)
-        beside[:, -1] = beside[:, -1].clip(*self.limits)
-        sizes = self.resolution.amplitudes(list(beside))
+        # Beyond an end of the range nothing is looked at.
+        least, most = self.limits
+        back, on = (
+            step if least <= point[-1] + step * along[-1] <= most else 0.0
+            for step in (-small, small)
+        )
+        sizes = self.resolution.amplitudes([point + back * along, point + on * along])
         place = int(sizes[0].argmax())
         change = float(sizes[1][place] - sizes[0][place])
         rounding = FLAT * float(sizes[0][place])
-        return change / small if abs(change) > rounding else 0.0
+        return 2.0 * change / (on - back) if abs(change) > rounding else 0.0
 
 
 def _told(found: Sequence[Found], segment: Segment, *, owed: bool) -> list[Found]:

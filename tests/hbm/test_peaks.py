@@ -1,6 +1,7 @@
 """Peaks of a curve lie where the motion with many harmonics has them."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +16,26 @@ from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 
 HERTZ = 2.0 * np.pi
+RISING = """
+scene = "system"
+[structure]
+names = ["x1", "x2"]
+mass = [1, 1]
+stiffness = [[20_000, -10_000], [-10_000, 10_000]]
+damping_ratio = 0.005
+[[element]]
+name = "slider"
+law = "coulomb"
+tangents = [["x1", "ground"]]
+mu = 0.5
+threshold_velocity = 1e-4
+load = 2
+[drive]
+x2 = "0.5 N"
+[curve]
+lowest = "13 Hz"
+highest = "14 Hz"
+"""
 
 
 def peak_of(problem: Problem, options: CurveOptions) -> PeriodicResponse:
@@ -61,3 +82,17 @@ def test_the_highest_peak_is_where_single_points_have_it(
 
     place = peak.frequency / HERTZ
     assert place == pytest.approx(dense_peak(problem, peak, aside), abs=near)
+
+
+def test_a_curve_that_rises_to_its_end_has_no_peak_there(tmp_path: Path) -> None:
+    # x2 does not depend on the motion of the contact alone.
+    path = tmp_path / "rising.toml"
+    path.write_text(RISING)
+    scene = load_scene(str(path))
+    problem, span = problem_of(scene), scene.curve
+    options = CurveOptions(HERTZ * span.lowest, HERTZ * span.highest, error=1e-2)
+
+    points = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    assert largest(problem, points[-1]) > largest(problem, points[-2])
+    assert not [each.event for each in points if each.event]

@@ -58,6 +58,8 @@ def main(arguments: list[str] | None = None) -> int:
     options, unknown = _parser().parse_known_args(words)
     if unknown:
         reason = f"{words[0]}: no such argument: {unknown[0]}"
+        if not unknown[0].startswith("-"):
+            reason += ", or not here: give the options after it"
         return _failed(f"{reason}: see microslip {words[0]} --help", 2)
     options.command = shlex.join(["microslip", *words])
     try:
@@ -93,7 +95,7 @@ def _run(options: argparse.Namespace) -> int:
     except MemoryError:
         return _failed("not enough memory: give a longer time step or less data", 1)
     except KeyboardInterrupt:
-        return _failed("interrupted; what is written so far is kept", 130)
+        return _failed("interrupted; no file is written but those named above", 130)
 
 
 def _failed(reason: str, status: int) -> int:

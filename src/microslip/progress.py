@@ -10,6 +10,8 @@ from microslip.interruption import unmasked
 Item = TypeVar("Item")
 Watch: TypeAlias = Callable[[Iterable[Any]], Iterator[Any]]
 """what a command puts around a generator to show its progress"""
+ROUNDING = 1e-6
+"""share of the way that is none: no time left is told from it"""
 
 
 def shown(
@@ -33,5 +35,6 @@ def shown(
     bar = tqdm(total=total, desc=name, unit=unit, disable=None, bar_format=form)
     with unmasked(), bar:
         for item in items:
-            bar.update(max(0.0, min(done(item), total) - bar.n))
+            further = min(done(item), total) - bar.n
+            bar.update(further if further > ROUNDING * total else 0.0)
             yield item

@@ -140,7 +140,11 @@ def test_times_before_the_end_of_a_march_are_kept(
 @pytest.mark.parametrize(
     ("end", "ending", "status"),
     [
-        (KeyboardInterrupt(), "interrupted; what is written so far is kept", 130),
+        (
+            KeyboardInterrupt(),
+            "interrupted; no file is written but those named above",
+            130,
+        ),
         (ContinuationError("stuck: try less"), "stuck: try less", 1),
         (IntegrationError("stuck: try less"), "stuck: try less", 1),
     ],

@@ -68,7 +68,7 @@ def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
     Raises
     ------
     OutputError
-        If it does not: better before the work than after it.
+        If it is so: better before the work than after it.
     """
     chosen: Path = options.output or Path()
     if chosen.is_dir():
@@ -150,7 +150,7 @@ def _quantity(unit: str, text: str) -> float:
 
 
 def demand_folder(path: Path) -> None:
-    """Refuse a path in a folder that does not exist.
+    """Refuse a path in a folder that does not exist, or cannot be written to.
 
     Raises
     ------
@@ -160,4 +160,8 @@ def demand_folder(path: Path) -> None:
     if not path.parent.is_dir():
         raise OutputError(
             f"there is no folder {path.parent} to write to: make it first"
+        )
+    if not os.access(path.parent, os.W_OK | os.X_OK):
+        raise OutputError(
+            f"the folder {path.parent} cannot be written to: give another one by -o"
         )

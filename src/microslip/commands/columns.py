@@ -21,9 +21,20 @@ def keyed(columns: Sequence[str], key: str) -> list[str]:
     return [key if name == KEY else name for name in columns]
 
 
+def tabled(names: Sequence[str], sizes: Sequence[float]) -> list[int]:
+    """Return the places of the probes in a table.
+
+    The first ones; where more than those are no relative motions, the ones of largest
+    ``sizes`` among these.
+    """
+    places = [place for place, name in enumerate(names) if "-to-" not in name]
+    if len(places) <= SHOWN:
+        return list(range(min(len(names), SHOWN)))
+    return sorted(sorted(places, key=lambda place: -sizes[place])[:SHOWN])
+
+
 def headed(names: Sequence[str]) -> str:
-    """Return the heads of the first probes' columns, in ten characters each."""
-    names = names[:SHOWN]
+    """Return the heads of probes' columns, in ten characters each."""
     ends = [name.split("-")[-1] for name in names]
     heads = [
         name
@@ -36,11 +47,11 @@ def headed(names: Sequence[str]) -> str:
     return " ".join(f"{head[:WIDTH]:>{WIDTH}}" for head in heads)
 
 
-def titled(text: str, names: Sequence[str]) -> str:
-    """Return a title as wide as the probes' columns; it says if some are left out."""
-    if len(names) > SHOWN:
-        text += f", {SHOWN} of {len(names)}"
-    return f"{text:<{(WIDTH + 1) * len(names[:SHOWN]) - 1}}"
+def titled(text: str, names: Sequence[str], of: int) -> str:
+    """Return a title as wide as the columns of probes, which may not be all ``of``."""
+    if of > len(names):
+        text += f", {len(names)} of {of}"
+    return f"{text:<{(WIDTH + 1) * len(names) - 1}}"
 
 
 def decimal(value: float, largest: float, decimals: int, width: int = WIDTH) -> str:

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import SHOWN, about, decimal, headed, titled
+from microslip.commands.columns import about, decimal, headed, tabled, titled
 
 if TYPE_CHECKING:
     from microslip_mechanics.response import ResponseCurve
@@ -73,20 +73,21 @@ def _table(curve: ResponseCurve) -> str:
     evenly = range(0, curve.parameter.size, max(1, curve.parameter.size // 12))
     places = {*evenly, curve.parameter.size - 1}
     places |= {place for place, name in enumerate(curve.event) if name}
+    probes = tabled(curve.probes, curve.amplitude.max(axis=0))
+    names = [curve.probes[each] for each in probes]
     energy = curve.friction_energy
     rubs = bool(energy.any())
     lines = [
-        f"     parameter {titled(' first harmonic [mm]', curve.probes)}"
+        f"     parameter {titled(' first harmonic [mm]', names, len(curve.probes))}"
         f"{'     friction' if rubs else ''}     largest",
-        f"          [SI] {headed(curve.probes)}{'  [mJ/period]' if rubs else ''}"
-        "  multiplier",
+        f"          [SI] {headed(names)}{'  [mJ/period]' if rubs else ''}  multiplier",
     ]
     for place in sorted(places):
         values = (
             f"{curve.parameter[place]:14.6g}",
             *(
                 decimal(1e3 * each[place], 1e3 * each.max(), 5)
-                for each in curve.amplitude.T[:SHOWN]
+                for each in curve.amplitude.T[probes]
             ),
             *([decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12)] * rubs),
             f"{curve.multiplier[place]:11.5f}",

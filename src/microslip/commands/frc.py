@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import SHOWN, about, decimal, headed, titled
+from microslip.commands.columns import about, decimal, headed, tabled, titled
 
 if TYPE_CHECKING:
     from microslip.experiments import Curve
@@ -231,12 +231,16 @@ def _table(traced: Traced) -> str:
     curve = traced.curve
     presses = bool(curve.normal_smallest.any() or curve.normal_largest.any())
     rubs = bool(curve.friction_energy.any())
-    head = f"frequency {titled(' first harmonic [mm]', curve.probes)}"
-    units = f"     [Hz] {headed(curve.probes)}"
+    probes = tabled(curve.probes, curve.amplitude.max(axis=0))
+    names = [curve.probes[each] for each in probes]
+    head = f"frequency {titled(' first harmonic [mm]', names, len(curve.probes))}"
+    units = f"     [Hz] {headed(names)}"
     if rubs:
         head, units = f"{head}     friction", f"{units}  [mJ/period]"
     if presses:
-        head, units = f"{head}      normal force [N]", f"{units}     least      most"
+        both = bool((curve.normal_smallest < 0.0).any())
+        force = "spring force [N]" if both else "normal force [N]"
+        head, units = f"{head}      {force}", f"{units}     least      most"
     lines = [head, units]
     largest = int(curve.amplitude.max(axis=1).argmax())
     energy = curve.friction_energy
@@ -245,7 +249,7 @@ def _table(traced: Traced) -> str:
             f"{curve.frequency[place] / math.tau:9.4f}",
             *(
                 decimal(1e3 * each[place], 1e3 * each.max(), 5)
-                for each in curve.amplitude.T[:SHOWN]
+                for each in curve.amplitude.T[probes]
             ),
         ]
         if rubs:

@@ -39,7 +39,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "the curve, find its largest orbit again by shooting, and compare; give every "
         "number a value that is none. Write SCENE-stress.png and SCENE-stress.csv. "
         "Exit status 1 if a value disagrees, or if, of all cases, less than "
-        f"{100.0 * SHARE:g} % converge in both and agree within 1 %.",
+        f"{100.0 * SHARE:g} % converge in both and agree within 1 %; with --quick, "
+        "whose time is short, if a value disagrees.",
         epilog="example: microslip stress two-blades --set model=B",
     )
     arguments.add_scene(parser)
@@ -127,7 +128,8 @@ def _verdict(found: Sequence[Tried], share: float) -> int:
     print(
         f"{good} of {solved} cases ({100.0 * good / max(solved, 1):.0f} %) converge in "
         f"both solvers and agree within 1 %; {len(short)} end with a cause; "
-        f"{len(bad)} disagree; {refused} rows of bad values are refused; "
+        f"{len(bad)} disagree; {refused} rows of bad values are refused "
+        "or come to a finite end; "
         f"longest case {longest:.0f} s"
     )
     return 0 if not bad and good >= share * solved else 1

@@ -48,8 +48,9 @@ def orbit_row(verdict: Verdict) -> str:
 def march_rows(marches: Sequence[Agreement], probes: Sequence[str]) -> str:
     """Return the marches as a table; the amplitude is that of the first probe."""
     places = _watched(probes)
-    names = [probes[place] for place in places]
-    lines = [MARCHES.format(deviation=titled("off by [%]", names), heads=headed(names))]
+    names = [probes[place] for place in places[:SHOWN]]
+    deviation = titled("off by [%]", names, len(places))
+    lines = [MARCHES.format(deviation=deviation, heads=headed(names))]
     lines += [
         f"{march.frequency / math.tau:9.4f} {1e3 * march.predicted[0]:10.6f}  "
         + " ".join(f"{100.0 * march.deviation[each]:10.4f}" for each in places[:SHOWN])

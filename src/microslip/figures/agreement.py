@@ -15,7 +15,14 @@ from microslip.figures.curve import (
     frequency_response,
     parted,
 )
-from microslip.figures.style import COLOURS, WIDTH, absolute, framed, literal, readable
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    absolute,
+    framed,
+    headline,
+    readable,
+)
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import ResponseCurve
 
@@ -68,7 +75,7 @@ def agreement_figure(
             _energy(panels[1, 1], energies)
         else:
             panels[1, 1].remove()
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

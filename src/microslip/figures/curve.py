@@ -15,6 +15,7 @@ from microslip.figures.style import (
     absolute,
     faces,
     framed,
+    headline,
     legend_above,
     literal,
     readable,
@@ -61,7 +62,7 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     figure = Figure(figsize=(10.0, 7.0), layout="constrained")
     for draw, place in zip(drawn, LAYOUTS[len(drawn)], strict=True):
         draw(figure.add_subplot(*place), curve)
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 
@@ -72,8 +73,9 @@ def largest(values: np.ndarray) -> float:
 
 def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the first-harmonic amplitude of each absolute motion."""
-    lines = zip(COLOURS, STYLES, absolute(curve.probes), strict=False)
-    for colour, style, place in lines:
+    watched = absolute(curve.probes)
+    shown = greatest(watched, curve.amplitude, len(STYLES))
+    for colour, style, place in zip(COLOURS, STYLES, shown, strict=False):
         axes.plot(
             abscissa(curve),
             1e3 * curve.amplitude[:, place],
@@ -86,11 +88,23 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
         axes,
         x=abscissa_name(curve),
         y="amplitude [mm]",
-        title="First harmonic",
+        title=f"First harmonic{some(shown, watched)}",
     )
-    axes.set_ylim(bottom=0.0)
     _events(axes, curve)
+    axes.set_ylim(bottom=0.0)
     axes.legend(frameon=False)
+
+
+def greatest(places: list[int], values: np.ndarray, count: int) -> list[int]:
+    """Return the columns of ``values`` that come highest, in their order."""
+    highest = np.nanmax(values, axis=0, initial=0.0)
+    return sorted(sorted(places, key=lambda place: -highest[place])[:count])
+
+
+def some(shown: list[int], watched: list[int]) -> str:
+    """Return what a title adds where not all motions are shown."""
+    few = len(shown) < len(watched)
+    return f": the greatest {len(shown)} of {len(watched)}" if few else ""
 
 
 def _events(axes: Axes, curve: ResponseCurve) -> None:
@@ -127,7 +141,8 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
     The largest velocity of the probes, where none of them is a relative motion.
     """
     slips = relative(curve.probes)
-    shown = slips or absolute(curve.probes)
+    watched = slips or absolute(curve.probes)
+    shown = greatest(watched, curve.velocity_peak, len(COLOURS))
     for colour, place in zip(COLOURS, shown, strict=False):
         axes.plot(
             abscissa(curve),
@@ -142,7 +157,7 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
         axes,
         x=abscissa_name(curve),
         y="velocity [m/s]",
-        title="Largest relative velocity" if slips else "Largest velocity",
+        title=f"Largest {'relative ' if slips else ''}velocity{some(shown, watched)}",
     )
     axes.legend(frameon=False)
 
@@ -183,7 +198,8 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the range of normal forces at the points of each face."""
     for colour, places in zip(COLOURS, faces(curve.contacts).values(), strict=False):
-        for style, place in zip(STYLES, places, strict=False):
+        pressed = [place for place in places if largest(curve.normal_largest[:, place])]
+        for style, place in zip(STYLES, pressed, strict=False):
             low, high = curve.normal_smallest[:, place], curve.normal_largest[:, place]
             axes.fill_between(
                 abscissa(curve), low, high, color=colour, alpha=0.12, lw=0.0
@@ -196,11 +212,12 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
                 linewidth=WIDTH,
                 label=curve.contacts[place],
             )
-    title = "Normal forces: range over a period, line at the largest"
-    framed(axes, x=abscissa_name(curve), y="force [N]", title=title)
     lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
     highest = float(np.nanmax(curve.normal_largest, initial=0.0))
-    axes.set_ylim(lowest, 1.05 * highest if highest > 0.0 else None)
+    what = "Normal forces" if lowest == 0.0 else "Forces of springs and contacts"
+    title = f"{what}: range over a period, line at the largest"
+    framed(axes, x=abscissa_name(curve), y="force [N]", title=title)
+    axes.set_ylim(1.05 * lowest, 1.05 * highest if highest > 0.0 else None)
     if curve.contacts:
         axes.legend(frameon=False, ncols=2)
 

@@ -10,7 +10,7 @@ from microslip.figures.style import (
     COLOURS,
     WIDTH,
     framed,
-    literal,
+    headline,
     plain_logarithmic,
     readable,
 )
@@ -46,5 +46,5 @@ def decay_figure(
             plain_logarithmic(axes.xaxis)
         shrinking.set_yscale("log")
         plain_logarithmic(shrinking.yaxis)
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure

@@ -14,7 +14,7 @@ from microslip.figures.style import (
     WIDTH,
     absolute,
     framed,
-    literal,
+    headline,
     readable,
     relative,
 )
@@ -50,7 +50,7 @@ def dwell_figure(
     _velocities(panels[1, 1], history, rows)
     _distance(panels[2, 0], distances, tolerance)
     energies(panels[2, 1], history)
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

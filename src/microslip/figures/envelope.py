@@ -13,7 +13,7 @@ from microslip.figures.style import (
     faces,
     foremost,
     framed,
-    literal,
+    headline,
     readable,
     relative,
 )
@@ -45,7 +45,7 @@ def envelope_figure(envelope: Envelope, title: str) -> Figure:
     energies(next(panels), envelope)
     for axes, place in zip(others, blades, strict=False):
         amplitude(axes, ways, place, envelope.probes[place])
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

@@ -9,7 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.style import COLOURS, WIDTH, framed, literal
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    framed,
+    headline,
+    literal,
+)
 
 MEETINGS = {"cusp": "o", "isola": "D"}
 """markers of the places where folds or curves meet"""
@@ -48,7 +54,7 @@ def folds_figure(folds: Sequence[FoldLine], label: str, title: str) -> Figure:
     for axes in (left, right):
         axes.margins(x=0.04)
     _legend(left, folds)
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

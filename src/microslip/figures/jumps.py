@@ -10,7 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.curve import FREQUENCY, abscissa, parted
-from microslip.figures.style import COLOURS, WIDTH, framed, literal, readable
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    framed,
+    headline,
+    readable,
+)
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import ResponseCurve
 
@@ -53,7 +59,7 @@ def jumps_figure(curve: ResponseCurve, jumps: Sequence[JumpLine], title: str) ->
     right.set_xlim(0.0, 1.05 * max(jump.rates.max() for jump in jumps) ** (2.0 / 3.0))
     right.axhline(0.0, color="k", linewidth=WIDTH)
     right.legend(frameon=False)
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

@@ -7,7 +7,12 @@ from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
-from microslip.figures.style import COLOURS, WIDTH, framed, literal
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    framed,
+    headline,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,5 +53,5 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
         right.set_ylim(0.0, 108.0 * max(ratios))
     if len(lines) > 1:
         right.legend(frameon=False)
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure

@@ -13,6 +13,7 @@ from microslip.figures.style import (
     COLOURS,
     WIDTH,
     framed,
+    headline,
     literal,
     plain_logarithmic,
 )
@@ -65,7 +66,7 @@ def poles_figure(
             if drawn:
                 drawn[0].set_label(name)
     _finish(frequency, damping, path, where, key)
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

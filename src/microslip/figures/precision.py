@@ -10,7 +10,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.style import COLOURS, WIDTH, framed, literal
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    framed,
+    headline,
+)
 from microslip_mechanics.arrays import Array
 
 LOOKS = {
@@ -89,7 +94,7 @@ def precision_figure(
         handles, names, loc="outside lower center", ncols=4, frameon=False,
         fontsize="small",
     )  # fmt: skip
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

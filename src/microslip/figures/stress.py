@@ -9,7 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
-from microslip.figures.style import literal
+from microslip.figures.style import (
+    headline,
+)
 
 SHADES = ("#009E73", "#9BD4B5", "#E69F00", "#C0392B", "#B8C4D0")
 """of outcomes in their order, from the best one"""
@@ -70,7 +72,7 @@ def stress_figure(
     for tile in tiles:
         _draw(axes, tile, colours.get(tile.cell.outcome, UNTRIED))
     _name(axes, [row[0].parameter for row in others], first, longest)
-    figure.suptitle(literal(title), fontsize="medium")
+    headline(figure, title)
     figure.legend(
         handles=[
             Patch(facecolor=colours[name], label=f"{name} ({count})")

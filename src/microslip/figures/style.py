@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.figure import Figure
 from matplotlib.ticker import (
     FuncFormatter,
     LogFormatterSciNotation,
@@ -33,6 +35,8 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
 
 
+LETTERS = 11.0
+"""of a title in an inch"""
 LONG = 150.0
 """end of a logarithmic axis over its beginning, from which on it has powers of ten"""
 
@@ -91,6 +95,12 @@ def faces(contacts: Iterable[str]) -> dict[str, list[int]]:
     for place, name in enumerate(contacts):
         found.setdefault(name.rstrip("0123456789").rstrip("-"), []).append(place)
     return found
+
+
+def headline(figure: Figure, title: str) -> None:
+    """Write the title of a picture, over as many lines as it takes."""
+    letters = int(LETTERS * figure.get_figwidth())
+    figure.suptitle(literal(textwrap.fill(title, letters)))
 
 
 def literal(text: str) -> str:

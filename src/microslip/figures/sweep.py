@@ -15,8 +15,8 @@ from microslip.figures.style import (
     faces,
     foremost,
     framed,
+    headline,
     legend_above,
-    literal,
     readable,
     relative,
 )
@@ -56,7 +56,7 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
     energies(next(panels), history)
     for axes, place in zip(others, blades, strict=False):
         amplitude(axes, ways, place, history.probes[place])
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

@@ -8,7 +8,13 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from microslip.figures.curve import MARKERS
-from microslip.figures.style import COLOURS, WIDTH, framed, literal
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    framed,
+    headline,
+    literal,
+)
 
 MANY = 10
 """values up to which each has its own tick"""
@@ -57,6 +63,7 @@ def track_figure(
         if len(values) <= MANY:
             axes.set_xticks(list(values), _labels(values, axes.get_xscale() == "log"))
             axes.set_xticks([], minor=True)
+    right.ticklabel_format(axis="y", useOffset=False)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
     sizes = [1e3 * amplitude for *_, amplitude in peaks]
     left.set_ylim(0.0, 1.06 * max(sizes) if sizes else None)
@@ -64,7 +71,7 @@ def track_figure(
     right.legend(frameon=False)
     for axes in (left, right):
         axes.margins(x=0.04)
-    figure.suptitle(literal(title))
+    headline(figure, title)
     return figure
 
 

@@ -88,3 +88,14 @@ def test_labels_of_near_values_do_not_touch(values: list[float]) -> None:
         assert len(boxes) >= 2
         for left, right in itertools.pairwise(boxes):
             assert left.x1 < right.x0
+
+
+def test_values_that_are_no_numbers_have_their_names_and_no_line() -> None:
+    peaks = [(0.0, 130.0, 1e-3), (1.0, 131.0, 2e-3)]
+
+    figure = track_figure(peaks, [], "friction.law", "title", ["coulomb", "gkf"])
+
+    for axes in figure.axes:
+        ticks = [label.get_text() for label in axes.get_xticklabels()]
+        assert ticks == ["coulomb", "gkf"]
+        assert axes.lines[0].get_linewidth() == 0.0

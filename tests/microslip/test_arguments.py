@@ -1,5 +1,7 @@
 """Numbers on the command line."""
 
+from pathlib import Path
+
 import pytest
 
 from microslip.cli import main
@@ -30,3 +32,14 @@ def test_quantities_may_have_a_unit() -> None:
     assert arguments.hertz("100") == 100.0
     assert arguments.millimetres("20 um") == pytest.approx(0.02)
     assert arguments.millimetres("2e-2") == pytest.approx(0.02)
+
+
+def test_a_folder_that_cannot_be_written_to_is_told_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("os.access", lambda *_: False)
+
+    assert main(["frc", "duffing", "-o", str(tmp_path / "curve")]) == 2
+
+    said = f"microslip: the folder {tmp_path} cannot be written to: give another one"
+    assert capsys.readouterr().err.startswith(said)

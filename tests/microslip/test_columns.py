@@ -2,7 +2,7 @@
 
 import pytest
 
-from microslip.commands.columns import decimal
+from microslip.commands.columns import decimal, tabled
 
 
 @pytest.mark.parametrize(
@@ -21,3 +21,10 @@ def test_small_columns_have_powers_of_ten(
     value: float, largest: float, text: str
 ) -> None:
     assert decimal(value, largest, 5) == text
+
+
+def test_tables_have_the_probes_that_move_most_of_many() -> None:
+    names = ["a", "b", "c", "d", "a-to-b"]
+
+    assert tabled(names, [1.0, 3.0, 2.0, 4.0, 9.0]) == [1, 2, 3]
+    assert tabled(["a", "b", "a-to-b"], [1.0, 2.0, 9.0]) == [0, 1, 2]

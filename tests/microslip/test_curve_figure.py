@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from figure_checks import check_labels, check_lines, legend, unmarked
 from microslip.figures import curve as curves
@@ -146,3 +147,32 @@ def test_without_normal_forces_the_error_takes_their_place(
     known = np.isfinite(curve.error)
     drawn = np.asarray(figure.axes[3].lines[0].get_ydata())
     assert drawn[known] == pytest.approx(100.0 * curve.error[known])
+
+
+def test_of_many_motions_the_greatest_are_drawn(small_curve: ResponseCurve) -> None:
+    sizes = np.array([3.0, 1.0, 9.0, 2.0, 8.0, 7.0])
+    curve = dataclasses.replace(
+        small_curve,
+        probes=tuple(f"tip-{place}" for place in range(6)),
+        amplitude=np.tile(sizes, (4, 1)),
+    )
+    axes = Figure().subplots()
+
+    curves.frequency_response(axes, curve)
+
+    labels = [line.get_label() for line in axes.lines]
+    assert labels[:5] == ["tip 0", "tip 2", "tip 4", "tip 5", "largest"]
+    assert axes.get_title(loc="left") == "First harmonic: the greatest 4 of 6"
+    assert axes.get_ylim()[1] > 9e3
+
+
+def test_springs_that_pull_are_not_called_normal(small_curve: ResponseCurve) -> None:
+    pulling = dataclasses.replace(
+        small_curve, normal_smallest=-small_curve.normal_largest
+    )
+    axes = Figure().subplots()
+
+    curves.normal_forces(axes, pulling)
+
+    assert axes.get_title(loc="left").startswith("Spring forces")
+    assert axes.get_ylim()[0] < pulling.normal_smallest.min()

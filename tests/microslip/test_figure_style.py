@@ -3,7 +3,7 @@
 import pytest
 from matplotlib.figure import Figure
 
-from microslip.figures.style import plain_logarithmic
+from microslip.figures.style import headline, plain_logarithmic
 
 
 @pytest.mark.parametrize(
@@ -27,3 +27,17 @@ def test_logarithmic_axes_have_a_few_readable_ticks(
     assert len(shown) <= 8
     assert not axes.get_xticks(minor=True).size
     assert [label for label in shown if label in labels] == labels
+
+
+def test_a_long_title_stays_within_the_picture() -> None:
+    figure = Figure(figsize=(6.0, 4.0), layout="constrained")
+    figure.subplots()
+
+    headline(
+        figure, "two-blades, " + ", ".join(f"a.value_{n}=1e-{n}" for n in range(20))
+    )
+
+    figure.draw_without_rendering()
+    title = figure.texts[0].get_window_extent()
+    assert title.x0 >= 0.0
+    assert title.x1 <= figure.bbox.x1

@@ -98,3 +98,9 @@ def test_error_passes_through_the_bar() -> None:
     assert next(passed) == 1.0
     with pytest.raises(KeyboardInterrupt):
         next(passed)
+
+
+def test_no_time_is_told_from_a_first_step_of_rounding(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert "<?" in on_terminal(iter([1e-14]), monkeypatch).splitlines()[-1]

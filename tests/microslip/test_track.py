@@ -59,17 +59,19 @@ def test_values_with_units_lie_in_their_order() -> None:
     texts = ["50 mN", "0.1 N", "1"]
     scenes = [load_scene("duffing", [f"drive.x={text}"]) for text in texts]
 
-    assert axis("drive.x", texts, scenes) == ([0.05, 0.1, 1.0], "drive.x [N]")
+    assert axis("drive.x", texts, scenes) == ([0.05, 0.1, 1.0], "drive.x [N]", [])
 
 
 def test_numbers_that_are_not_the_rigs_lie_where_they_were_given() -> None:
     texts = ["134 Hz", "136 Hz"]
     scenes = [load_scene("two-blades", [f"curve.lowest={text}"]) for text in texts]
 
-    assert axis("curve.lowest", texts, scenes) == ([134.0, 136.0], "curve.lowest [Hz]")
+    label = "curve.lowest [Hz]"
+    assert axis("curve.lowest", texts, scenes) == ([134.0, 136.0], label, [])
 
 
 def test_values_that_are_no_numbers_lie_in_the_order_of_the_list() -> None:
     scenes = [load_scene("two-blades", [f"model={text}"]) for text in ("A", "full")]
 
-    assert axis("model", ["A", "full"], scenes) == ([0.0, 1.0], "model")
+    names = ["A", "full"]
+    assert axis("model", names, scenes) == ([0.0, 1.0], "model", names)

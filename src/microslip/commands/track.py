@@ -110,7 +110,7 @@ def _keep(
     ]
     save_table(table, keyed(COLUMNS, options.key), rows)
     values = [each.value for each in found]
-    places, label = axis(
+    places, label, names = axis(
         options.key,
         values,
         [
@@ -130,5 +130,5 @@ def _keep(
             if event is not highest
         ]
     title = arguments.title(options)
-    save_figure(picture, track_figure(peaks, others, label, title))
+    save_figure(picture, track_figure(peaks, others, label, title, names))
     print(f"table in {table}, picture in {picture}")

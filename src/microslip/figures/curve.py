@@ -84,6 +84,11 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
             linewidth=WIDTH * 2.0,
             label=readable(curve.probes[place]),
         )
+    if len(shown) < len(watched):
+        highest = 1e3 * curve.amplitude[:, watched].max(axis=1)
+        axes.plot(
+            abscissa(curve), highest, color="0.6", linewidth=WIDTH, label="largest"
+        )
     framed(
         axes,
         x=abscissa_name(curve),
@@ -214,7 +219,7 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
             )
     lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
     highest = float(np.nanmax(curve.normal_largest, initial=0.0))
-    what = "Normal forces" if lowest == 0.0 else "Forces of springs and contacts"
+    what = "Normal forces" if lowest == 0.0 else "Spring forces"
     title = f"{what}: range over a period, line at the largest"
     framed(axes, x=abscissa_name(curve), y="force [N]", title=title)
     axes.set_ylim(1.05 * lowest, 1.05 * highest if highest > 0.0 else None)

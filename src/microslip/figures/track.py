@@ -27,6 +27,7 @@ def track_figure(
     others: Sequence[tuple[float, str, float]],
     key: str,
     title: str,
+    names: Sequence[str] = (),
 ) -> Figure:
     """Draw amplitude and frequency of the highest peak, and the other events.
 
@@ -38,12 +39,14 @@ def track_figure(
         Value of the parameter, name of the event, frequency [Hz].
     key, title
         What the parameter and the picture are called.
+    names
+        Of values that are no numbers: no line joins these.
     """
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
     places = [value for value, *_ in peaks]
     values = sorted({*places, *(value for value, *_ in others)}) or [1.0]
-    line = {"color": COLOURS[0], "linewidth": WIDTH}
+    line = {"color": COLOURS[0], "linewidth": 0.0 if names else WIDTH}
     left.plot(places, [1e3 * amplitude for *_, amplitude in peaks], "-^", **line)
     hertz = [frequency for _, frequency, _ in peaks]
     right.plot(places, hertz, "-^", label="highest peak", **line)
@@ -60,7 +63,9 @@ def track_figure(
     for axes in (left, right):
         if min(values) > 0.0 and max(values) > 10.0 * min(values):
             axes.set_xscale("log")
-        if len(values) <= MANY:
+        if names:
+            axes.set_xticks(range(len(names)), [literal(name) for name in names])
+        elif len(values) <= MANY:
             axes.set_xticks(list(values), _labels(values, axes.get_xscale() == "log"))
             axes.set_xticks([], minor=True)
     right.ticklabel_format(axis="y", useOffset=False)

@@ -11,12 +11,12 @@ from microslip.studies import numbers
 
 def axis(
     key: str, texts: Sequence[str], scenes: Sequence[Scene]
-) -> tuple[list[float], str]:
-    """Return the place of each value on an axis, and its label.
+) -> tuple[list[float], str, list[str]]:
+    """Return the place of each value on an axis, its label, and names of the places.
 
     Numbers of the structure, its contacts and loads lie at their value in SI units,
     other numbers, if they have one unit, as they were given, and what is no number in
-    the order of the list.
+    the order of the list; that alone has names.
 
     Parameters
     ----------
@@ -28,11 +28,12 @@ def axis(
     found = [numbers.reached(each.rig, key_path(key)) for each in scenes]
     if all(type(value) is float for value in found):
         unit = numbers.unit(scenes[0].rig, key_path(key))
-        return found, f"{key} [{unit}]" if unit else key
+        return found, f"{key} [{unit}]" if unit else key, []
     numerals, _, units = zip(*(text.partition(" ") for text in texts), strict=True)
     try:
         if len(set(units)) == 1:
-            return [*map(float, numerals)], f"{key} [{units[0]}]" if units[0] else key
+            label = f"{key} [{units[0]}]" if units[0] else key
+            return [*map(float, numerals)], label, []
     except ValueError:
         pass
-    return [float(place) for place in range(len(texts))], key
+    return [float(place) for place in range(len(texts))], key, list(texts)

@@ -9,7 +9,7 @@ derivative on its own side, and leads away against what continuity would have.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -31,10 +31,21 @@ STRAIGHT = 0.99
 Metric: TypeAlias = Callable[[Array], Array]
 
 
+class Turned(NamedTuple):
+    """What is behind a corner."""
+
+    point: Array
+    """of the curve, shape (n + 1,)"""
+    direction: Array
+    """in which it goes on, shape (n + 1,)"""
+    folds: bool
+    """whether its parameter turns back at the corner"""
+
+
 def round_corner(
     system: System, way: Sequence[Correction], metric: Metric, tolerance: float
-) -> tuple[Array, Array] | None:
-    """Return a point behind a corner and the direction in which the curve goes on.
+) -> Turned | None:
+    """Return where and how the curve goes on behind a corner; None if there is none.
 
     Parameters
     ----------
@@ -47,9 +58,6 @@ def round_corner(
     tolerance
         Of the largest residual.
 
-    Returns
-    -------
-    Both of shape ``(n + 1,)``; None if there is no corner.
     """
     last = way[-1]
     scale = metric(last.point)
@@ -69,7 +77,7 @@ def round_corner(
         tried.append(onwards / scale)
         found = _stepped(system, last.point, onwards, scale, tolerance)
         if found is not None and not _along(found - last.point, back, scale):
-            return found, onwards
+            return Turned(found, onwards, bool(back[-1] * onwards[-1] > 0.0))
     return None
 
 

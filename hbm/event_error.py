@@ -14,7 +14,10 @@ from microslip_mechanics.arrays import Array
 
 AROUND = (0.5, 1.5)
 """distances from a fold, over the step, to whose sides its curve has slopes of both
-signs: the second if not the first"""
+signs: the second if not the first, …"""
+FARTHER, WIDEST = 10.0, 1e-2
+"""… or so many times more each, up to this arc: steps are short at corners, which lie
+elsewhere where they are resolved more finely"""
 
 
 def fold_error(
@@ -40,25 +43,42 @@ def fold_error(
     error = system.aside
     point, system.fourier, _ = system.kept(fold.point)
     step, near = segment.length * fold.along, PRECISION * segment.length
-    if not _turns(segment, point, step, near):
+    if segment.after.turns:
+        return error + abs(folds(fold) * segment.length)
+    doubt = _turns(segment, point, step, near)
+    if doubt is None:
         return None
     at = segment.across(point, near)
-    return error + folds(at) ** 2 / bend if at else math.inf
+    return error + doubt + folds(at) ** 2 / bend if at else math.inf
 
 
-def _turns(segment: Segment, point: Array, step: Array, near: float) -> bool:
-    """Return whether a curve has slopes of both signs about a point, or is lost."""
+def _turns(segment: Segment, point: Array, step: Array, near: float) -> float | None:
+    """Return what a fold may be aside if a curve has slopes of both signs about it.
+
+    None if it has not; nothing where the curve is lost.
+    """
     slopes: list[float] = []
-    for distance in AROUND:
+    for distance in _distances(segment.length):
         sides = [
             segment.across(point + side * distance * step, near) for side in (-1.0, 1.0)
         ]
         if None in sides and not slopes:
-            return True
+            return 0.0
         slopes += [folds(each) for each in sides if each]
         if min(slopes) <= 0.0 <= max(slopes):
-            return True
-    return False
+            steepest = max(-min(slopes), max(slopes))
+            return (
+                steepest * distance * segment.length if distance > AROUND[-1] else 0.0
+            )
+    return None
+
+
+def _distances(length: float) -> list[float]:
+    """Return how far from a fold its curve is looked at, over the step."""
+    found = list(AROUND)
+    while FARTHER * found[-1] * length <= WIDEST:
+        found.append(FARTHER * found[-1])
+    return found
 
 
 def peak_error(

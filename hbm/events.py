@@ -130,11 +130,11 @@ class Events:
             normal,
             self.control.tolerance,
             segment.small(PRECISION * SURE),
-            share=STRICT if found.name in SHARP else 1.0,
+            share=STRICT if found.name in SHARP and not segment.after.turns else 1.0,
             across=found.name == "fold",
         )
         away = (settled.point - located.point) / segment.scale
-        near = float(np.linalg.norm(away)) < segment.length
+        near = float(np.linalg.norm(away)) < abs(segment.length)
         if not near or settled.outcome is not Outcome.CONVERGED:
             return None
         return replace(settled, tangent=located.tangent)
@@ -167,7 +167,10 @@ class Events:
         self.system.fourier = solved
 
     def _folded(self, segment: Segment) -> Iterator[Found]:
-        """Yield where the curve folds."""
+        """Yield where the curve folds, at a corner too."""
+        if segment.after.turns:
+            yield Found(0.0, "fold", segment.before, self.system.fourier)
+            return
         located = segment.locate(folds)
         if located is not None:
             place = segment.place(located.point)
@@ -209,6 +212,8 @@ class Events:
             step if least <= point[-1] + step * along[-1] <= most else 0.0
             for step in (-small, small)
         )
+        if on == back:
+            return 0.0
         sizes = self.resolution.amplitudes([point + back * along, point + on * along])
         place = int(sizes[0].argmax())
         change = float(sizes[1][place] - sizes[0][place])

@@ -88,6 +88,8 @@ class Correction:
     """of the curve at the point, shape (n + 1,), if it is known"""
     joined: bool = True
     """whether the curve comes from the point before"""
+    turns: bool = False
+    """whether it comes round a corner at which its parameter turns back"""
 
     @property
     def along(self) -> Array:

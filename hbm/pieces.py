@@ -170,13 +170,15 @@ class Pieces:
     def _cornered(self, guess: Array, heading: float) -> Iterator[Correction]:
         """Yield corrections of one piece, round its corners."""
         direction: Array | None = None
+        turns = False
         way: deque[Correction] = deque(maxlen=REMEMBERED)
         for corner in range(CORNERS + 1):
             try:
                 for correction in self._traced(guess, heading, direction):
                     joined = correction.joined or direction is not None
-                    way.append(replace(correction, joined=joined))
+                    way.append(replace(correction, joined=joined, turns=turns))
                     yield way[-1]
+                    turns = False
             except ContinuationError:
                 if not way or corner == CORNERS:
                     raise
@@ -185,7 +187,7 @@ class Pieces:
                 )
                 if turned is None:
                     raise
-                guess, direction = turned
+                guess, direction, turns = turned
             else:
                 return
 

@@ -57,7 +57,8 @@ def test_a_sharp_corner_is_turned_onto_its_second_half(slope: float) -> None:
     turned = round_corner(lambda point: bent(slope, point), way, unit, 1e-12)
 
     assert turned is not None
-    point, direction = turned
+    point, direction, folds = turned
+    assert folds
     assert point[0] > 0.0
     assert point[1] == pytest.approx(-slope * point[0], rel=1e-9)
     expected = np.array([1.0, -slope]) / np.hypot(1.0, slope)
@@ -77,6 +78,32 @@ def diagonal(along: Array) -> list[Correction]:
         )
         for place in (-0.1, -1e-6)
     ]
+
+
+def test_a_corner_behind_which_the_parameter_goes_on_is_no_fold() -> None:
+    def roof(point: Array) -> tuple[Array, Dense]:
+        x, parameter = point
+        slope = -10.0 if parameter < 0.0 else 10.0
+        return np.array([x + slope * parameter]), Dense([[1.0, slope]])
+
+    along = np.array([10.0, 1.0]) / np.hypot(10.0, 1.0)
+    way = [
+        Correction(
+            np.array([10.0 * place, place]),
+            np.zeros(1),
+            roof(np.array([10.0 * place, place]))[1],
+            Outcome.CONVERGED,
+            (0.0,),
+            along,
+        )
+        for place in (-0.1, -1e-9)
+    ]
+
+    turned = round_corner(roof, way, unit, 1e-12)
+
+    assert turned is not None
+    assert turned.point[0] < 0.0 < turned.point[1]
+    assert not turned.folds
 
 
 def test_there_is_no_corner_where_the_curve_ends() -> None:
@@ -182,3 +209,29 @@ def test_a_beam_with_more_corners_has_its_whole_curve() -> None:
     # no step is much longer than a quarter of a tenth of the range
     assert np.diff(np.sort(found)).max() < 0.03 * (ends[1] - ends[0])
     assert found.size < 400  # measured 221
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    # the beam's curve goes to and fro within the tolerance, which is no fold
+    [("chain", 4), ("friction-beam", 0)],
+)
+def test_folds_at_corners_are_told(name: str, number: int) -> None:
+    scene = load_scene(name)
+    problem, span = problem_of(scene), scene.curve
+    options = CurveOptions(
+        2.0 * np.pi * span.lowest,
+        2.0 * np.pi * span.highest,
+        error=span.tolerance,
+        harmonics=span.harmonics,
+        samples=span.samples,
+        stability=False,
+    )
+
+    points = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    folds = [place for place, each in enumerate(points) if each.event == "fold"]
+    assert len(folds) == number
+    for place in folds:
+        before, fold, after = (points[place + side].frequency for side in (-1, 0, 1))
+        assert (fold - before) * (after - fold) <= 0.0

@@ -171,7 +171,7 @@ class Events:
         if segment.after.turns:
             yield Found(0.0, "fold", segment.before, self.system.fourier)
             return
-        located = segment.locate(folds)
+        located = segment.locate(folds, leaps=True)
         if located is not None:
             place = segment.place(located.point)
             turned = abs(folds(segment.after) - folds(segment.before))

@@ -148,6 +148,12 @@ def _finer(fourier: FourierBasis) -> FourierBasis:
 
 
 def _change(before: ComplexArray, after: ComplexArray) -> float:
-    """Return by how much the leading multipliers differ in modulus."""
-    leading = np.abs(before[:LEADING]) - np.abs(after[:LEADING])
-    return float(np.abs(leading).max())
+    """Return by how much the leading multipliers differ in modulus.
+
+    One that there is in either alone, of a slider that never slips in the other, counts
+    as a whole.
+    """
+    sizes = np.zeros((2, LEADING))
+    for row, each in zip(sizes, (before, after), strict=True):
+        row[: each.size] = np.abs(each[:LEADING])
+    return float(np.abs(sizes[0] - sizes[1]).max())

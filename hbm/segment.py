@@ -7,6 +7,7 @@ than bisection where it may leap, each of them being at a corrected point (theor
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -23,6 +24,8 @@ PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
 """of a located place, over the length of the step in which it is; the second where a
 test function is less accurate than that, as with tangents of iterations, the third
 where it is costly too; both where it may leap"""
+LEAP = 0.1
+"""of the length of a step, by which a leap of a test function is known at least"""
 NEAREST = 3
 """points through which a guess between them is interpolated"""
 SURE = 0.1
@@ -61,12 +64,15 @@ class Segment:
         test: Callable[[Correction], float],
         ends: tuple[float, float] | None = None,
         precision: float | None = None,
+        *,
+        leaps: bool = False,
     ) -> Correction | None:
         """Return the point between the two at which ``test`` is zero.
 
         ``ends`` are its values at the two, if they are known better; ``precision`` is
         over the length of the step, the best if left out. None if it has no change of
-        sign, or if a point between does not converge.
+        sign, or if a point between does not converge: where it may leap, because the
+        residual does so by a little, the nearest one does beside it.
         """
         precision = precision or self.precision
         first, last = ends or (test(self.before), test(self.after))
@@ -84,16 +90,18 @@ class Segment:
             for each in solved.values():
                 each.linearised.forget()
             solved[place] = self._at(self._guess(place, solved), near)
-            return test(solved[place])
+            tested[place] = test(solved[place])
+            return tested[place]
 
-        near = precision * length
+        near, tested = precision * length, {0.0: first, length: last}
         solved: dict[float, Correction] = {}
         try:
             seek = bracketed if precision >= ROUGH else brentq
             root = seek(value, 0.0, length, xtol=near, rtol=1e-12)
             return solved.get(root) or self._at(self._guess(root, solved), near)
         except (_LostError, SingularError):
-            return None
+            place = _beside(tested) if leaps else None
+            return None if place is None else solved.get(place)
 
     def across(self, guess: Array, near: float) -> Correction | None:
         """Return the point of the curve across a guess, with its tangent.
@@ -151,6 +159,18 @@ class Segment:
 
 class _LostError(ArithmeticError):
     """A point between two others does not converge."""
+
+
+def _beside(tested: dict[float, float]) -> float | None:
+    """Return the place beside a change of sign at which a test function is smaller.
+
+    None if the change is not known better than to :data:`LEAP` of the step.
+    """
+    for low, high in itertools.pairwise(sorted(tested)):
+        if tested[low] * tested[high] < 0.0:
+            near = high - low <= LEAP * max(tested)
+            return min(low, high, key=lambda at: abs(tested[at])) if near else None
+    return None
 
 
 def folds(correction: Correction) -> float:

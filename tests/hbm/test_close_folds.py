@@ -6,7 +6,8 @@ import pytest
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.element import Element
-from microslip_mechanics.laws.polynomial_spring import CubicSpring
+from microslip_mechanics.laws.hunt_crossley import HuntCrossleyContact
+from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
@@ -32,6 +33,26 @@ def pressed_duffing() -> Problem:
         elements=[Element(CubicSpring(cubic=900.0), between=("x1", "ground"))],
         preload={"x1": 2.0},
         drive={"x1": (0.8, 0.7)},
+    )
+
+
+def spring_and_sphere() -> Problem:
+    """Return a mass whose upper fold lies where a contact barely closes at a sample."""
+    return system(
+        mass=[0.842],
+        stiffness=[103.04],
+        damping_ratio=0.03936,
+        elements=[
+            Element(
+                PolynomialSpring(coefficients={1: 12.48, 3: 4.4935}),
+                between=("x1", "ground"),
+            ),
+            Element(
+                HuntCrossleyContact(stiffness=146.653, exponent=1.5),
+                between=("x1", "ground"),
+            ),
+        ],
+        drive={"x1": 34.4285},
     )
 
 
@@ -96,3 +117,12 @@ def test_two_folds_within_a_step_are_both_found() -> None:
     folds = [hertz for name, hertz in found if name == "fold" and 2.25 < hertz < 2.28]
     # of an arc-length continuation by shooting
     assert folds == pytest.approx([2.276076, 2.27517, 2.275767, 2.25892], abs=4e-4)
+
+
+@pytest.mark.parametrize("error", [3e-3, 1e-3, 1e-4])
+def test_a_fold_at_a_small_jump_of_the_residual_is_told(error: float) -> None:
+    found = events(spring_and_sphere(), 2.3, 2.8, error)
+
+    folds = [place for name, place in found if name == "fold"]
+    # by marches, stepped up and down; upwards the motion jumps before 2.58292 Hz
+    assert folds == pytest.approx([2.5828, 2.4302], abs=1e-4)

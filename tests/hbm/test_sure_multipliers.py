@@ -70,3 +70,20 @@ def test_finer_orbits_are_sought_where_the_reported_one_says_too_little(
     assert sought == expected
     assert fourier.harmonics == (expected[-1] if expected else REPORTED.harmonics)
     assert confirmed
+
+
+def test_a_multiplier_that_one_resolution_lacks_asks_for_more(
+    sought: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A slider that never slips with few harmonics, and does with more."""
+
+    def at(_: Multipliers, __: Array, fourier: FourierBasis) -> ComplexArray:
+        known = np.array([0.9, 0.8, 0.1 + 0j])
+        return known if fourier.harmonics > REPORTED.harmonics else known[:2]
+
+    monkeypatch.setattr(Multipliers, "at", at)
+
+    known, _, _ = sure(0.0, STAYS, falls=True, monkeypatch=monkeypatch)
+
+    assert known.size == 3
+    assert sought == [31, 63]

@@ -7,6 +7,7 @@ than bisection where it may leap, each of them being at a corrected point (theor
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -24,8 +25,9 @@ PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2
 """of a located place, over the length of the step in which it is; the second where a
 test function is less accurate than that, as with tangents of iterations, the third
 where it is costly too; both where it may leap"""
-LEAP = 0.1
-"""of the length of a step, by which a leap of a test function is known at least"""
+LEAP, PARTS = 0.02, (0.5, 0.3, 0.7)
+"""of the length of a step, by which a leap of a test function is known at least, and
+places between two at which it may be asked for, the first that there is"""
 NEAREST = 3
 """points through which a guess between them is interpolated"""
 SURE = 0.1
@@ -100,7 +102,7 @@ class Segment:
             root = seek(value, 0.0, length, xtol=near, rtol=1e-12)
             return solved.get(root) or self._at(self._guess(root, solved), near)
         except (_LostError, SingularError):
-            place = _beside(tested) if leaps else None
+            place = _beside(tested, value) if leaps else None
             return None if place is None else solved.get(place)
 
     def across(self, guess: Array, near: float) -> Correction | None:
@@ -161,16 +163,29 @@ class _LostError(ArithmeticError):
     """A point between two others does not converge."""
 
 
-def _beside(tested: dict[float, float]) -> float | None:
+def _beside(
+    tested: dict[float, float], value: Callable[[float], float]
+) -> float | None:
     """Return the place beside a change of sign at which a test function is smaller.
 
-    None if the change is not known better than to :data:`LEAP` of the step.
+    The function, which adds to what is ``tested``, is asked for more until the change
+    is known to :data:`LEAP` of the step; None if it is not to be had.
     """
-    for low, high in itertools.pairwise(sorted(tested)):
-        if tested[low] * tested[high] < 0.0:
-            near = high - low <= LEAP * max(tested)
-            return min(low, high, key=lambda at: abs(tested[at])) if near else None
-    return None
+    while True:
+        low, high = next(
+            (low, high)
+            for low, high in itertools.pairwise(sorted(tested))
+            if tested[low] * tested[high] <= 0.0
+        )
+        if high - low <= LEAP * max(tested):
+            return min(low, high, key=lambda at: abs(tested[at]))
+        known = len(tested)
+        for part in PARTS:
+            with contextlib.suppress(_LostError, SingularError):
+                value(low + part * (high - low))
+                break
+        if len(tested) == known:
+            return None
 
 
 def folds(correction: Correction) -> float:

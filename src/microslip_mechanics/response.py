@@ -13,6 +13,8 @@ from microslip_mechanics.problem import Problem
 
 MARGIN = 1e-6
 """by which a Floquet multiplier outside the unit circle must exceed it"""
+PULL = 0.1
+"""of the largest push: a pull from which a contact is a spring"""
 PEAK_SAMPLES = 1024
 """of a period, to find the largest value in time"""
 
@@ -138,6 +140,12 @@ class ResponseCurve:
     """name of that parameter; empty along frequency"""
     ending: str
     """how the curve ended: "complete", "interrupted", or the cause"""
+
+    @property
+    def pulls(self) -> bool:
+        """Whether springs are among the contacts: dampers alone hardly pull."""
+        least = float(np.nanmin(self.normal_smallest, initial=0.0))
+        return least < -PULL * float(np.nanmax(self.normal_largest, initial=0.0))
 
     def __repr__(self) -> str:
         """Return what kind of curve it is, in a line."""

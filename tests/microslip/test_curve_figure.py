@@ -170,9 +170,13 @@ def test_springs_that_pull_are_not_called_normal(small_curve: ResponseCurve) -> 
     pulling = dataclasses.replace(
         small_curve, normal_smallest=-small_curve.normal_largest
     )
+    damped = dataclasses.replace(
+        small_curve, normal_smallest=-0.01 * small_curve.normal_largest
+    )
     axes = Figure().subplots()
 
     curves.normal_forces(axes, pulling)
 
     assert axes.get_title(loc="left").startswith("Spring forces")
     assert axes.get_ylim()[0] < pulling.normal_smallest.min()
+    assert not damped.pulls

@@ -238,8 +238,7 @@ def _table(traced: Traced) -> str:
     if rubs:
         head, units = f"{head}     friction", f"{units}  [mJ/period]"
     if presses:
-        both = bool((curve.normal_smallest < 0.0).any())
-        force = "spring force [N]" if both else "normal force [N]"
+        force = "spring force [N]" if curve.pulls else "normal force [N]"
         head, units = f"{head}      {force}", f"{units}     least      most"
     lines = [head, units]
     largest = int(curve.amplitude.max(axis=1).argmax())

@@ -219,7 +219,7 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
             )
     lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
     highest = float(np.nanmax(curve.normal_largest, initial=0.0))
-    what = "Normal forces" if lowest == 0.0 else "Spring forces"
+    what = "Spring forces" if curve.pulls else "Normal forces"
     title = f"{what}: range over a period, line at the largest"
     framed(axes, x=abscissa_name(curve), y="force [N]", title=title)
     axes.set_ylim(1.05 * lowest, 1.05 * highest if highest > 0.0 else None)

@@ -57,7 +57,6 @@ def round_corner(
         Scale of each component near a point.
     tolerance
         Of the largest residual.
-
     """
     last = way[-1]
     scale = metric(last.point)

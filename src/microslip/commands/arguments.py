@@ -68,7 +68,7 @@ def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
     Raises
     ------
     OutputError
-        If it is so: better before the work than after it.
+        If there is no folder or it is closed: better before the work than after it.
     """
     chosen: Path = options.output or Path()
     if chosen.is_dir():
@@ -163,5 +163,5 @@ def demand_folder(path: Path) -> None:
         )
     if not os.access(path.parent, os.W_OK | os.X_OK):
         raise OutputError(
-            f"the folder {path.parent} cannot be written to: give another one by -o"
+            f"the folder {path.parent} cannot be written to: give another one"
         )

@@ -46,6 +46,10 @@ second the first, else the third; what goes round a corner takes short steps, no
 """
 RAISES = 4
 """times that it is raised for failures"""
+STRAIGHT = 0.8
+"""cosine between the tangents where a point is settled and where it is reported, below
+which the first belongs to a fold that more harmonics do not have
+"""
 NEIGHBOURS, ALIKE = 5, 0.5
 """points before whose errors by sampling tell that of one where a march goes from
 sample to sample, and the share of theirs that it has at least"""
@@ -67,6 +71,7 @@ class AdaptiveBalance:
         errors: bool = True,
         effort: Effort | None = None,
         marched: bool = False,
+        pushed: bool = False,
     ) -> None:
         """Begin with ``start``; without ``tolerance`` stay there.
 
@@ -77,9 +82,12 @@ class AdaptiveBalance:
         resolution are not estimated. ``effort`` counts the evaluations. ``marched``
         says that contacts are marched from sample to sample: how far a transition is
         from the next sample, by which they err, is an accident at each point.
+        ``pushed`` says that pushes on rigid contacts are among the components: they
+        jump, so that they turn the tangent with every harmonic.
         """
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
         self.fourier = self.settled = self._kept = start
+        self._pushed = pushed
         self._wait, self._effort = 0, effort or Effort()
         self._superharmonics = Superharmonics()
         self._smoothest, self._sharpest = start.threshold, 0.0
@@ -107,6 +115,20 @@ class AdaptiveBalance:
     def changed(self) -> bool:
         """Whether the resolution is another one than that of the last kept point."""
         return self.fourier != self._kept
+
+    def straightened(self, correction: Correction, scale: Array) -> Array | None:
+        """Return a guess with more harmonics, if these have another tangent."""
+        if self._pushed or self._tolerance is None:
+            return None
+        reported, _ = self.reported(correction, scale)
+        ways = correction.along / scale, reported.along / scale
+        sizes = [float(np.linalg.norm(way)) for way in ways]
+        finer = self._doubled(True, True)
+        straight = float(ways[0] @ ways[1]) >= STRAIGHT * sizes[0] * sizes[1]
+        if straight or finer == self.fourier:
+            return None
+        self.fourier, self._wait = finer, WAIT
+        return reported.point
 
     def overlooks(self, point: Array, scale: Array, step: float) -> bool:
         """Return whether a step passed the resonance of a higher harmonic."""

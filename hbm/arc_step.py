@@ -25,6 +25,10 @@ from microslip_mechanics.arrays import Array
 Metric = Callable[[Array], Array]
 """point (n + 1,) ↦ the change of each component that counts as one unit of arc"""
 
+ASKEW = 0.7
+"""cosine between the tangents of a step to a point with more harmonics, by which the
+curve turns where fewer have just begun to mislead; one that turns more is at a corner
+"""
 THROWN = 10.0
 """times its length by which a step moves a point that it throws beyond a corner"""
 
@@ -45,13 +49,11 @@ def next_point(
     ContinuationError
         If the shortest step does not converge either.
     """
-    normal = direction / scale**2
-    normal /= np.abs(normal).max()
     failures = 0
     while True:
         predicted = past.predict(step)
         candidate, close = _settled(
-            system, predicted, normal, scale, step, control, settler
+            system, predicted, direction, scale, step, control, settler
         )
         candidate = _directed(candidate, direction, scale)
         if candidate.outcome is Outcome.CONVERGED:
@@ -79,7 +81,7 @@ def next_point(
 def _settled(
     system: System,
     predicted: Array,
-    normal: Array,
+    direction: Array,
     scale: Array,
     step: float,
     control: StepControl,
@@ -88,35 +90,49 @@ def _settled(
     """Return a point across a prediction, settled if it is close to it, and whether.
 
     If settling moves it far away, to another branch perhaps, and the system that this
-    has made finer has a point close to the prediction, that one is taken.
+    has made finer has a point close to the prediction, that one is taken. One whose
+    tangent misleads is settled again, with more harmonics.
     """
     small = neglected(control, lambda _: scale)
+    normal = direction / scale**2
+    normal /= np.abs(normal).max()
 
-    def found() -> tuple[Correction, bool]:
+    def found(guess: Array) -> tuple[Correction, bool]:
         candidate = correct(
-            system, predicted, normal, tolerance=control.tolerance, small=small
+            system, guess, normal, tolerance=control.tolerance, small=small
         )
         slack = control.shift if settler.changed else control.slack
-        near = away(candidate) <= max(0.5 * step, slack)
+        near = away(candidate, guess) <= max(0.5 * step, slack)
         return candidate, near and candidate.outcome is Outcome.CONVERGED
 
-    def away(candidate: Correction) -> float:
-        return float(np.linalg.norm((candidate.point - predicted) / scale))
+    def away(candidate: Correction, guess: Array) -> float:
+        return float(np.linalg.norm((candidate.point - guess) / scale))
 
-    candidate, close = found()
+    def kept(candidate: Correction) -> Correction:
+        settled = settler.settle(candidate, normal, control.tolerance, small)
+        return _directed(settled, direction, scale)
+
+    candidate, close = found(predicted)
     if not close:
         return candidate, False
-    settled = settler.settle(candidate, normal, control.tolerance, small)
-    if away(settled) > max(0.5 * step, control.shift):
-        again, close = found()
-        if close:
-            settled = settler.settle(again, normal, control.tolerance, small)
+    settled = kept(candidate)
+    if away(settled, predicted) > max(0.5 * step, control.shift):
+        again, close = found(predicted)
+        settled = kept(again) if close else settled
+    while settled.tangent is not None and step > control.narrowest:
+        guess = settler.straightened(settled, scale)
+        if guess is None:
+            break
+        again, close = found(guess)
+        settled = kept(again) if close else settled
+        if not close or turn(settled, direction, scale) < ASKEW:
+            return settled, False
     return settled, True
 
 
 def _directed(candidate: Correction, direction: Array, scale: Array) -> Correction:
     """Return a converged point with its tangent; failed, if it has none."""
-    if candidate.outcome is not Outcome.CONVERGED:
+    if candidate.outcome is not Outcome.CONVERGED or candidate.tangent is not None:
         return candidate
     try:
         turned = tangent(candidate.linearised, direction, scale)

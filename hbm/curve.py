@@ -9,7 +9,7 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
-from hbm.crossings import BRANCH, crossings
+from hbm.crossings import BRANCH, TORUS, crossings
 from hbm.errors import ContinuationError
 from hbm.events import Events
 from hbm.fourier import FourierBasis
@@ -26,6 +26,8 @@ from microslip_mechanics.response import PeriodicResponse
 TURN = 2.0 * np.pi
 ASTRAY = 0.01
 """distance of a multiplier from +1 at which an orbit is no branch point"""
+ASIDE = 0.05
+"""distance of complex multipliers from the unit circle at which there is no torus"""
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
 
@@ -59,7 +61,7 @@ class Curve:
                 for event in self.events.between(before, after, metric):
                     names.append(event.name)
                     told, _ = self.made(event.correction, event.name)
-                    if event.name != BRANCH or _branches(told.multipliers):
+                    if _confirmed(event.name, told.multipliers):
                         yield replace(told, parameter_error=event.error)
                 changed = crossings(before.multipliers, after.multipliers)
                 after = after._replace(owes="fold" in names and not changed)
@@ -115,13 +117,19 @@ class Curve:
         return replace(made, error=error, multipliers=multipliers), finer
 
 
-def _branches(multipliers: ComplexArray) -> bool:
-    """Return whether one of the multipliers of an orbit as it is reported is +1.
+def _confirmed(event: str, multipliers: ComplexArray) -> bool:
+    """Return whether the multipliers of an orbit as it is reported are its event's.
 
-    On the orbits of fewer harmonics by which it was located one is: beside a fold, that
-    may be nothing but the fold.
+    On the orbits of fewer harmonics by which it was located one is +1 at a branch
+    point: beside a fold, that may be nothing but the fold. A pair that has met on the
+    real axis outside the circle, from where one goes through the fold, is no torus.
     """
-    return bool((np.abs(multipliers - 1.0) < ASTRAY).any())
+    if event == BRANCH:
+        return bool((np.abs(multipliers - 1.0) < ASTRAY).any())
+    if event == TORUS:
+        off = np.abs(np.abs(multipliers[multipliers.imag != 0.0]) - 1.0)
+        return bool((off < ASIDE).any())
+    return True
 
 
 def response(

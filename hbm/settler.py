@@ -28,11 +28,15 @@ class Settler(Protocol):
         ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`.
         """
 
-    def overlooks(self, point: Array, scale: Array, step: float) -> bool:
-        """Return whether a step to a point was too long to see what lies on its way.
+    def straightened(self, correction: Correction, scale: Array) -> Array | None:
+        """Return a guess for a settled point whose tangent is not where the curve goes.
 
-        ``scale`` is the unit of arc of each component.
+        The system is finer then. None if it is. ``scale`` is the unit of arc of each
+        component.
         """
+
+    def overlooks(self, point: Array, scale: Array, step: float) -> bool:
+        """Return whether a step to a point was too long to see what lies on its way."""
 
     def keep(self, step: float = math.inf) -> None:
         """Learn that the last point is kept, and the step that led to it."""
@@ -55,6 +59,14 @@ class Unsettled:
     ) -> Correction:
         """Return the point."""
         return correction
+
+    def straightened(
+        self,
+        correction: Correction,  # noqa: ARG002
+        scale: Array,  # noqa: ARG002
+    ) -> Array | None:
+        """Return that it is."""
+        return None
 
     def overlooks(
         self,

@@ -34,6 +34,8 @@ class Tracer:
         """Plan for ``path``; ``problem``, one on it, says what is large."""
         self.path, self.effort = path, Effort(options.effort)
         resolution = PathResolution(path, problem.probes.rows)
+        points = problem.interface.points
+        rigid = bool((points.friction == RIGID).any())
         self.system = AdaptiveBalance(
             resolution,
             replace(options.first, threshold=smoothest(path, options)),
@@ -41,11 +43,11 @@ class Tracer:
             most=options.most_harmonics,
             errors=options.errors,
             effort=self.effort,
-            marched=bool(marched(problem.interface.points).any()),
+            marched=bool(marched(points).any()),
+            pushed=rigid,
         )
         drive = float(np.abs(problem.drive).max(initial=0.0))
         self.control = options.control(problem.force_scale, drive)
-        rigid = bool((problem.interface.points.friction == RIGID).any())
         motions = path.motions if options.stability and not rigid else None
         multipliers = Multipliers(
             resolution, motions, self.control, options.harmonics is not None
@@ -56,7 +58,7 @@ class Tracer:
             self.control,
             multipliers,
             limits=(min(options.start, options.end), max(options.start, options.end)),
-            recalls=bool(remembers(problem.interface.points).any()),
+            recalls=bool(remembers(points).any()),
         )
         self.curve = Curve(
             problem,

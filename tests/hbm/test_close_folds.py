@@ -132,3 +132,27 @@ def test_a_fold_at_a_small_jump_of_the_residual_is_told(
     folds = [place for name, place in found if name == "fold"]
     # by marches, stepped up and down; upwards the motion jumps before 2.58292 Hz
     assert folds == pytest.approx([2.5828, 2.4302], abs=aside)
+
+
+@pytest.mark.parametrize("highest", [0.32, 0.45])
+def test_a_pair_that_meets_before_a_fold_is_no_torus(highest: float) -> None:
+    """Of a pair outside the circle one goes through +1 in the fold at 0.2063 Hz.
+
+    Checked by integrating the variational equations of both orbits beside it.
+    """
+    absorber = system(
+        names=["h", "a"],
+        mass=[1.0, 0.05],
+        stiffness=[[1.0454, -0.0454], [-0.0454, 0.0454]],
+        damping=[[0.0148, -0.0128], [-0.0128, 0.0128]],
+        elements=[
+            Element(CubicSpring(cubic=1.0), between=("h", "ground")),
+            Element(CubicSpring(cubic=0.0042), between=("h", "a")),
+        ],
+        drive={"h": 0.15},
+    )
+    found = events(absorber, 0.11, highest, 1e-3)
+    tori = [where for name, where in found if name == "Neimark-Sacker"]
+    assert tori == pytest.approx([0.178710], rel=1e-4)
+    folds = [where for name, where in found if name == "fold"]
+    assert folds == pytest.approx([0.177050, 0.175204, 0.206298, 0.198500], rel=1e-5)

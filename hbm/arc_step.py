@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -52,10 +52,8 @@ def next_point(
     failures = 0
     while True:
         predicted = past.predict(step)
-        candidate, close = _settled(
-            system, predicted, direction, scale, step, control, settler
-        )
-        candidate = _directed(candidate, direction, scale)
+        across = _Across(system, predicted, direction, scale, step, control, settler)
+        candidate, close = across.settled()
         if candidate.outcome is Outcome.CONVERGED:
             smooth = turn(candidate, direction, scale) > control.sharpest_turn
             passed = settler.overlooks(candidate.point, scale, step)
@@ -78,61 +76,85 @@ def next_point(
         step = max(step * 0.5, control.smallest)
 
 
-def _settled(
-    system: System,
-    predicted: Array,
-    direction: Array,
-    scale: Array,
-    step: float,
-    control: StepControl,
-    settler: Settler,
-) -> tuple[Correction, bool]:
-    """Return a point across a prediction, settled if it is close to it, and whether.
+@dataclass(frozen=True, slots=True)
+class _Across:
+    """The plane across a prediction, in which a point is sought and settled."""
 
-    If settling moves it far away, to another branch perhaps, and the system that this
-    has made finer has a point close to the prediction, that one is taken. One whose
-    tangent misleads is settled again, with more harmonics.
-    """
-    small = neglected(control, lambda _: scale)
-    normal = direction / scale**2
-    normal /= np.abs(normal).max()
+    system: System
+    predicted: Array
+    direction: Array
+    scale: Array
+    step: float
+    control: StepControl
+    settler: Settler
 
-    def found(guess: Array) -> tuple[Correction, bool]:
+    def settled(self) -> tuple[Correction, bool]:
+        """Return a point, settled if it is close to the prediction, and whether.
+
+        If settling moves it far away, to another branch perhaps, and the system that
+        this has made finer has a point close to the prediction, that one is taken.
+        """
+        candidate, close = self._found(self.predicted)
+        if not close:
+            return _directed(candidate, self.direction, self.scale), False
+        settled = self._kept(candidate)
+        far = max(0.5 * self.step, self.control.shift)
+        if self._away(settled, self.predicted) > far:
+            again, close = self._found(self.predicted)
+            settled = self._kept(again) if close else settled
+        return self._straight(settled)
+
+    def _straight(self, settled: Correction) -> tuple[Correction, bool]:
+        """Return a point whose tangent more harmonics have too, and whether it is one.
+
+        Before a corner, and with the shortest steps that matter, it is what it is.
+        """
+        while settled.tangent is not None and self.step > self.control.narrowest:
+            guess = self.settler.straightened(settled, self.scale)
+            if guess is None:
+                break
+            again, close = self._found(guess)
+            settled = self._kept(again) if close else settled
+            if not close or turn(settled, self.direction, self.scale) < ASKEW:
+                return settled, False
+        return settled, True
+
+    def _found(self, guess: Array) -> tuple[Correction, bool]:
+        """Return a point in the plane through a guess, and whether it is near that."""
         candidate = correct(
-            system, guess, normal, tolerance=control.tolerance, small=small
+            self.system,
+            guess,
+            self._normal,
+            tolerance=self.control.tolerance,
+            small=self._small,
         )
-        slack = control.shift if settler.changed else control.slack
-        near = away(candidate, guess) <= max(0.5 * step, slack)
+        slack = self.control.shift if self.settler.changed else self.control.slack
+        near = self._away(candidate, guess) <= max(0.5 * self.step, slack)
         return candidate, near and candidate.outcome is Outcome.CONVERGED
 
-    def away(candidate: Correction, guess: Array) -> float:
-        return float(np.linalg.norm((candidate.point - guess) / scale))
+    def _kept(self, candidate: Correction) -> Correction:
+        settled = self.settler.settle(
+            candidate, self._normal, self.control.tolerance, self._small
+        )
+        return _directed(settled, self.direction, self.scale)
 
-    def kept(candidate: Correction) -> Correction:
-        settled = settler.settle(candidate, normal, control.tolerance, small)
-        return _directed(settled, direction, scale)
+    def _away(self, candidate: Correction, guess: Array) -> float:
+        return float(np.linalg.norm((candidate.point - guess) / self.scale))
 
-    candidate, close = found(predicted)
-    if not close:
-        return candidate, False
-    settled = kept(candidate)
-    if away(settled, predicted) > max(0.5 * step, control.shift):
-        again, close = found(predicted)
-        settled = kept(again) if close else settled
-    while settled.tangent is not None and step > control.narrowest:
-        guess = settler.straightened(settled, scale)
-        if guess is None:
-            break
-        again, close = found(guess)
-        settled = kept(again) if close else settled
-        if not close or turn(settled, direction, scale) < ASKEW:
-            return settled, False
-    return settled, True
+    @property
+    def _normal(self) -> Array:
+        normal = self.direction / self.scale**2
+        unit: Array = normal / np.abs(normal).max()
+        return unit
+
+    @property
+    def _small(self) -> Small | None:
+        return neglected(self.control, lambda _: self.scale)
 
 
 def _directed(candidate: Correction, direction: Array, scale: Array) -> Correction:
     """Return a converged point with its tangent; failed, if it has none."""
-    if candidate.outcome is not Outcome.CONVERGED or candidate.tangent is not None:
+    if candidate.outcome is not Outcome.CONVERGED:
         return candidate
     try:
         turned = tangent(candidate.linearised, direction, scale)

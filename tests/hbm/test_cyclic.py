@@ -131,3 +131,36 @@ def test_coupling_of_the_wrong_shape_is_refused() -> None:
     wrong = Coupling(np.zeros((3, 3)), *2 * (np.zeros((4, 4)),))
     with pytest.raises(ValueError, match=r"coupling\.mass has shape \(3, 3\)"):
         replace(problem, coupling=wrong)
+
+
+@pytest.mark.parametrize("order", [1, 2, 4])
+def test_a_wave_runs_round_the_disk_the_way_that_it_leads(order: int) -> None:
+    """Even if the tie from a sector to the next is not the one back."""
+    problem = bladed_disk(6, order, PointLaw())
+    tie = problem.coupling.stiffness.copy()
+    tie[0, 1] = -20.0
+    problem = replace(problem, coupling=replace(problem.coupling, stiffness=tie))
+    wave = np.kron(np.exp(1j * problem.lead * np.arange(6))[:, None], np.eye(4))
+
+    whole = problem.disk().structure.stiffness @ wave
+    assert np.abs(whole - wave @ problem.wave("stiffness", problem.lead)).max() < 1e-9
+
+
+def test_contacts_between_sectors_rest_as_those_of_the_disk() -> None:
+    problem = bladed_disk(6, 2, PointLaw(stiffness=500.0, exponent=1.0))
+    own, following = np.zeros((2, 3, 4))
+    own[0, 3], following[0, 3] = 1.0, -0.5
+    problem = replace(
+        problem,
+        interface=replace(problem.interface, displacement=own),
+        to_next=following,
+        preload=np.array([0.0, 0.0, 0.0, 2.0]),
+    )
+
+    one, all_ = (
+        static_equilibrium(each) for each in (problem.standing(), problem.disk())
+    )
+    assert one.displacement == pytest.approx(
+        [0.00554913, 0.00693642, 0.00878613, 0.01156069], rel=1e-6
+    )
+    assert all_.displacement == pytest.approx(np.tile(one.displacement, 6), rel=1e-9)

@@ -12,6 +12,7 @@ from hbm.solve import frequency_response
 from microslip.studies.curve import Traced
 from microslip.studies.orbits import (
     Verdict,
+    beyond,
     spread,
     too_many,
     verdicts,
@@ -78,6 +79,20 @@ def test_an_honest_curve_agrees_within_both_estimates(make: type) -> None:
         assert each.comparison.harmonics[0] < 1e-3
     assert not too_many(found)
     assert not any(each.doubted for each in found)
+
+
+@pytest.mark.parametrize(
+    ("count", "wrong", "many"),
+    [(4, 1, False), (4, 2, True), (12, 3, False), (12, 4, True)],
+)
+def test_a_quarter_may_be_beyond_both_estimates(
+    count: int, wrong: int, many: bool
+) -> None:
+    found = judged(*block())
+    within = next(each for each in found if each not in beyond(found))
+    lost = dataclasses.replace(within, comparison=None, cause="no orbit")
+
+    assert too_many([within] * (count - wrong) + [lost] * wrong) is many
 
 
 def test_a_curve_scaled_by_one_per_cent_fails_at_every_point() -> None:

@@ -18,6 +18,7 @@ from microslip_mechanics.thinning import thinned
 from microslip_mechanics.time_history import TimeHistory
 
 SCENE = '# a scene\nscene = "two-blades"\n# --set model=A'
+DOCS = Path(__file__).parents[2] / "docs"
 COMMAND = "microslip frc two-blades --set model=A"
 
 
@@ -351,3 +352,23 @@ def test_a_file_that_another_program_wrote_anew_is_told(
 
     with pytest.raises(StoreError, match="is not a result file"):
         load(copy)
+
+
+@pytest.mark.parametrize("kind", SCHEMAS)
+def test_units_are_those_that_the_docs_name(kind: str) -> None:
+    number = list(SCHEMAS).index(kind)
+    tables = (DOCS / "files.md").read_text().split("| variable |")[1:]
+    told: dict[str, str] = {}
+    for line in tables[number].splitlines():
+        cells = [cell.strip() for cell in line.split("|")[1:-1]]
+        if len(cells) == 4 and cells[0].startswith("`"):
+            names = [name.strip("` ") for name in cells[0].split(",")]
+            units = [unit.strip() for unit in cells[2].split(",")] * len(names)
+            told |= dict(zip(names, units, strict=False))
+
+    _, schema = SCHEMAS[kind]
+    named_in_words = {"probes", "contacts", "energies", "checkpoint"}
+    assert schema.keys() - told.keys() <= named_in_words
+    for name in schema.keys() & told.keys():
+        _, unit, _ = schema[name]
+        assert unit in {told[name], ""} or told[name] == "SI", name

@@ -33,6 +33,12 @@ def test_marches_from_unstable_orbits_prove_nothing_and_refute_nothing() -> None
     assert said == "every orbit is unstable: no march needs to stay near one"
 
 
+def test_marches_of_unknown_stability_decide_as_stable_ones_do() -> None:
+    _, stays = marches_said([left(0.5, -1)], ["x"], 1e-3)
+
+    assert not stays
+
+
 @pytest.mark.parametrize(("far", "stays"), [(9e-4, True), (2e-3, False)])
 def test_marches_from_stable_orbits_decide(far: float, stays: bool) -> None:
     said, found = marches_said([left(0.5, 1), left(far, 0)], ["x"], 1e-3)

@@ -12,6 +12,8 @@ Method = Literal["fast", "reference"]
 METHODS = ("fast", "reference")
 MOST_DIVISIONS = 20
 """a step in a million parts"""
+FINEST = 1e-14
+"""least tolerance: what is below is rounding, however short the steps"""
 
 
 class IntegrationError(MicroslipError):
@@ -61,9 +63,10 @@ class MarchOptions:
             )
         if self.tolerance is None:
             return
-        if not 0.0 < self.tolerance < 1.0:
+        if not FINEST <= self.tolerance < 1.0:
             raise ValueError(
-                f"tolerance {self.tolerance:g}: give one between 0 and 1, such as 1e-3"
+                f"tolerance {self.tolerance:g}: give one between {FINEST:g} and 1, "
+                "such as 1e-3"
             )
         if self.method == "reference":
             raise ValueError(

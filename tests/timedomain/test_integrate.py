@@ -202,8 +202,8 @@ def test_a_march_does_not_write_to_its_start() -> None:
         ),
         (
             "tolerance",
-            (0.0, -1e-3, 1.0, np.nan, np.inf),
-            "tolerance {:g}: give one between 0 and 1, such as 1e-3",
+            (0.0, -1e-3, 1e-30, 1.0, np.nan, np.inf),
+            "tolerance {:g}: give one between 1e-14 and 1, such as 1e-3",
         ),
         ("divisions", (0, -1, 21, np.nan), "{} divisions of a step: give 1 to 20"),
     ],

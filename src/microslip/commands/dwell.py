@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.sweep import energy_table
+from microslip.commands.sweep import energy_table, estimates
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -89,7 +89,7 @@ def _run(options: argparse.Namespace) -> int:
     figure = dwell_figure(history, distances, options.tolerance, title)
     save_figure(picture, figure)
     print("\n".join(_lines(options, history, distances)))
-    print(energy_table(history))
+    print("\n".join([energy_table(history), *estimates(history)]))
     print(f"{len(distances)} periods in {data}, picture in {picture}")
     if beyond_motion(problem.interface.points):
         print(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -43,7 +44,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         type=_tolerance,
         default=1e-3,
         metavar="SHARE",
-        help="of dissipated energy and peak amplitude; 0 takes the scene's time step "
+        help="of friction's energy and peak amplitude; 0 takes the scene's time step "
         "(default: 1e-3)",
     )
     arguments.add_output(parser, "sweep")
@@ -94,10 +95,15 @@ def _run(options: argparse.Namespace) -> int:
 
 def _tolerance(text: str) -> float:
     """Return a tolerance, or 0 for none."""
-    value = float(text)
-    if not 0.0 <= value < 1.0:
+    from timedomain.options import FINEST
+
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if value != 0.0 and not FINEST <= value < 1.0:
         raise argparse.ArgumentTypeError(
-            f"{text}: give one between 0 and 1, such as 1e-3"
+            f"{text}: give one between {FINEST:g} and 1, such as 1e-3, or 0 for none"
         )
     return value
 
@@ -155,7 +161,7 @@ def _show(options: argparse.Namespace, data: Path, picture: Path) -> bool:
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)
     save_figure(picture, result_figure(result, arguments.title(options)))
     print(energy_table(result))
-    print("\n".join([*_estimates(result), *_extremes(result)]))
+    print("\n".join([*estimates(result), *_extremes(result)]))
     return closes(result)
 
 
@@ -182,7 +188,7 @@ def energy_table(result: TimeHistory | Envelope) -> str:
     return "\n".join(lines)
 
 
-def _estimates(result: TimeHistory | Envelope) -> list[str]:
+def estimates(result: TimeHistory | Envelope) -> list[str]:
     """Return lines of the estimated errors, as far as the result tells them."""
     from microslip_mechanics.envelope import Envelope
 

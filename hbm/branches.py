@@ -11,7 +11,6 @@ from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hbm.crossings import BRANCH
 from hbm.fourier import FourierBasis
@@ -29,6 +28,10 @@ NEAR = 0.05
 """distance of a multiplier from +1 up to which a located branch point is believed"""
 FEWEST, FINEST = 15, 63
 """harmonics with which a branch is sought"""
+SPANNED = 1e-4
+"""size of a motion along the curve, over the largest, below which it has none"""
+SINGULAR = 10.0
+"""times the least singular value of the whole Jacobian that one aside may have"""
 CLOSE = 2e-3
 """relative difference of frequencies at which a branch ends on a branch point"""
 NOWHERE = (np.inf, -np.inf)
@@ -65,7 +68,7 @@ class Branching:
         for number, place in enumerate(places):
             if number in reached:
                 continue
-            low, high = yield from self._from(place)
+            low, high = yield from self._from(place, known)
             for other, end in enumerate(places):
                 near = (1.0 - CLOSE) * low <= end.frequency <= (1.0 + CLOSE) * high
                 if near and other != number and other not in reached:
@@ -73,7 +76,7 @@ class Branching:
                     yield replace(end, event="")
 
     def _from(
-        self, response: PeriodicResponse
+        self, response: PeriodicResponse, known: Sequence[PeriodicResponse]
     ) -> Generator[PeriodicResponse, None, tuple[float, float]]:
         """Yield the responses on the branch at one point, until it comes back.
 
@@ -82,13 +85,14 @@ class Branching:
         tracer = Tracer(self.problem, self.path, self.options)
         tracer.system.restart(min(max(response.harmonics, FEWEST), FINEST))
         point = tracer.guess(response, self.path.problem.selection)
-        away = self._direction(point, tracer.system.fourier)
+        aside = self._aside(tracer, known)
+        away = self._direction(point, tracer.system.fourier, aside)
         begun = _beside(tracer, point, away)
         if begun is None:
             return NOWHERE
         back: list[float] = []
         corrections = tracer.pieces.from_point(begun, away)
-        parted = _parted(corrections, point, begun, away != 0.0, back)
+        parted = _parted(corrections, begun, aside, back)
         last: list[float] = []
         for each in tracer.curve.followed(parted, tracer.pieces.metric):
             if not last:
@@ -96,23 +100,42 @@ class Branching:
             if not each.event and not back:
                 last.clear()  # it is about the last step that is asked
             last.append(each.frequency)
-            yield each
+            if not back or each.event not in ("", "fold"):
+                yield each  # where it comes back it turns into its mirror image
         return (min(last + back), max(last + back)) if back and last else NOWHERE
 
-    def _direction(self, point: Array, fourier: FourierBasis) -> Array:
-        """Return the unit direction that the Jacobian maps nearest to zero.
+    def _aside(self, tracer: Tracer, known: Sequence[PeriodicResponse]) -> Array:
+        """Return unit vectors, as columns, of what no motion along the curve has.
 
-        Among what a symmetry keeps still on the curve, if there is a symmetry.
+        A symmetry may keep coefficients still, or have coordinates move alike. Without
+        one they are all that there is.
+        """
+        places = np.flatnonzero(self.path.mask(tracer.system.fourier.harmonics))
+        selection, rest = self.path.problem.selection, self.path.problem.rest
+        motions = np.array([tracer.guess(each, selection) for each in known])
+        motions[:, : self.path.rank] -= rest
+        _, sizes, rows = np.linalg.svd(motions[:, places])
+        spanned = int((sizes > SPANNED * sizes[0]).sum())
+        across = rows[spanned:] if spanned < len(places) else rows
+        aside = np.zeros((motions.shape[1], len(across)))
+        aside[places] = across.T
+        return aside
+
+    def _direction(self, point: Array, fourier: FourierBasis, aside: Array) -> Array:
+        """Return the unit direction ``aside`` that the Jacobian maps nearest to zero.
+
+        Or that of all, where the one aside is not mapped near to it.
         """
         _, linearised = self.path.balance(fourier)(point)
         places = np.flatnonzero(self.path.mask(fourier.harmonics))
-        moved = point[places]
-        moved[: self.path.rank] -= self.path.problem.rest
-        still = np.abs(moved) <= 1e-9 * np.abs(moved).max()
-        chosen = still if still.any() else ~still
-        _, _, rows = np.linalg.svd(linearised.jacobian[np.ix_(chosen, chosen)])
+        found = []
+        for among in (aside[places], np.eye(len(places))):
+            slope = among.T @ linearised.jacobian @ among
+            _, sizes, rows = np.linalg.svd(slope)
+            found.append((float(sizes[-1]), among @ rows[-1]))
+        (least, best), (all_, other) = found
         direction = np.zeros_like(point)
-        direction[places[chosen]] = rows[-1]
+        direction[places] = best if least < SINGULAR * all_ else other
         return direction
 
 
@@ -124,19 +147,19 @@ def _branches(response: PeriodicResponse) -> bool:
 
 def _parted(
     corrections: Iterable[Correction],
-    point: Array,
     begun: Array,
-    still: NDArray[np.bool_],
+    aside: Array,
     back: list[float],
 ) -> Iterator[Correction]:
-    """Yield what is aside of a branch point; put into ``back`` where it comes back.
+    """Yield what is aside of a curve; put into ``back`` where it comes back.
 
-    It does where what the symmetry keeps ``still`` vanishes, or changes its sign.
+    It does where what is ``aside`` of all motions along the curve vanishes, or changes
+    its sign.
     """
-    before = (begun - point)[still]
+    before = begun @ aside
     least = 0.5 * float(np.linalg.norm(before))
     for each in corrections:
-        after = (each.point - point)[still]
+        after = each.point @ aside
         near, passed = np.linalg.norm(after) <= least, before @ after < 0.0
         if near or passed:
             back.append(float(each.point[-1]))

@@ -9,8 +9,12 @@ import scipy.integrate
 from hbm.options import CurveOptions
 from hbm.solve import branches, frequency_response
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.polynomial_spring import CubicSpring
+from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from small_problems import cubic_oscillator
 
 DAMPING, DRIVE = 0.2, 6.0
@@ -107,3 +111,51 @@ def test_the_symmetric_orbit_between_the_branch_points_is_left_by_a_march() -> N
     for response in unstable[::4]:
         assert response.unstable == 1
         assert away(response, marched(response, 30, aside=1e-3)) > 0.05
+
+
+def exchanged() -> Problem:
+    """Return two alike oscillators, coupled and driven alike."""
+    return system(
+        names=["a", "b"],
+        mass=[1.0, 1.0],
+        stiffness=[[1.05, -0.05], [-0.05, 1.05]],
+        damping=[[0.02, 0.0], [0.0, 0.02]],
+        elements=[
+            Element(CubicSpring(cubic=1.0), between=(name, "ground"))
+            for name in ("a", "b")
+        ],
+        drive={"a": 0.05, "b": 0.05},
+    )
+
+
+def shot(response: PeriodicResponse) -> tuple[float, float]:
+    """Return how far both oscillators are off after a period, and their difference."""
+    start = np.concatenate([part[0] for part in response.at(np.zeros(1))])
+
+    def rate(time: float, state: Array) -> Array:
+        place, speed = state[:2], state[2:]
+        force = 0.05 * np.sin(response.frequency * time)
+        pull = 1.05 * place - 0.05 * place[::-1] + place**3
+        return np.concatenate([speed, force - 0.02 * speed - pull])
+
+    end = 2.0 * np.pi / response.frequency
+    done = scipy.integrate.solve_ivp(rate, (0.0, end), start, rtol=1e-10, atol=1e-12)
+    off = np.abs(done.y[:, -1] - start).max()
+    return float(off), float(abs(start[0] - start[1]))
+
+
+def test_a_branch_on_which_alike_oscillators_move_differently_is_followed() -> None:
+    problem, hertz = exchanged(), 2.0 * np.pi
+    rest = static_equilibrium(problem)
+    options = CurveOptions(0.14 * hertz, 0.3 * hertz, error=1e-4)
+    curve = list(frequency_response(problem, rest, options))
+    branch = list(branches(problem, rest, options, curve))
+
+    assert [each.event for each in branch].count("branch") == 1
+    folds = [each.frequency / hertz for each in branch if each.event == "fold"]
+    assert folds == pytest.approx([0.195942, 0.186510, 0.261696], rel=1e-5)
+    inner = [each for each in branch if not each.event][5:-5]
+    found = [shot(each) for each in inner[::6]]
+    assert len(found) > 5
+    for off, apart in found:
+        assert off < 1e-2 * apart

@@ -1,15 +1,21 @@
 """What verify and frc say of stability, and of sweeps without friction."""
 
+import argparse
 import dataclasses
 import math
 
 import numpy as np
 import pytest
 
-from microslip.commands.frc import events_said
+from microslip.commands.frc import _resolution, events_said
+from microslip.commands.frc import _table as response_table
+from microslip.commands.verify import Found, _verdict
 from microslip.commands.verify_tables import marches_said, sweep_rows, sweeps_said
+from microslip.studies.curve import Traced
+from microslip.studies.orbits import Verdict
 from microslip.studies.verify import SweepAgreement
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response import PeriodicResponse, ResponseCurve
+from microslip_mechanics.static import StaticState
 from timedomain.verify import Agreement
 
 
@@ -24,6 +30,13 @@ def swept(slower: float, energy: float) -> SweepAgreement:
     """Return a sweep of which friction takes so much, and as much is predicted."""
     none = np.zeros(0)
     return SweepAgreement(slower, energy, energy, 0.1 / slower, 1e-6, none, none)
+
+
+def unmoved() -> PeriodicResponse:
+    """Return a response at 4 Hz in which nothing moves."""
+    none = np.zeros(0)
+    still = np.zeros((3, 1))
+    return PeriodicResponse(4.0 * math.tau, still, none, none, 0.0, 0.0, 0.0, "", 0)
 
 
 def test_marches_from_unstable_orbits_prove_nothing_and_refute_nothing() -> None:
@@ -76,3 +89,49 @@ def test_what_is_known_of_stability_is_said(
     curve = dataclasses.replace(small_curve, unstable=np.array(unstable, dtype=float))
 
     assert text in events_said(curve)
+
+
+def test_events_and_errors_are_told_in_the_units_beside_them(
+    small_curve: ResponseCurve,
+) -> None:
+    known = math.tau * np.array([math.nan, 2e-3, 3e-4, math.nan])
+    curve = dataclasses.replace(
+        small_curve, parameter_error=known, error=np.array([1e-4, 2e-3, 5e-4, 1e-3])
+    )
+
+    said = events_said(curve)
+    assert "131.000000 Hz \N{PLUS-MINUS SIGN} 0.002 " in said
+    assert "133.000000 Hz \N{PLUS-MINUS SIGN} 0.0003 " in said
+    assert "mm \N{PLUS-MINUS SIGN} 0.2 %" in said
+    assert "at most 0.2 % at a point, 0.075 % in the median" in _resolution(curve)
+
+
+def test_the_table_of_a_curve_is_in_the_units_of_its_head(
+    small_curve: ResponseCurve,
+) -> None:
+    rest = StaticState(np.zeros(1), np.zeros(2), 0.0, 1)
+    row = response_table(Traced(small_curve, (), rest)).splitlines()[2].split()
+
+    shown = [float(each) for each in row if each != "largest"]
+    probes = 1e3 * small_curve.amplitude[0, :3]
+    forces = small_curve.normal_smallest[0].min(), small_curve.normal_largest[0].max()
+    energy = 1e3 * small_curve.friction_energy[0]
+    assert shown == pytest.approx([130.0, *probes, energy, *forces], rel=5e-3)
+
+
+@pytest.mark.parametrize(("deviation", "status"), [(5e-4, 0), (0.5, 1)])
+def test_a_march_that_leaves_its_orbit_ends_verify_with_one(
+    deviation: float, status: int
+) -> None:
+    found = Found(("x",), marches=[left(deviation, 0)])
+
+    assert _verdict(argparse.Namespace(tolerance=1e-3), found) == status
+
+
+def test_orbits_beyond_both_estimates_end_verify_with_one() -> None:
+    lost = Verdict(unmoved(), "", None, "")
+    assert (
+        _verdict(argparse.Namespace(tolerance=1e-3), Found(("x",), orbits=[lost])) == 0
+    )
+    found = Found(("x",), orbits=[lost] * 2)
+    assert _verdict(argparse.Namespace(tolerance=1e-3), found) == 1

@@ -348,3 +348,17 @@ def test_reader_that_leaves_early_causes_no_traceback(
         error = process.stderr.read()
 
     assert error == ""
+
+
+@pytest.mark.parametrize("command", ["frc", "sweep"])
+def test_numbers_out_of_range_end_a_command_in_one_line(
+    command: str, tmp_path: Path
+) -> None:
+    # In a process of its own: within pytest, warnings are errors in any case.
+    words = [sys.executable, "-m", "microslip", command, "duffing"]
+    words += ["--set", "drive.x=1e300", "-o", f"{tmp_path}/"]
+    ended = subprocess.run(words, capture_output=True, text=True, check=False)
+
+    assert ended.returncode == 1
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith("microslip: numbers out of range (")

@@ -92,7 +92,7 @@ class Branching:
             return NOWHERE
         back: list[float] = []
         corrections = tracer.pieces.from_point(begun, away)
-        parted = _parted(corrections, begun, aside, back)
+        parted = _parted(corrections, point, begun, aside, back)
         last: list[float] = []
         for each in tracer.curve.followed(parted, tracer.pieces.metric):
             if not last:
@@ -147,19 +147,20 @@ def _branches(response: PeriodicResponse) -> bool:
 
 def _parted(
     corrections: Iterable[Correction],
+    point: Array,
     begun: Array,
     aside: Array,
     back: list[float],
 ) -> Iterator[Correction]:
-    """Yield what is aside of a curve; put into ``back`` where it comes back.
+    """Yield what is aside of a branch point; put into ``back`` where it comes back.
 
     It does where what is ``aside`` of all motions along the curve vanishes, or changes
     its sign.
     """
-    before = begun @ aside
+    before = (begun - point) @ aside
     least = 0.5 * float(np.linalg.norm(before))
     for each in corrections:
-        after = each.point @ aside
+        after = (each.point - point) @ aside
         near, passed = np.linalg.norm(after) <= least, before @ after < 0.0
         if near or passed:
             back.append(float(each.point[-1]))

@@ -34,11 +34,6 @@ from microslip_mechanics.contact.law import (
     normal_law,
     tangent_pattern,
 )
-from microslip_mechanics.contact.power_spring import (
-    PowerSpring,
-    power_energy,
-    power_force,
-)
 
 pytestmark = pytest.mark.kernels
 
@@ -398,14 +393,3 @@ def test_nothing_is_stored_out_of_contact(depth: float) -> None:
     energy = contact_energy(contact_points(), 0, depth)
 
     assert energy == 0.0
-
-
-@pytest.mark.parametrize("exponent", [1.0, 2.0, 2.5, 3.0, 5.0])
-def test_the_energy_of_a_power_spring_is_the_work_of_its_force(exponent: float) -> None:
-    spring = PowerSpring(3e6, exponent, 0.0, 0.0)
-    for reached in (-2e-3, 2e-3):
-        places = np.linspace(0.0, reached, 20001)
-        forces = [power_force(spring, float(place), 0.0)[0] for place in places]
-        work = float(np.trapezoid(forces, places))
-        assert power_energy(spring, reached) == pytest.approx(work, rel=1e-6)
-    assert power_energy(PowerSpring(3e6, 2.0, 0.0, 0.0), -2e-3) == pytest.approx(-8e-3)

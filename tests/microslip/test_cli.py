@@ -94,6 +94,8 @@ def test_version_is_that_of_the_package(run: Run) -> None:
         (("verify", "two-blades", "--frequencies", "0"), "give at least 1"),
         (("verify", "two-blades", "--periods", "1.5"), "--periods"),
         (("verify", "two-blades", "--tolerance", "small"), "--tolerance"),
+        (("sweep", "duffing", "--tolerance", "1e-30"), "between 1e-14 and 1"),
+        (("sweep", "duffing", "--tolerance", "small"), "small: give one between"),
         (("verify", "two-blades", "--slower", "much"), "--slower"),
         (("sweep", "two-blades", "--step", "1"), "sweep: no such argument: --step"),
         (("frc", "two-blades", "more"), "see microslip frc --help"),

@@ -89,6 +89,7 @@ def test_dwell_is_written_drawn_and_told(
 
     assert status == 0
     assert "130 Hz: steady after" in output
+    assert "estimated error of the peak amplitude" in output
     history = load(tmp_path / "quick-dwell.nc").result
     assert isinstance(history, TimeHistory)
     assert history.ending == "complete"

@@ -371,4 +371,4 @@ def test_units_are_those_that_the_docs_name(kind: str) -> None:
     assert schema.keys() - told.keys() <= named_in_words
     for name in schema.keys() & told.keys():
         _, unit, _ = schema[name]
-        assert unit in {told[name], ""} or told[name] == "SI", name
+        assert told[name] in {unit, "SI"}, name

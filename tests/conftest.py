@@ -95,11 +95,12 @@ def no_hang(compiled: None) -> Iterator[None]:  # noqa: ARG001
     def stop(*_: object) -> None:
         raise RuntimeError("the test hangs")
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.alarm(20)
+    # time of the processor: a busy machine makes nothing hang
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, 20.0)
     yield
-    signal.alarm(0)
-    signal.signal(signal.SIGALRM, before)
+    signal.setitimer(signal.ITIMER_PROF, 0.0)
+    signal.signal(signal.SIGPROF, before)
 
 
 @pytest.fixture

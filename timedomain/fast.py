@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -224,12 +225,8 @@ class FastMarch:
         shown, moving, normal, power, energy, more = np.split(
             rows, np.cumsum(sizes), axis=1
         )
-        friction, least = energy[:, FLOWS.index("friction")], self._tolerance()
-        difference = friction - more[:, OTHER_WORK]
-        unkept = more[:, UNKEPT]
-        drift = CANCELLED * (np.abs(more[:, DRIFT]) + np.abs(difference)) + unkept
-        lost = (more[:, LARGEST_DRIFT] + unkept) / more[:, REFERENCE]
-        return TimeHistory(
+        difference = energy[:, FLOWS.index("friction")] - more[:, OTHER_WORK]
+        history = TimeHistory(
             times,
             probes,
             shown,
@@ -244,14 +241,10 @@ class FastMarch:
             int(counts[ITERATIONS]),
             0 if self._options.tolerance else int(counts[REJECTED]),
             checkpoint=self._checkpoint(),
-            energy_error=np.maximum(drift, least * np.abs(friction)),
-            peak_error=np.maximum(lost, least),
             work_difference=difference,
         )
-
-    def _tolerance(self) -> float:
-        """Return the least relative error that an estimate tells."""
-        return self._options.tolerance or 0.0
+        least = self._options.tolerance
+        return history if least is None else _estimated(history, more, least)
 
     def _checkpoint(self) -> Checkpoint:
         shapes, motion = self._coordinates.shapes, self._motion
@@ -262,6 +255,18 @@ class FastMarch:
             shapes @ motion.velocity,
             np.concatenate([head, *kept]),
         )
+
+
+def _estimated(history: TimeHistory, more: Array, least: float) -> TimeHistory:
+    """Return a history with estimated errors, none below the tolerance."""
+    drift, unkept = np.abs(more[:, DRIFT]), more[:, UNKEPT]
+    drift = CANCELLED * (drift + np.abs(history.work_difference)) + unkept
+    lost = (more[:, LARGEST_DRIFT] + unkept) / more[:, REFERENCE]
+    return replace(
+        history,
+        energy_error=np.maximum(drift, least * np.abs(history.of("friction"))),
+        peak_error=np.maximum(lost, least),
+    )
 
 
 def _said(tolerance: float) -> str:

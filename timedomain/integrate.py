@@ -14,6 +14,7 @@ from timedomain.fast import FastMarch
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.reference import ReferenceMarch
 from timedomain.start import Start, at_rest
+from timedomain.step_doubling import StepDoubling, rows_between
 
 __all__ = ["IntegrationError", "MarchOptions", "integrate"]
 
@@ -39,7 +40,8 @@ def integrate(
         Factors of preload and drive over time.
     options
         Method, step or tolerance, and what is stored. Contacts that remember or are
-        rigid take the reference method with ``time_step``, and have no estimated error.
+        rigid take the reference method with ``time_step``. Equal steps have estimated
+        errors if asked for; what is stored is then rounded up to whole double steps.
     start
         Initial displacement and velocity; all at rest and without load if left out.
         From the checkpoint of a block of the same march, the rest of it is yielded.
@@ -55,19 +57,22 @@ def integrate(
     """
     if not 0.0 < block < math.inf:
         raise ValueError(f"block of {block:g} s: give a positive finite length")
+    if beyond_motion(problem.interface.points):
+        options = replace(options, method="reference", tolerance=None)
+    doubled = options.estimate and options.tolerance is None
     steps = whole_steps(history.duration, options.time_step)
     stride = min(options.store_every, steps)
-    rows = -(-steps // stride)
+    group = rows_between(stride) if doubled else 1
+    rows = group * -(-steps // (stride * group))
     options = replace(options, store_every=stride)
     begin = (
         at_rest(problem) if start is None or isinstance(start, Checkpoint) else start
     )
-    if beyond_motion(problem.interface.points):
-        options = replace(options, method="reference", tolerance=None)
     method = FastMarch if options.method == "fast" else ReferenceMarch
-    marching = method(problem, history, options, rows * stride, begin)
+    told = problem, history, options, rows * stride, begin
+    marching = StepDoubling(method, *told) if doubled else method(*told)
     done = marching.resume(start) // stride if isinstance(start, Checkpoint) else 0
-    per_block = max(1, round(block * rows / history.duration))
+    per_block = group * max(1, round(block * rows / (history.duration * group)))
     for first in range(done, rows, per_block):
         count = min(per_block, rows - first)
         yield marching.block(first * stride, count * stride)

@@ -37,6 +37,9 @@ class MarchOptions:
     """of contact forces, relative, at which Newton's method ends"""
     divisions: int = 10
     """how often a step that does not converge is halved"""
+    estimate: bool = False
+    """of the errors of equal steps: a march with twice the step beside costs half as
+    much again; a tolerance has estimates of its own"""
 
     def __post_init__(self) -> None:
         """Check that each option is one that a march can use."""

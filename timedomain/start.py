@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -80,12 +80,14 @@ def at_end(problem: Problem, end: Checkpoint) -> Start:
     """Return the motion at the end of a march, with what contacts remember.
 
     Those that remember are marched by the reference method alone, whose checkpoint
-    holds their tractions.
+    holds their tractions; behind it may be that of a march with other steps.
     """
     if not remembers(problem.interface.points).any():
         return Start(end.displacement, end.velocity)
     state = first_state(problem, Dwell(1.0, 1.0), at_rest(problem))
-    restore(state, meters(problem, problem.loads.T.copy()), end)
+    unread = meters(problem, problem.loads.T.copy())
+    own = 3 + sum(array.size for array in _kept(state, unread))
+    restore(state, unread, replace(end, memory=end.memory[:own]))
     return Start(end.displacement, end.velocity, state.past[:, 1].copy())
 
 

@@ -28,6 +28,8 @@ def step_error(
 
     It is compared with the largest kinetic energy so far, which no preload is part of.
     """
+    if control.tolerance == 0.0:
+        return 0.0
     length, now = control.longest / 2.0**level, 0.0
     for j in range(motion.velocity.size):
         now += motion.velocity[j] ** 2
@@ -37,8 +39,6 @@ def step_error(
         energy = _embedded(modes, tables, motion, trial, level)
     else:
         energy = _curvature(modes, motion, trial, length)
-    if control.tolerance == 0.0:
-        return 0.0
     energy += coupling_error(modes, motion, trial, length)
     trial.numbers[3] = energy
     accepted = control.tolerance**2 * reference

@@ -79,7 +79,6 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.store import save_figure
-    from microslip_mechanics.contact.memory import beyond_motion
 
     data, picture = arguments.outputs(options, "dwell")
     scene = load_scene(options.scene, options.overrides)
@@ -91,11 +90,6 @@ def _run(options: argparse.Namespace) -> int:
     print("\n".join(_lines(options, history, distances)))
     print("\n".join([energy_table(history), *estimates(history)]))
     print(f"{len(distances)} periods in {data}, picture in {picture}")
-    if beyond_motion(problem.interface.points):
-        print(
-            "contacts that remember or are rigid are marched with the scene's steps, "
-            f"{scene.march.time_step:g} s: no error of these is estimated"
-        )
     return arguments.ended(ending)
 
 

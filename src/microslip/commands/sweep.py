@@ -83,7 +83,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.tolerance and beyond_motion(problem.interface.points):
         print(
             "contacts that remember or are rigid are marched with the scene's steps, "
-            f"{scene.march.time_step:g} s, and no tolerance: no error is estimated"
+            f"{scene.march.time_step:g} s, and no tolerance"
         )
     if ending == "complete" and not closed:
         ending = (
@@ -194,16 +194,16 @@ def estimates(result: TimeHistory | Envelope) -> list[str]:
 
     if isinstance(result, Envelope) or not result.energy_error.size:
         return []
-    friction = abs(result.of("friction")[-1])
-    shares = [
-        f"{value:12.2g}" + (f"  ({value / friction:.1e} of it)" if friction else "")
-        for value in (result.energy_error[-1], result.work_difference[-1])
-    ]
-    return [
-        f"  {'friction, error':20s} {shares[0]}",
-        f"  {'quadrature - work':20s} {shares[1]}",
-        f"estimated error of the peak amplitude {result.peak_error[-1]:.1e}",
-    ]
+    friction, lines = abs(result.of("friction")[-1]), []
+    for name, values in (
+        ("friction, error", result.energy_error),
+        ("quadrature - work", result.work_difference),
+    ):
+        for value in values[-1:]:
+            share = f"  ({value / friction:.1e} of it)" if friction else ""
+            lines.append(f"  {name:20s} {value:12.2g}{share}")
+    peak = f"estimated error of the peak amplitude {result.peak_error[-1]:.1e}"
+    return [*lines, peak]
 
 
 def _extremes(result: TimeHistory | Envelope) -> list[str]:

@@ -16,6 +16,7 @@ from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
+from timedomain.step_doubling import rows_between
 
 ROWS = 60
 """per period at least, if the steps are not longer"""
@@ -57,11 +58,12 @@ def dwelling(
     ruler = _Ruler(problem, frequency, rest)
     dense = int(period / (ROWS * march.time_step))
     stride = max(1, min(march.store_every, dense))
-    rows = math.ceil(period / (march.time_step * stride))
+    group = rows_between(stride)
+    rows = group * math.ceil(period / (march.time_step * stride * group))
     blocks = integrate(
         problem,
         Dwell(frequency, most * period),
-        MarchOptions(period / (rows * stride), stride),
+        MarchOptions(period / (rows * stride), stride, estimate=True),
         start=Start(rest, np.zeros_like(rest)),
         block=period,
     )

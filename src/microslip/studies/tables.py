@@ -47,10 +47,6 @@ SENSITIVITIES = (
 )
 
 
-RICHER = 1.0 / 3.0
-"""error with half the step over the change by it, where errors are of second order"""
-
-
 @dataclass(frozen=True, slots=True)
 class Row:
     """What microslip finds for a variant."""
@@ -68,8 +64,8 @@ class Row:
     """normal force of each point at rest [N]"""
     history: TimeHistory
     estimated: float = float("nan")
-    """error of the energy by its march's steps, relative: as that estimates it, or, if
-    that is more, a third of :attr:`half_step_change`; NaN if nothing is known of it"""
+    """error of the energy by its march's steps, relative: what half the step changes,
+    or twice the step if none is halved; NaN if there is no friction"""
 
 
 def rows(source: str, variants: tuple[Variant, ...], *, halve: bool) -> Iterator[Row]:
@@ -77,19 +73,17 @@ def rows(source: str, variants: tuple[Variant, ...], *, halve: bool) -> Iterator
     for variant in variants:
         scene = load_scene(source, variant.overrides)
         start = time.perf_counter()
-        history = _march(scene, 1.0)
+        history = _march(scene, 1.0, estimate=not halve)
         seconds = time.perf_counter() - start
         energy, change = float(history.of("friction")[-1]), float("nan")
         if halve:
-            finer = _march(scene, 0.5)
+            finer = _march(scene, 0.5, estimate=False)
             before, energy = energy, float(finer.of("friction")[-1])
             change = before / energy - 1.0
         closing = np.abs(history.closing_error).max() / history.of("input").max()
         rest = static_equilibrium(problem_of(scene)).normal_force
-        told = np.fmax(_estimated(finer if halve else history), RICHER * abs(change))
-        yield Row(
-            variant, energy, change, float(closing), seconds, rest, history, float(told)
-        )
+        told = abs(change) if halve else _estimated(history)
+        yield Row(variant, energy, change, float(closing), seconds, rest, history, told)
 
 
 def _estimated(history: TimeHistory) -> float:
@@ -99,6 +93,7 @@ def _estimated(history: TimeHistory) -> float:
     return float(history.energy_error[-1] / abs(history.of("friction")[-1]))
 
 
-def _march(scene: Scene, share: float) -> TimeHistory:
+def _march(scene: Scene, share: float, *, estimate: bool) -> TimeHistory:
     march = dataclasses.replace(scene.march, time_step=scene.march.time_step * share)
-    return march_whole(problem_of(scene), swept_sine(scene.sweep), march)
+    sweep = swept_sine(scene.sweep)
+    return march_whole(problem_of(scene), sweep, march, estimate=estimate)

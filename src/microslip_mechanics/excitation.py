@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.segments import Segments, after_ramp, factors_over
+from microslip_mechanics.segments import Segments, after_ramp
 
 
 class LoadHistory(Protocol):
@@ -22,10 +22,6 @@ class LoadHistory(Protocol):
 
     def segments(self) -> Segments:
         """Return the load factors piece by piece."""
-        ...
-
-    def factors(self, time: Array) -> Array:
-        """Return the factors of preload and drive, shape (times, 2)."""
         ...
 
 
@@ -87,10 +83,6 @@ class SweptSine:
         )
         return after_ramp(self.ramp, self.start, np.array(rows))
 
-    def factors(self, time: Array) -> Array:
-        """Return the factors of preload and drive, shape (times, 2)."""
-        return factors_over(self.segments(), time)
-
 
 @dataclass(frozen=True, slots=True)
 class Dwell:
@@ -117,7 +109,3 @@ class Dwell:
         one, zero = np.array([[1.0, 0.0]]), np.zeros((1, 2))
         sine = np.array([[0.0, self.frequency, 0.0, 0.0]])
         return Segments(np.zeros(1), one, zero, one.copy(), sine)
-
-    def factors(self, time: Array) -> Array:
-        """Return the factors of preload and drive, shape (times, 2)."""
-        return factors_over(self.segments(), time)

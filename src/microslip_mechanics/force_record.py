@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.segments import Segments, after_ramp, factors_over
+from microslip_mechanics.segments import Segments, after_ramp
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,3 @@ class ForceRecord:
         rows[:-1, 1], rows[:-1, 2] = value[:-1], slope
         rows[:, 5], rows[:, 6] = frequency * time, frequency
         return after_ramp(self.ramp, self.start, rows)
-
-    def factors(self, time: Array) -> Array:
-        """Return the factors of preload and drive, shape (times, 2)."""
-        return factors_over(self.segments(), time)

@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.segments import Segments, after_ramp, factors_over
+from microslip_mechanics.segments import Segments, after_ramp
 
 Growth: TypeAlias = Literal["exponential", "linear"]
 
@@ -102,10 +102,6 @@ class SineTest:
                 phase = 2.0 * math.pi * math.ceil(phase / (2.0 * math.pi))
             yield (begin, 0.0, 0.0, tone.level, 0.0, phase, *tone.sine)
             begin, phase = begin + tone.length, phase + tone.turns
-
-    def factors(self, time: Array) -> Array:
-        """Return the factors of preload and drive, shape (times, 2)."""
-        return factors_over(self.segments(), time)
 
 
 def stepped(frequencies: Array, *, periods: int, level: float = 1.0) -> list[Tone]:

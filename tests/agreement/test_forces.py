@@ -6,6 +6,7 @@ import scipy.signal
 
 from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.force_record import ForceRecord
+from microslip_mechanics.segments import factors_over
 from microslip_mechanics.sine_test import SineTest, Tone
 from microslip_mechanics.system import system
 from small_problems import marched, oscillator
@@ -31,7 +32,7 @@ def test_oscillator_under_any_load_moves_as_linear_theory_says(
     history = marched(oscillator(), loads, MarchOptions(1e-3, 1))
 
     time = np.concatenate([[0.0], history.time])
-    drive = loads.factors(time)[:, 1]
+    drive = factors_over(loads.segments(), time)[:, 1]
     # exact for a drive with straight lines between the times
     _, exact, _ = scipy.signal.lsim(SYSTEM, drive, time, interp=True)
     size = np.abs(exact).max()

@@ -8,6 +8,7 @@ import pytest
 
 from microslip_mechanics.envelope import Envelope, enveloped, parted
 from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.segments import factors_over
 from microslip_mechanics.sine_test import SineTest, Tone
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 
@@ -18,7 +19,7 @@ ROWS = 40_000
 def history() -> TimeHistory:
     """Return a made-up march: the probes follow the drive, one with an offset."""
     time = np.arange(1, ROWS + 1) * LOADS.duration / ROWS
-    drive = LOADS.factors(time)[:, 1]
+    drive = factors_over(LOADS.segments(), time)[:, 1]
     still = np.zeros((ROWS, 1))
     return TimeHistory(
         time=time,

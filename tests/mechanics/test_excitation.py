@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.excitation import Dwell, SweptSine
+from microslip_mechanics.segments import factors_over
 
 SWEEP = SweptSine(
     ramp=1.0, start=2.0, end=8.0, duration=10.0, lowest=125.0, highest=145.0
@@ -19,8 +20,11 @@ def test_phase_grows_at_the_instantaneous_frequency(sweep: SweptSine) -> None:
     time = np.random.default_rng(3).uniform(2.001, 7.999, 500)
     early, late = time - 2e-7, time + 2e-7
 
-    drive = sweep.factors(time)[:, 1]
-    change = sweep.factors(late)[:, 1] - sweep.factors(early)[:, 1]
+    drive = factors_over(sweep.segments(), time)[:, 1]
+    change = (
+        factors_over(sweep.segments(), late)[:, 1]
+        - factors_over(sweep.segments(), early)[:, 1]
+    )
 
     # sin² + cos² = 1 for sin φ and its slope over φ̇, if φ̇ is what frequency says
     rate = 2.0 * np.pi * sweep.frequency(time)
@@ -34,7 +38,7 @@ def test_sweep_turns_as_often_as_its_closed_form_says(
 ) -> None:
     rate = np.log(145.0 / 125.0) / 6.0
 
-    last = sweep.factors(np.array([8.0]))[0, 1]
+    last = factors_over(sweep.segments(), np.array([8.0]))[0, 1]
 
     # φ(end) = 2π (f₁ − f₀)/k, of 5082 rad: rounding leaves some 1e-12 of it
     assert sweep.rate == pytest.approx(turn * rate, rel=1e-14, abs=0.0)
@@ -42,7 +46,7 @@ def test_sweep_turns_as_often_as_its_closed_form_says(
 
 
 def test_sweep_begins_at_rest_and_upward() -> None:
-    first, second = SWEEP.factors(np.array([2.0, 2.0 + 1e-6]))[:, 1]
+    first, second = factors_over(SWEEP.segments(), np.array([2.0, 2.0 + 1e-6]))[:, 1]
 
     assert first == 0.0
     assert second == pytest.approx(2.0 * np.pi * 125.0 * 1e-6, rel=1e-6, abs=0.0)
@@ -63,7 +67,7 @@ def test_frequency_runs_from_125_to_145_hz_by_equal_ratios_and_is_held_outside()
 def test_drive_is_zero_outside_the_sweep() -> None:
     outside = np.array([-1.0, 0.0, 1.0, 1.999999, 8.000001, 9.0, 10.0])
 
-    drive = SWEEP.factors(outside)[:, 1]
+    drive = factors_over(SWEEP.segments(), outside)[:, 1]
 
     np.testing.assert_array_equal(drive, 0.0)
 
@@ -72,7 +76,7 @@ def test_preload_grows_linearly_and_then_stays() -> None:
     sweep = replace(SWEEP, ramp=2.0)
     time = np.array([-0.5, 0.0, 0.25, 0.5, 1.0, 2.0, 2.5, 10.0])
 
-    preload = sweep.factors(time)[:, 0]
+    preload = factors_over(sweep.segments(), time)[:, 0]
 
     np.testing.assert_array_equal(preload, [0, 0, 0.125, 0.25, 0.5, 1.0, 1.0, 1.0])
 
@@ -80,7 +84,7 @@ def test_preload_grows_linearly_and_then_stays() -> None:
 def test_preload_without_ramp_is_full_from_the_start() -> None:
     sudden = replace(SWEEP, ramp=0.0)
 
-    factors = sudden.factors(np.array([0.0, 1e-9, 5.0]))
+    factors = factors_over(sudden.segments(), np.array([0.0, 1e-9, 5.0]))
 
     np.testing.assert_array_equal(factors[:, 0], 1.0)
 
@@ -142,7 +146,7 @@ def test_dwell_holds_the_preload_and_drives_a_sine_from_rest() -> None:
     dwell = Dwell(frequency=850.0, duration=2.0)
     time = np.linspace(0.0, 2.0, 1001)
 
-    factors = dwell.factors(time)
+    factors = factors_over(dwell.segments(), time)
 
     assert factors.shape == (1001, 2)
     np.testing.assert_array_equal(factors[:, 0], 1.0)

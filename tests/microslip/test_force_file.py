@@ -12,6 +12,7 @@ from microslip.quantity import SceneError
 from microslip.result_file import load
 from microslip.scene_file import load_scene
 from microslip.studies.loads import load_history
+from microslip_mechanics.segments import factors_over
 from microslip_mechanics.time_history import TimeHistory
 from scene_texts import EXPERIMENTS
 
@@ -98,7 +99,7 @@ def test_scene_takes_the_force_of_a_file_beside_it(quick_scene: Path) -> None:
     scene = load_scene(str(quick_scene), words)
     history = load_history(scene)
 
-    drive = history.factors(np.array([5e-3, 5.5e-3, 6e-3, 7e-3]))[:, 1]
+    drive = factors_over(history.segments(), np.array([5e-3, 5.5e-3, 6e-3, 7e-3]))[:, 1]
     np.testing.assert_allclose(drive, [0.0, 1.0, 2.0, 0.0], atol=1e-9)
     assert history.duration == pytest.approx(7e-3)
 

@@ -7,7 +7,7 @@ from microslip.quantity import SceneError
 from microslip.scene_file import load_scene
 from microslip.studies.loads import load_history
 from microslip.studies.sweep import swept_sine
-from microslip_mechanics.segments import clock
+from microslip_mechanics.segments import clock, factors_over
 
 
 def of(*words: str) -> tuple[float, np.ndarray]:
@@ -25,9 +25,9 @@ def test_scene_that_says_nothing_has_the_sweep_of_the_paper() -> None:
     scene = load_scene("two-blades")
     time = np.linspace(0.0, 10.0, 9001)
 
-    factors = load_history(scene).factors(time)
+    factors = factors_over(load_history(scene).segments(), time)
 
-    expected = swept_sine(scene.sweep).factors(time)
+    expected = factors_over(swept_sine(scene.sweep).segments(), time)
     np.testing.assert_allclose(factors, expected, atol=1e-12)
 
 

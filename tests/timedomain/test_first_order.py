@@ -12,6 +12,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import ELASTIC, PointLaw, contact_table
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.segments import factors_over
 from rigs import rig_problem
 from small_problems import from_rest, marched, mass_on_contact, oscillator
 from timedomain.first_order import FirstOrder, first_order, flow, jacobian
@@ -92,7 +93,7 @@ def test_the_load_is_that_of_the_swept_sine(time: float) -> None:
 
     rate = rate_of(formed(problem), time, still)
 
-    steady, sine = SWEEP.factors(np.array([time]))[0]
+    steady, sine = factors_over(SWEEP.segments(), np.array([time]))[0]
     load = (0.7 * steady + 1.5 * sine) / np.sqrt(2.0)  # of mass 2, normalised
     assert rate[1] == pytest.approx(load / 0.1, rel=1e-9)
 

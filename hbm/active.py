@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem
-from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.arrays import Array, ComplexArray, largest
 
 PROBE = FourierBasis(5, 64)
 """orders that show which harmonics a coordinate has"""
@@ -27,7 +27,7 @@ def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
     still = np.zeros((PROBE.coefficients, problem.rank))
     still[0] = problem.rest
     at_rest = contact(still, frequency)
-    largest = _stuck(problem, frequency)
+    amplitude = _stuck(problem, frequency)
     driven = [_large(_load(problem, share * frequency)) for share in BESIDE]
     active = np.zeros(still.shape, dtype=bool)
     active[1:3] = np.logical_and.reduce(driven)
@@ -39,7 +39,7 @@ def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
         coupled = (coupling[1:] & active[1::2, None, :]).any(axis=2)
         grown[1:] |= coupled.repeat(2, axis=0)
         for size in (1e-2, 1.0, 1e2, 1e4):
-            motion = size * largest * random.normal(size=active.shape) * active
+            motion = size * amplitude * random.normal(size=active.shape) * active
             motion[0] = problem.rest + 1e-3 * motion[0]
             with np.errstate(over="ignore", invalid="ignore"):
                 force = contact(motion, frequency)
@@ -99,7 +99,7 @@ def _stuck(problem: RelativeProblem, frequency: float) -> float:
     elastic, viscous = (part[:, :, 0] for part in contact.tangents.spectra(0))
     matrix = stiffness[0] + elastic + variable[0] * viscous
     moved = np.linalg.lstsq(matrix, _load(problem, frequency), rcond=None)[0]
-    return max(float(np.abs(moved).max(initial=0.0)), 1e-12)
+    return max(largest(moved), 1e-12)
 
 
 def _large(values: Array | ComplexArray) -> NDArray[np.bool_]:

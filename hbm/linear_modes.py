@@ -14,13 +14,11 @@ from microslip_mechanics.problem import Problem
 
 
 @dataclass(frozen=True, slots=True)
-class LinearMode:
-    """Re φ exp(st): a motion so small that the contacts are springs and dashpots."""
+class FreeDecay:
+    """A free motion that oscillates and decays."""
 
     pole: complex
-    """s [rad/s]"""
-    shape: ComplexArray
-    """φ, whose largest probe is one, shape (dofs,)"""
+    """s [rad/s]: −decay rate + i frequency of the damped motion"""
 
     @property
     def frequency(self) -> float:
@@ -31,6 +29,14 @@ class LinearMode:
     def damping(self) -> float:
         """Damping ratio."""
         return -self.pole.real / abs(self.pole)
+
+
+@dataclass(frozen=True, slots=True)
+class LinearMode(FreeDecay):
+    """Re φ exp(st): a motion so small that the contacts are springs and dashpots."""
+
+    shape: ComplexArray
+    """φ, whose largest probe is one, shape (dofs,)"""
 
 
 def linear_modes(

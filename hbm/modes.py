@@ -15,14 +15,14 @@ from hbm.errors import ContinuationError, placed
 from hbm.fourier import FourierBasis, derivative
 from hbm.free_motion import free_motion
 from hbm.leaps import Leaping
-from hbm.linear_modes import LinearMode, linear_modes
+from hbm.linear_modes import FreeDecay, LinearMode, linear_modes
 from hbm.modal import Reference
 from hbm.modal_resolution import ModalResolution
 from hbm.newton import Correction
 from hbm.one_thread import one_thread
 from hbm.relative import relative_problem
 from hbm.step_control import StepControl
-from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.arrays import Array, ComplexArray, largest
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
 
@@ -74,11 +74,9 @@ class ModeOptions:
 
 
 @dataclass(frozen=True, slots=True)
-class NonlinearMode:
+class NonlinearMode(FreeDecay):
     """A free decaying motion of one amplitude."""
 
-    pole: complex
-    """s [rad/s]: −decay rate + i frequency of the damped motion"""
     probes: ComplexArray
     """first harmonic of each probe [m], shape (probes,)"""
     coefficients: Array
@@ -91,19 +89,9 @@ class NonlinearMode:
     samples: int
 
     @property
-    def frequency(self) -> float:
-        """Natural frequency |s| [rad/s]."""
-        return abs(self.pole)
-
-    @property
-    def damping(self) -> float:
-        """Damping ratio."""
-        return -self.pole.real / abs(self.pole)
-
-    @property
     def amplitude(self) -> float:
         """Largest of the probes [m]."""
-        return float(np.abs(self.probes).max(initial=0.0))
+        return largest(self.probes)
 
     def state(self, phase: float) -> tuple[Array, Array]:
         """Return displacement [m] and velocity [m/s] at a phase, shape (dofs,) each."""

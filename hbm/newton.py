@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol, TypeAlias
 import numpy as np
 from scipy.linalg import blas
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 
 ROUNDING = 1e-8
 """relative size of a step that cannot lower the residual because of rounding"""
@@ -139,7 +139,7 @@ def correct(
     point = predicted
     residual, linearised = system(point)
     slope = linearised
-    sizes, creeps = [_size(residual)], False
+    sizes, creeps = [largest(residual)], False
     while True:
         ended = _ended(sizes, tolerance, max_iterations)
         if ended is Outcome.EXHAUSTED and creeps:
@@ -163,7 +163,7 @@ def correct(
             return Correction(point, residual, linearised, outcome, tuple(sizes))
         point, residual, linearised, share, part = lowered
         slope = slope if share < chord else linearised
-        sizes.append(_size(residual))
+        sizes.append(largest(residual))
         if part == 1.0 and _negligible(step, point, sizes[-1], small, 1.0):
             return Correction(
                 point, residual, linearised, Outcome.CONVERGED, tuple(sizes)
@@ -233,7 +233,3 @@ def _negligible(
 def _merit(values: Array) -> float:
     """Return the Euclidean norm, which a step must lower; infinite if it overflows."""
     return math.sqrt(blas.ddot(values, values)) if values.size else 0.0
-
-
-def _size(residual: Array) -> float:
-    return float(np.abs(residual).max(initial=0.0))

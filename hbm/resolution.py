@@ -14,7 +14,7 @@ from hbm.newton import Correction, Linearised
 from hbm.path import Path
 from hbm.refined import Refined, Resolved, refined
 from hbm.residual import Balance
-from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.arrays import Array, ComplexArray, largest
 
 SMOOTHER = 1e-3
 """relative change of a threshold velocity that tells what it does"""
@@ -125,8 +125,8 @@ class Resolution(ABC):
         change = self._resolved(correction, fourier, normal)
         smooth = correction.point
         sharp, smooth = self.phasors((smooth + change, smooth))
-        moved = _largest(np.abs(sharp) - np.abs(smooth))
-        moved = max(moved, TURNING * _largest(np.abs(sharp - smooth)))
+        moved = largest(np.abs(sharp) - np.abs(smooth))
+        moved = max(moved, TURNING * largest(np.abs(sharp - smooth)))
         return moved, abs(float(change[-1]))
 
     def _resolved(
@@ -146,14 +146,10 @@ def _changes(values: Array, made: Refined) -> tuple[float, float, float]:
     of it solved, solved with more samples, before the last step, and after it.
     """
     before, solved, resampled, after, last = values
-    truncation = made.beyond * _largest(last - resampled)
+    truncation = made.beyond * largest(last - resampled)
     lost = math.isinf(made.left)
-    truncation += math.inf if lost else made.left * _largest(last - after)
-    return _largest(last - before), truncation, _largest(resampled - solved)
-
-
-def _largest(changes: Array) -> float:
-    return float(np.abs(changes).max(initial=0.0))
+    truncation += math.inf if lost else made.left * largest(last - after)
+    return largest(last - before), truncation, largest(resampled - solved)
 
 
 class PathResolution(Resolution):

@@ -20,7 +20,7 @@ from hbm.path import Path
 from hbm.pieces import Pieces
 from hbm.resolution import PathResolution
 from hbm.smoothness import smoothest
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.law import RIGID
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
@@ -46,7 +46,7 @@ class Tracer:
             marched=bool(marched(points).any()),
             pushed=rigid,
         )
-        drive = float(np.abs(problem.drive).max(initial=0.0))
+        drive = largest(problem.drive)
         self.control = options.control(problem.force_scale, drive)
         motions = path.motions if options.stability and not rigid else None
         multipliers = Multipliers(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import MARGIN, PeriodicResponse
 from timedomain.shooting import ShootingOptions, periodic_orbit
@@ -119,7 +119,7 @@ def compared(
         response.error,
         orbit.error,
         _by_order(predicted, found),
-        float(np.abs(response.multipliers).max(initial=0.0)),
+        largest(response.multipliers),
         float(np.abs(orbit.multipliers[leading])),
         float(orbit.multiplier_error[leading]),
         orbit.steps,
@@ -133,5 +133,5 @@ def _by_order(predicted: Array, found: Array) -> Array:
     away[:shared] -= predicted[:shared]
     size = max(float(np.hypot(found[1], found[2]).max(initial=0.0)), 1e-300)
     by_order = np.vstack([np.abs(away[:1]), np.hypot(away[1::2], away[2::2])])
-    largest: Array = by_order.max(axis=1, initial=0.0) / size
-    return largest
+    differences: Array = by_order.max(axis=1, initial=0.0) / size
+    return differences

@@ -1,4 +1,4 @@
-"""The array types that every signature of the project speaks of."""
+"""Arrays: the types that every signature of the project speaks of, and their size."""
 
 from __future__ import annotations
 
@@ -13,3 +13,8 @@ ComplexArray: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 """always complex128 at run time"""
 Matrix: TypeAlias = Any
 """an :data:`Array` of two axes, or the like of scipy.sparse"""
+
+
+def largest(values: Array | ComplexArray) -> float:
+    """Return the largest modulus of values of any shape, zero if there are none."""
+    return float(np.abs(values).max(initial=0.0))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -49,8 +49,7 @@ def interface(rig: TwoBlades, frame: Frame, push: Array) -> Interface:
 
     ``push`` is the static force on the friction element [N], shape ``(3,)``.
     """
-    made = faces(rig, push)
-    return _seen(rig, frame, [(face, _needed(rig, face)) for face in made])
+    return _seen(rig, frame, push, _needed)
 
 
 def unpruned_interface(rig: TwoBlades, frame: Frame, push: Array) -> Interface:
@@ -59,8 +58,7 @@ def unpruned_interface(rig: TwoBlades, frame: Frame, push: Array) -> Interface:
     Where one point of a face is enough, three of its corners stand beside it, whose
     normal force and friction are computed as all others are, and are zero.
     """
-    made = faces(rig, push)
-    return _seen(rig, frame, [(face, _all(rig, face)) for face in made])
+    return _seen(rig, frame, push, _all)
 
 
 def faces(rig: TwoBlades, push: Array) -> tuple[Face, Face]:
@@ -93,12 +91,13 @@ def faces(rig: TwoBlades, push: Array) -> tuple[Face, Face]:
 def _seen(
     rig: TwoBlades,
     frame: Frame,
-    points: Sequence[tuple[Face, Sequence[tuple[Array, PointLaw]]]],
+    push: Array,
+    points: Callable[[TwoBlades, Face], list[tuple[Array, PointLaw]]],
 ) -> Interface:
-    """Return the interface of the points of each face, given by place and law."""
+    """Return the interface of both faces; ``points`` gives place and law of each."""
     rows, names, laws = [], [], []
-    for face, carried in points:
-        for number, (place, law) in enumerate(carried, start=1):
+    for face in faces(rig, push):
+        for number, (place, law) in enumerate(points(rig, face), start=1):
             element = frame.motion(layout.ELEMENT, place)
             end = frame.motion(layout.tip(rig, face.blade), place)
             rows.append(face.axes @ (element - end))

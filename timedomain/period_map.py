@@ -30,7 +30,7 @@ from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
 from timedomain.carried import carried
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.propagator import ModalStructure
+from timedomain.modal_structure import ModalStructure
 from timedomain.start import Start
 
 BLOCK = 16

@@ -17,8 +17,8 @@ from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.rotating_frame import RotatingFrame
 from microslip_mechanics.rotation import Rotation
 from microslip_mechanics.static import static_equilibrium
+from small_motions.multipliers import floquet_multipliers
 from small_problems import dwelled, last_harmonic
-from timedomain.floquet import floquet_multipliers
 from timedomain.start import Start
 
 SPEED = 60.0

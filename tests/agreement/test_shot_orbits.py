@@ -11,8 +11,8 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
+from small_motions.multipliers import floquet_multipliers
 from timedomain.comparison import MULTIPLIER_FLOOR, compared
-from timedomain.floquet import floquet_multipliers
 from timedomain.shooting import ShootingOptions, periodic_orbit
 from timedomain.start import Start
 

@@ -14,8 +14,8 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
+from small_motions.multipliers import floquet_multipliers, monodromy
 from small_problems import dwelled
-from timedomain.floquet import floquet_multipliers, monodromy
 from timedomain.start import Start
 
 TURN = 2.0 * np.pi

@@ -13,8 +13,10 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+sys.path.append(str(Path(__file__).parents[1]))
 
 import numpy as np
 
@@ -28,7 +30,7 @@ from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import joined
-from timedomain.floquet import floquet_multipliers, monodromy
+from small_motions.multipliers import floquet_multipliers, monodromy
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
 

@@ -20,8 +20,8 @@ from microslip_mechanics.reduction import Reduction, reduced
 from microslip_mechanics.response import PeriodicResponse, response_curve
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
+from small_motions.multipliers import floquet_multipliers
 from sparse_problems import dense, net, sparse
-from timedomain.floquet import floquet_multipliers
 from timedomain.integrate import MarchOptions, integrate
 
 HERTZ = 2.0 * np.pi

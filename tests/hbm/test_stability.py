@@ -16,7 +16,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
-from timedomain.floquet import floquet_multipliers
+from small_motions.multipliers import floquet_multipliers
 
 HERTZ = 2.0 * np.pi
 

@@ -13,6 +13,7 @@ from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
+from small_motions.multipliers import floquet_multipliers, monodromy
 from small_problems import (
     NORMAL,
     cantilever,
@@ -20,7 +21,6 @@ from small_problems import (
     oscillator,
     sliding_block,
 )
-from timedomain.floquet import floquet_multipliers, monodromy
 
 TURN = 2.0 * np.pi
 FREQUENCY, MASS = 3.0, 2.0

@@ -14,7 +14,6 @@ every h where K̄ + K' and C̄ + C' are symmetric and not negative: f does the w
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -22,52 +21,7 @@ import scipy.linalg
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
-from microslip_mechanics.problem import Problem
-from microslip_mechanics.undamped_modes import undamped_modes
-
-
-@dataclass(frozen=True, slots=True)
-class ModalStructure:
-    """A structure in its undamped modes, and what its contacts see of them."""
-
-    shapes: Array
-    """Φ, mass-normalised, shape (dofs, modes)"""
-    inverse: Array
-    """Φ⁻¹ = Φᵀ M, shape (modes, dofs)"""
-    stiffness: Array
-    """Ω² [1/s²], shape (modes,)"""
-    damping: Array
-    """Φᵀ C Φ [1/s], shape (modes, modes)"""
-    selection: Array
-    """relative coordinates from the modes, shape (rank, modes)"""
-    scale: float
-    """s [rad/s]: velocities over it compare with displacements"""
-
-    @classmethod
-    def of(cls, problem: Problem, frequency: float) -> ModalStructure:
-        """Return the modes; ``frequency`` [rad/s] is the least scale of velocities."""
-        structure = problem.structure.dense
-        _, selection = problem.interface.relative_motion()
-        stiffness, shapes = undamped_modes(structure.stiffness, structure.mass)
-        return cls(
-            shapes,
-            shapes.T @ structure.mass,
-            stiffness,
-            shapes.T @ structure.damping @ shapes,
-            np.ascontiguousarray(selection @ shapes),
-            max(frequency, float(np.sqrt(stiffness.max(initial=0.0)))),
-        )
-
-    def physical(self, propagated: Array) -> Array:
-        """Return a map of (q, q̇/s) as the map of (u, u̇)."""
-        modes = self.stiffness.size
-        result = np.empty_like(propagated)
-        top, bottom = slice(modes), slice(modes, None)
-        for row, up in ((top, 1.0), (bottom, self.scale)):
-            for column, down in ((top, 1.0), (bottom, 1.0 / self.scale)):
-                block = self.shapes @ propagated[row, column] @ self.inverse
-                result[row, column] = up * down * block
-        return result
+from timedomain.modal_structure import ModalStructure
 
 
 class Propagator(NamedTuple):

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from timedomain.relative_orbit import RelativeOrbit
+from small_motions.relative_orbit import RelativeOrbit
 
 SMALLEST, LARGEST = 2048, 65536
 """samples of a period in the search for transitions"""

@@ -1,0 +1,1 @@
+"""Small motions marched around an orbit: multipliers without harmonic balance."""

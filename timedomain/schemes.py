@@ -44,27 +44,19 @@ class Scheme:
         return len(self.matrix) - 1
 
 
-def _quadrature(times: Array) -> Array:
-    """Return the weights that integrate polynomials through the stages exactly."""
-    powers = np.arange(len(times))
-    weights: Array = np.linalg.solve(times[None] ** powers[:, None], 1 / (powers + 1.0))
-    return weights
-
-
-def _scheme(name: str, rows: list[list[float]], order: int, other: Array) -> Scheme:
+def runge_kutta(name: str, rows: list[list[float]], order: int, other: Array) -> Scheme:
+    """Return a scheme from its stages' weights, whose powers are integrated exactly."""
     matrix = np.zeros((len(rows), len(rows)))
     for place, row in enumerate(rows):
         matrix[place, : len(row)] = row
     return Scheme(name, matrix, _quadrature(matrix.sum(axis=1)), other, order)
 
 
-def _tr_bdf2() -> Scheme:
-    """Return TR-BDF2 as Hosea & Shampine (1996) write it."""
-    first, mixed = 2.0 - math.sqrt(2.0), math.sqrt(2.0) / 4.0
-    diagonal = first / 2.0
-    other = np.array([1.0 - mixed, 3.0 * mixed + 1.0, diagonal]) / 3.0
-    rows = [[0.0], [diagonal, diagonal], [mixed, mixed, diagonal]]
-    return _scheme("TR-BDF2", rows, 2, other)
+def _quadrature(times: Array) -> Array:
+    """Return the weights that integrate polynomials through the stages exactly."""
+    powers = np.arange(len(times))
+    weights: Array = np.linalg.solve(times[None] ** powers[:, None], 1 / (powers + 1.0))
+    return weights
 
 
 def _sdirk2() -> Scheme:
@@ -75,27 +67,8 @@ def _sdirk2() -> Scheme:
     return Scheme("SDIRK2", matrix, matrix[2], np.array([0.0, 1.0, 0.0]), 2)
 
 
-def _esdirk3() -> Scheme:
-    """Return ESDIRK3(2)4L[2]SA of Kennedy & Carpenter (2016)."""
-    diagonal = 0.4358665215084589994160194511935568425
-    second = 2.0 * diagonal
-    third = 0.6
-    mixed = third * (third - 2.0 * diagonal) / (4.0 * diagonal)
-    row = [third - mixed - diagonal, mixed, diagonal]
-    times = np.array([0.0, second, third])
-    last = np.linalg.solve(
-        times[None] ** np.arange(3)[:, None],
-        [1.0 - diagonal, 0.5 - diagonal, 1.0 / 3.0 - diagonal],
-    )
-    other = np.array([0.0, 0.0, 0.5 / (1.0 - third), (0.5 - third) / (1.0 - third)])
-    rows = [[0.0], [diagonal, diagonal], row, [*last, diagonal]]
-    return _scheme("ESDIRK3", rows, 3, other)
-
-
-TR_BDF2 = _tr_bdf2()
 SDIRK2 = _sdirk2()
-ESDIRK3 = _esdirk3()
-TRAPEZOID = _scheme(
+TRAPEZOID = runge_kutta(
     "average acceleration", [[0.0], [0.5, 0.5]], 2, np.array([1.0, 0.0])
 )
 MEAN_FORCE = Scheme(
@@ -106,12 +79,4 @@ MEAN_FORCE = Scheme(
     2,
     exact=True,
     mean=True,
-)
-LINEAR_FORCE = Scheme(
-    "linear force",
-    TRAPEZOID.matrix,
-    TRAPEZOID.work,
-    TRAPEZOID.other,
-    2,
-    exact=True,
 )

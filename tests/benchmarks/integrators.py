@@ -15,8 +15,10 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
+from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+sys.path.append(str(Path(__file__).parents[1]))
 
 import numpy as np
 
@@ -29,17 +31,10 @@ from microslip_mechanics.contact.law import ContactPoints
 from microslip_mechanics.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import TimeHistory, joined
+from other_schemes import ESDIRK3, LINEAR_FORCE, TR_BDF2
 from timedomain.fast import FastMarch
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
-from timedomain.schemes import (
-    ESDIRK3,
-    LINEAR_FORCE,
-    MEAN_FORCE,
-    SDIRK2,
-    TR_BDF2,
-    TRAPEZOID,
-    Scheme,
-)
+from timedomain.schemes import MEAN_FORCE, SDIRK2, TRAPEZOID, Scheme
 from timedomain.start import at_rest
 
 SCHEMES = (MEAN_FORCE, LINEAR_FORCE, TRAPEZOID, TR_BDF2, SDIRK2, ESDIRK3)

@@ -10,13 +10,14 @@ import scipy.linalg
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import TimeHistory
+from other_schemes import LINEAR_FORCE
 from rigs import rig_problem
 from small_problems import cantilever, from_rest, marched, oscillator, sliding_block
 from timedomain.closure import closes
 from timedomain.coordinates import modal_coordinates
 from timedomain.fast import FastMarch
 from timedomain.integrate import IntegrationError, MarchOptions
-from timedomain.schemes import LINEAR_FORCE, MEAN_FORCE, SDIRK2, Scheme
+from timedomain.schemes import MEAN_FORCE, SDIRK2, Scheme
 from timedomain.start import Start, at_rest
 from timedomain.tables import empty_tables, fill
 

@@ -16,8 +16,13 @@ from microslip_mechanics.contact.law import (
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structure import Structure
 
+STIFFNESS, LIMIT = 40.0, 0.3
 JENKINS = PointLaw(
-    friction=ELASTIC, dynamic=1.0, tangential=40.0, constant_load=True, load=0.3
+    friction=ELASTIC,
+    dynamic=1.0,
+    tangential=STIFFNESS,
+    constant_load=True,
+    load=LIMIT,
 )
 DAHL = replace(JENKINS, friction=BRISTLE, static=1.0)
 LUGRE = replace(DAHL, dynamic=0.7, stribeck=0.2, viscous=0.05)
@@ -39,13 +44,15 @@ CONTACTS = (
 """law, what the contact sees of the masses, and the drive [N]"""
 
 
-def masses(law: PointLaw, seen: Array, drive: Array) -> Problem:
+def masses(
+    law: PointLaw, seen: Array, drive: Array, *, damping: float = 4e-3
+) -> Problem:
     """Return masses on springs, each of 1 kg, that one contact sees."""
     dofs = seen.shape[1]
     stiffness = np.diag([30.0, 45.0, 60.0][:dofs])
     names = ("x", "y", "z")[:dofs]
     return Problem(
-        Structure(np.eye(dofs), 0.004 * stiffness, stiffness, names),
+        Structure(np.eye(dofs), damping * stiffness, stiffness, names),
         Interface(contact_table([law]), seen, ("shoe",)),
         np.zeros(dofs),
         drive,

@@ -10,18 +10,16 @@ from hbm.cyclic import cyclic_response
 from hbm.fourier import to_complex, to_real
 from hbm.options import CurveOptions
 from hbm.solve import periodic_response
+from memory_problems import JENKINS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import COULOMB, ELASTIC, PointLaw, contact_table
+from microslip_mechanics.contact.law import COULOMB, PointLaw, contact_table
 from microslip_mechanics.cyclic import Coupling, CyclicProblem
 from microslip_mechanics.problem import Probes
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
 
-JENKINS = PointLaw(
-    friction=ELASTIC, dynamic=1.0, tangential=40.0, constant_load=True, load=0.3
-)
 COULOMB_LAW = PointLaw(
     friction=COULOMB, dynamic=0.3, threshold=0.05, constant_load=True, load=1.0
 )

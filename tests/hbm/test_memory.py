@@ -5,6 +5,7 @@ import pytest
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis
+from memory_problems import JENKINS, LIMIT, STIFFNESS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
     BRISTLE,
@@ -13,14 +14,7 @@ from microslip_mechanics.contact.law import (
     contact_table,
 )
 
-STIFFNESS, LIMIT, FREQUENCY = 40.0, 0.3, 7.0
-JENKINS = PointLaw(
-    friction=ELASTIC,
-    dynamic=1.0,
-    tangential=STIFFNESS,
-    constant_load=True,
-    load=LIMIT,
-)
+FREQUENCY = 7.0
 TANGENT = np.eye(3)[:, 1:2]
 EVERY = np.eye(3)
 

@@ -11,6 +11,7 @@ from hbm.equivalent import (
 )
 from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
 from hbm.poles import poles
+from memory_problems import JENKINS, LIMIT, STIFFNESS
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import (
     ELASTIC,
@@ -21,14 +22,7 @@ from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
 
-DAMPING, SPRING, STIFFNESS, LIMIT = 0.4, 45.0, 40.0, 0.3
-JENKINS = PointLaw(
-    friction=ELASTIC,
-    dynamic=1.0,
-    tangential=STIFFNESS,
-    constant_load=True,
-    load=LIMIT,
-)
+DAMPING, SPRING = 0.4, 45.0
 
 
 def oscillator(law: PointLaw = JENKINS) -> Problem:

@@ -10,11 +10,11 @@ from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.recalled import recalled_multipliers
 from hbm.solve import frequency_response
+from memory_problems import JENKINS, LIMIT, STIFFNESS
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import (
     COULOMB,
-    ELASTIC,
     PointLaw,
     contact_table,
 )
@@ -24,14 +24,7 @@ from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
 
 TURN = 2.0 * np.pi
-SPRING, DAMPING, STIFFNESS, LIMIT = 45.0, 0.4, 40.0, 0.3
-JENKINS = PointLaw(
-    friction=ELASTIC,
-    dynamic=1.0,
-    tangential=STIFFNESS,
-    constant_load=True,
-    load=LIMIT,
-)
+SPRING, DAMPING = 45.0, 0.4
 
 
 def mass(*laws: PointLaw, spring: float = SPRING, drive: float = 0.5) -> Problem:

@@ -235,20 +235,20 @@ def test_fine_meshes_have_the_same_totals(model: str, elements: int) -> None:
     assert forces[half:].sum() == pytest.approx(1 / np.tan(np.radians(20)), rel=1e-6)
 
 
-def wells(preload: float) -> Problem:
-    """Return a mass between two wells at ± 10 mm, beside one that a spring holds."""
+def wells(preload: dict[str, float], cubic: float = 1e6, at: str = "x") -> Problem:
+    """Return a mass between wells at ± √(100/cubic) m, and one that a spring holds."""
     return system(
         mass=[1.0, 2.0],
         stiffness=[[-100.0, 0.0], [0.0, 1e5]],
         names=("x", "y"),
-        elements=[Element(CubicSpring(cubic=1e6), between=("x", "ground"))],
-        preload={"x": preload, "y": 3.0},
+        elements=[Element(CubicSpring(cubic=cubic), between=(at, "ground"))],
+        preload=preload,
     )
 
 
 @pytest.mark.parametrize("preload", [0.0, 1e-3, -1e-3, 0.1, -0.1, 0.5, 5.0])
 def test_rest_between_two_wells_is_in_the_one_of_the_preload(preload: float) -> None:
-    rest = static_equilibrium(wells(preload))
+    rest = static_equilibrium(wells({"x": preload, "y": 3.0}))
 
     roots = np.roots([1e6, 0.0, -100.0, -preload])
     real = roots[np.abs(roots.imag) < 1e-9].real
@@ -259,19 +259,13 @@ def test_rest_between_two_wells_is_in_the_one_of_the_preload(preload: float) -> 
 
 
 def test_rest_of_two_wells_without_any_load_is_in_one_of_them() -> None:
-    problem = replace(wells(0.0), preload=np.zeros(2))
+    problem = wells({})
 
     assert abs(static_equilibrium(problem).displacement[0]) == pytest.approx(0.01)
 
 
 def test_shallow_wells_are_seen_beside_a_large_preload() -> None:
-    problem = system(
-        mass=[1.0, 2.0],
-        stiffness=[[-100.0, 0.0], [0.0, 1e5]],
-        names=("x", "y"),
-        elements=[Element(CubicSpring(cubic=1e12), between=("x", "ground"))],
-        preload={"y": 1e4},
-    )
+    problem = wells({"y": 1e4}, cubic=1e12)
 
     assert abs(static_equilibrium(problem).displacement[0]) == pytest.approx(
         1e-5, rel=1e-3
@@ -279,15 +273,7 @@ def test_shallow_wells_are_seen_beside_a_large_preload() -> None:
 
 
 def test_rest_that_no_spring_holds_is_kept() -> None:
-    problem = system(
-        mass=[1.0, 2.0],
-        stiffness=[[-100.0, 0.0], [0.0, 1e5]],
-        names=("x", "y"),
-        elements=[Element(CubicSpring(cubic=1e6), between=("y", "ground"))],
-        preload={"y": 3.0},
-    )
-
-    rest = static_equilibrium(problem).displacement
+    rest = static_equilibrium(wells({"y": 3.0}, at="y")).displacement
 
     assert rest[0] == 0.0
     assert rest[1] == pytest.approx(3e-5, rel=1e-6)

@@ -6,18 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from memory_problems import JENKINS, LIMIT, LUGRE, SHOE, STIFFNESS, masses
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import (
-    BRISTLE,
-    ELASTIC,
-    PointLaw,
     contact_table,
 )
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.excitation import Dwell
-from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.problem import Problem
 from small_problems import dwelled
 from timedomain.closed_march import ClosedMarch, closed
 from timedomain.integrate import MarchOptions, integrate
@@ -26,39 +22,7 @@ from timedomain.shooting import ShootingOptions, periodic_orbit
 from timedomain.start import Start
 
 TURN = 2.0 * np.pi
-STIFFNESS, LIMIT = 40.0, 0.3
-JENKINS = PointLaw(
-    friction=ELASTIC,
-    dynamic=1.0,
-    tangential=STIFFNESS,
-    constant_load=True,
-    load=LIMIT,
-)
-LUGRE = replace(
-    JENKINS, friction=BRISTLE, dynamic=0.7, static=1.0, stribeck=0.2, viscous=0.05
-)
-SHOE = PointLaw(
-    stiffness=60.0, gap=-0.01, friction=ELASTIC, dynamic=0.4, tangential=40.0
-)
 ALONG, ACROSS, EVERY = np.eye(3)[:, 1:2], np.eye(3)[:, [1, 0]], np.eye(3)[:, [1, 2, 0]]
-
-
-def masses(
-    law: PointLaw, seen: Array, drive: Array, *, damping: float = 4e-3
-) -> Problem:
-    """Return masses on springs, each of 1 kg, that one contact sees."""
-    dofs = seen.shape[1]
-    stiffness = np.diag([30.0, 45.0, 60.0][:dofs])
-    names = ("x", "y", "z")[:dofs]
-    return Problem(
-        Structure(np.eye(dofs), damping * stiffness, stiffness, names),
-        Interface(contact_table([law]), seen, ("shoe",)),
-        np.zeros(dofs),
-        drive,
-        Probes(names, np.eye(dofs)),
-    )
-
-
 CASES = [
     pytest.param(masses(JENKINS, ALONG, np.array([0.35])), 6.5, id="jenkins"),
     pytest.param(masses(LUGRE, ALONG, np.array([0.35])), 6.5, id="lugre"),

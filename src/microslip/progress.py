@@ -38,3 +38,17 @@ def shown(
             further = min(done(item), total) - bar.n
             bar.update(further if further > ROUNDING * total else 0.0)
             yield item
+
+
+def collected(
+    items: Iterable[Item], found: list[Item], *, total: int, unit: str, name: str
+) -> Iterator[Item]:
+    """Pass items through into a list, with a bar that counts them.
+
+    What is in the list stays there when the items end early.
+    """
+    for item in shown(
+        items, total=total, done=lambda _: len(found) + 1.0, unit=unit, name=name
+    ):
+        found.append(item)
+        yield item

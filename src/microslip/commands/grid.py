@@ -43,7 +43,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
+    from microslip.progress import collected
     from microslip.scene_file import load_scene
     from microslip.studies.grid import QUICK, attempts, cases
 
@@ -53,14 +53,13 @@ def _run(options: argparse.Namespace) -> int:
     found: list[Attempt] = []
     print(HEADER)
     try:
-        for attempt in shown(
+        for attempt in collected(
             attempts(options.scene, tuple(options.overrides), chosen),
+            found,
             total=len(chosen),
-            done=lambda _: len(found) + 1.0,
             unit="curves",
             name="grid",
         ):
-            found.append(attempt)
             print(_line(attempt), flush=True)
     except KeyboardInterrupt:
         return arguments.ended("interrupted")

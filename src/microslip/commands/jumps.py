@@ -87,18 +87,17 @@ def _run(options: argparse.Namespace) -> int:
 
 def _collected(swept: Iterator[Jump], count: int) -> tuple[list[Jump], str]:
     """Print jumps at so many folds as they come; return them, and how they ended."""
-    from microslip.progress import shown
+    from microslip.progress import collected
 
     found: list[Jump] = []
     try:
-        for each in shown(
+        for each in collected(
             swept,
+            found,
             total=count,
-            done=lambda _: len(found) + 1.0,
             unit="folds",
             name="jumps",
         ):
-            found.append(each)
             print(_lines(each), flush=True)
     except (KeyboardInterrupt, MicroslipError) as error:
         if not found:

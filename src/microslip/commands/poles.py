@@ -64,7 +64,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
+    from microslip.progress import collected
     from microslip.studies.pole_question import Question
     from microslip.studies.poles import linearised
 
@@ -78,14 +78,13 @@ def _run(options: argparse.Namespace) -> int:
     print(HEADER)
     ending = "complete"
     try:
-        for each in shown(
+        for each in collected(
             linearised(question, values),
+            found,
             total=len(values),
-            done=lambda _: len(found) + 1.0,
             unit="values",
             name="poles",
         ):
-            found.append(each)
             print(_line(question, each), flush=True)
     except KeyboardInterrupt:
         ending = "interrupted"

@@ -44,7 +44,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
+    from microslip.progress import collected
     from microslip.scene_file import load_scene
     from microslip.studies.precision import BUDGET, QUICK, runs
     from microslip.studies.precision_case import case_of
@@ -61,14 +61,13 @@ def _run(options: argparse.Namespace) -> int:
     ending = "complete"
     print(precision_tables.RUNS)
     try:
-        for run in shown(
+        for run in collected(
             runs(case, exact, chosen, quick=options.quick),
+            found,
             total=len(chosen),
-            done=lambda _: len(found) + 1.0,
             unit="runs",
             name="precision",
         ):
-            found.append(run)
             print(precision_tables.run(run), flush=True)
     except KeyboardInterrupt:
         ending = "interrupted"

@@ -67,7 +67,7 @@ def _processes(text: str) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
+    from microslip.progress import collected
     from microslip.scene_file import load_scene
     from microslip.studies.stress import tried
     from microslip.studies.stress_cases import cases
@@ -79,7 +79,7 @@ def _run(options: argparse.Namespace) -> int:
     found: list[Tried] = []
     print(HEADER)
     try:
-        for each in shown(
+        for each in collected(
             tried(
                 options.scene,
                 options.overrides,
@@ -87,12 +87,11 @@ def _run(options: argparse.Namespace) -> int:
                 seconds=seconds,
                 processes=options.processes,
             ),
+            found,
             total=len(chosen),
-            done=lambda _: len(found) + 1.0,
             unit="cases",
             name="stress",
         ):
-            found.append(each)
             print(_line(each), flush=True)
     except KeyboardInterrupt:
         return arguments.ended("interrupted")

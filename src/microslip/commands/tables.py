@@ -55,21 +55,21 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
+    from microslip.progress import collected
     from microslip.studies.tables import PAPER, SENSITIVITIES, rows
 
     table = arguments.table(options)
     variants = (*PAPER, *SENSITIVITIES)
     found: list[Row] = []
     try:
-        for row in shown(
+        for _ in collected(
             rows("two-blades", variants, halve=not options.quick),
+            found,
             total=len(variants),
-            done=lambda _: len(found) + 1.0,
             unit="sweeps",
             name="tables",
         ):
-            found.append(row)  # noqa: PERF402  (what is there must be kept)
+            pass
     except KeyboardInterrupt:
         return arguments.ended("interrupted")
     finally:

@@ -42,7 +42,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
+    from microslip.progress import collected
     from microslip.scene_file import load_scene
     from microslip.studies.track import tracked
 
@@ -53,14 +53,13 @@ def _run(options: argparse.Namespace) -> int:
     print(HEADER)
     ending = "complete"
     try:
-        for each in shown(
+        for each in collected(
             tracked(options.scene, options.overrides, options.key, options.values),
+            found,
             total=len(options.values),
-            done=lambda _: len(found) + 1.0,
             unit="curves",
             name="track",
         ):
-            found.append(each)
             print(_lines(each), flush=True)
     except KeyboardInterrupt:
         ending = "interrupted"

@@ -157,27 +157,26 @@ def _orbits(
     options: argparse.Namespace, problem: Problem, traced: Traced, found: Found
 ) -> None:
     """Shoot; print what is found at once."""
-    from microslip.progress import shown
+    from microslip.progress import collected
     from microslip.studies.orbits import spread, verdicts
 
     places = spread(traced, options.frequencies)
     found.places.extend(places)
-    bar = shown(
+    for _ in collected(
         verdicts(problem, traced, places, tolerance=options.tolerance),
+        found.orbits,
         total=len(places),
-        done=lambda _: len(found.orbits) + 1.0,
         unit="",
         name="orbits",
-    )
-    for each in bar:
-        found.orbits.append(each)
+    ):
+        pass
 
 
 def _marches(
     options: argparse.Namespace, problem: Problem, traced: Traced, found: Found
 ) -> None:
     """March from the same orbits; what is found stays when the march is stopped."""
-    from microslip.progress import shown
+    from microslip.progress import collected
     from microslip.studies.verify import orbits
 
     if options.periods == 0:
@@ -186,15 +185,10 @@ def _marches(
     marches = orbits(
         problem, responses, periods=options.periods, steps_per_period=options.steps
     )
-    bar = shown(
-        marches,
-        total=len(responses),
-        done=lambda _: len(found.marches) + 1.0,
-        unit="",
-        name="marches",
-    )
-    for each in bar:
-        found.marches.append(each)
+    for _ in collected(
+        marches, found.marches, total=len(responses), unit="", name="marches"
+    ):
+        pass
 
 
 def _sweeps(

@@ -7,8 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from microslip.commands.frc import _resolution, events_said
-from microslip.commands.frc import _table as response_table
+from microslip.commands.frc_tables import events, resolution, table
 from microslip.commands.verify import Found, _verdict
 from microslip.commands.verify_tables import marches_said, sweep_rows, sweeps_said
 from microslip.studies.curve import Traced
@@ -88,7 +87,7 @@ def test_what_is_known_of_stability_is_said(
 ) -> None:
     curve = dataclasses.replace(small_curve, unstable=np.array(unstable, dtype=float))
 
-    assert text in events_said(curve)
+    assert text in events(curve)
 
 
 def test_events_and_errors_are_told_in_the_units_beside_them(
@@ -99,18 +98,18 @@ def test_events_and_errors_are_told_in_the_units_beside_them(
         small_curve, parameter_error=known, error=np.array([1e-4, 2e-3, 5e-4, 1e-3])
     )
 
-    said = events_said(curve)
+    said = events(curve)
     assert "131.000000 Hz \N{PLUS-MINUS SIGN} 0.002 " in said
     assert "133.000000 Hz \N{PLUS-MINUS SIGN} 0.0003 " in said
     assert "mm \N{PLUS-MINUS SIGN} 0.2 %" in said
-    assert "at most 0.2 % at a point, 0.075 % in the median" in _resolution(curve)
+    assert "at most 0.2 % at a point, 0.075 % in the median" in resolution(curve)
 
 
 def test_the_table_of_a_curve_is_in_the_units_of_its_head(
     small_curve: ResponseCurve,
 ) -> None:
     rest = StaticState(np.zeros(1), np.zeros(2), 0.0, 1)
-    row = response_table(Traced(small_curve, (), rest)).splitlines()[2].split()
+    row = table(Traced(small_curve, (), rest)).splitlines()[2].split()
 
     shown = [float(each) for each in row if each != "largest"]
     probes = 1e3 * small_curve.amplitude[0, :3]

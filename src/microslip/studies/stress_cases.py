@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from microslip.quantity import SceneError
 from microslip.scene_tables import Scene
-from microslip.scenes.two_blades.tables import TwoBlades
+from microslip.scenes.two_blades.tables import Blade, FrictionElement, TwoBlades
 from microslip.studies.stress_bad_values import bad_values
 from microslip.studies.stress_case import Case, row
 
@@ -84,20 +84,6 @@ def _contact(rig: TwoBlades) -> list[Case]:
         for power in EXPONENTS
         if power != contact.exponent
     ]
-    gkf = ("friction.law=gkf", "friction.mu_dynamic=0.1")
-    steep = ("friction.mu_static=1.0", "friction.stribeck_velocity={}")
-    statics = [
-        Case(
-            "GKF µs/µd",
-            f"{ratio:g}",
-            (
-                *gkf,
-                f"friction.mu_static={0.1 * ratio}",
-                "friction.stribeck_velocity=1e-3",
-            ),
-        )
-        for ratio in STATICS
-    ]
     return [
         *row("sigma", SIGMAS, "contact.sigma={}", own=contact.sigma),
         *row(
@@ -120,9 +106,27 @@ def _contact(rig: TwoBlades) -> list[Case]:
             own=contact.damping_ratio,
         ),
         *exponents,
-        *row("GKF V_str [m/s]", FALLS, *gkf, *steep),
-        *statics,
+        *_kinetic(),
     ]
+
+
+def _kinetic() -> list[Case]:
+    """Return the rows of friction that falls with the speed."""
+    gkf = ("friction.law=gkf", "friction.mu_dynamic=0.1")
+    steep = ("friction.mu_static=1.0", "friction.stribeck_velocity={}")
+    statics = [
+        Case(
+            "GKF µs/µd",
+            f"{ratio:g}",
+            (
+                *gkf,
+                f"friction.mu_static={0.1 * ratio}",
+                "friction.stribeck_velocity=1e-3",
+            ),
+        )
+        for ratio in STATICS
+    ]
+    return [*row("GKF V_str [m/s]", FALLS, *gkf, *steep), *statics]
 
 
 def _loads(rig: TwoBlades) -> list[Case]:
@@ -139,9 +143,19 @@ def _loads(rig: TwoBlades) -> list[Case]:
 
 def _structure(rig: TwoBlades) -> list[Case]:
     """Return the rows of masses, springs, damping, and of the harmonics."""
-    element, blade = rig.friction_element, rig.blade
+    rope = None if rig.rope is None else rig.rope.stiffness
+    return [
+        *row("rope [N/m]", ROPES, "rope.stiffness={}", own=rope),
+        *_masses(rig.friction_element),
+        *_dampings(rig.blade),
+        *row("harmonics", HARMONICS, "curve.harmonics={}"),
+    ]
+
+
+def _masses(element: FrictionElement) -> list[Case]:
+    """Return the row of the friction element's mass, its inertia in proportion."""
     names = ("mass", "inertia_x", "inertia_y", "inertia_z")
-    masses = [
+    return [
         Case(
             "element mass x",
             f"{factor:g}",
@@ -153,8 +167,12 @@ def _structure(rig: TwoBlades) -> list[Case]:
         for factor in MASSES
         if factor != 1.0
     ]
+
+
+def _dampings(blade: Blade) -> list[Case]:
+    """Return the row of the blades' damping ratio."""
     terms = ("mass_damping", "stiffness_damping")
-    dampings = [
+    return [
         Case(
             "damping ratio",
             f"{ratio:g}",
@@ -165,11 +183,4 @@ def _structure(rig: TwoBlades) -> list[Case]:
         )
         for ratio in RATIOS
         if ratio != NOMINAL
-    ]
-    rope = None if rig.rope is None else rig.rope.stiffness
-    return [
-        *row("rope [N/m]", ROPES, "rope.stiffness={}", own=rope),
-        *masses,
-        *dampings,
-        *row("harmonics", HARMONICS, "curve.harmonics={}"),
     ]

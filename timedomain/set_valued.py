@@ -100,7 +100,7 @@ def march_sliders(
     for place in range(count):
         made.push[place] = state.forces[sliders.points[place // 2], 1 + place % 2]
     for step in range(first, steps):
-        slips, forces = state.slips.copy(), state.forces.copy()
+        gaps, slips, forces = state.gaps.copy(), state.slips.copy(), state.forces.copy()
         for place in range(count // 2):
             point = sliders.points[place]
             made.loads[place], _, _ = friction_load(
@@ -110,7 +110,8 @@ def march_sliders(
             operators, sliders, compliance, points, state, factors[step], tolerance,
             made,
         )  # fmt: skip
-        if taken < 0:
+        if taken < 0:  # its parts, too, begin where the step before has ended
+            state.gaps[:], state.slips[:], state.forces[:] = gaps, slips, forces
             return step, iterations
         iterations += taken
         accumulate(meters, points, state, factors[step], operators.step)
@@ -165,6 +166,11 @@ def _advance(
     smooth, taken = _newton(
         operators, sliders, compliance, points, state, start, tolerance, made
     )
+    if taken < 0:  # once more, as if nothing rubbed before
+        made.push[:] = 0.0
+        smooth, taken = _newton(
+            operators, sliders, compliance, points, state, start, tolerance, made
+        )
     if taken < 0:
         return taken
     # twice the mean at the end and nothing at the beginning: the trapezoidal rule

@@ -1,13 +1,18 @@
 """The march as a whole: divided steps, blocks, rows, options."""
 
 import dataclasses
+from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
 import pytest
 
 from contact_tables import contact_points
+from microslip_mechanics.element import Element
 from microslip_mechanics.excitation import Dwell, SweptSine
+from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.system import system
 from microslip_mechanics.time_history import TimeHistory, joined
 from rigs import rig_problem
 from small_problems import NORMAL, from_rest, marched, mass_on_contact, oscillator
@@ -41,6 +46,57 @@ def test_steps_that_do_not_converge_are_divided() -> None:
 
     assert 0 < coarse.divided < 100
     assert np.isfinite(coarse.displacement).all()
+
+
+def _hard_push() -> tuple[Problem, Start]:
+    """Return the rig with much friction under twenty times its drive, at rest."""
+    problem = rig_problem(friction__mu_dynamic=10.0, model="full")
+    problem = dataclasses.replace(problem, drive=20.0 * problem.drive)
+    return problem, from_rest(problem)
+
+
+def _rigid_scratch() -> tuple[Problem, Start]:
+    """Return a rigid point that scratches with more friction than load, sliding."""
+    problem = system(
+        mass=[1.0, 1.0],
+        stiffness=[[800.0, 400.0], [400.0, 900.0]],
+        names=("x", "n"),
+        elements=[
+            Element(
+                RigidCoulomb(mu=10.0, normal_stiffness=1e3, preload=3.0),
+                tangents=[("x", "ground")],
+                normal=("n", "ground"),
+            )
+        ],
+    )
+    return problem, Start(np.array([-0.03, -0.01]), np.array([-2.0, -1.0]))
+
+
+@pytest.mark.parametrize(
+    ("case", "step", "parts"), [(_hard_push, 2e-3, 16), (_rigid_scratch, 0.3, 4)]
+)
+def test_a_divided_step_is_bit_for_bit_the_march_of_its_parts(
+    case: Callable[[], tuple[Problem, Start]], step: float, parts: int
+) -> None:
+    # What failed, and parts before one that fails, must leave nothing behind.
+    problem, start = case()
+    dwell = Dwell(2.0 * np.pi * 135.0, step)
+
+    def taken(step: float, parts: int, divisions: int) -> TimeHistory:
+        options = MarchOptions(
+            step, store_every=parts, divisions=divisions, method="reference"
+        )
+        return marched(problem, dwell, options, start=start, block=1.0)
+
+    whole = taken(step, 1, 6)
+
+    with pytest.raises(IntegrationError, match="even in"):
+        taken(step, 1, parts.bit_length() - 2)
+    assert whole.divided == 1
+    expected = taken(step / parts, parts, 1)
+    assert expected.divided == 0
+    np.testing.assert_array_equal(whole.displacement, expected.displacement)
+    np.testing.assert_array_equal(whole.energy, expected.energy)
 
 
 def test_steps_under_a_tiny_threshold_keep_the_energy_balance_undivided() -> None:

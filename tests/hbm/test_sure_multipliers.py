@@ -5,11 +5,17 @@ from typing import cast
 import numpy as np
 import pytest
 
+from contact_tables import FRICTION_LAWS
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
+from hbm.path import along_frequency
 from hbm.resolution import PathResolution
+from hbm.stability import small_motions
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import static_equilibrium
+from small_problems import sliding_block
 
 COARSE, REPORTED = FourierBasis(7, 64), FourierBasis(15, 128)
 LIFTS, STAYS = np.array([0.0, 0.0]), np.array([1.0, 1.0])
@@ -55,6 +61,9 @@ def sure(
         (5.0, LIFTS, False, [31, 63]),
         (0.05, STAYS, True, [31]),  # there the orbit itself is in doubt
         (5.0, STAYS, False, []),
+        (5.0, np.array([0.0, 1.0]), False, [31, 63]),  # half of the points
+        (5.0, np.array([0.0, 1.0, 1.0]), False, []),
+        (5.0, np.empty(0), False, []),
     ],
 )
 def test_finer_orbits_are_sought_where_the_reported_one_says_too_little(
@@ -72,6 +81,24 @@ def test_finer_orbits_are_sought_where_the_reported_one_says_too_little(
     assert confirmed
 
 
+@pytest.mark.parametrize(
+    ("given", "fixed", "expected"), [(20, False, [41, 63]), (20, True, [])]
+)
+def test_harmonics_beside_the_given_ones_are_sought_up_to_a_number(
+    given: int, fixed: bool, expected: list[int], sought: list[int]
+) -> None:
+    multipliers = Multipliers(
+        cast(PathResolution, None), None, cast(StepControl, None), fixed=fixed
+    )
+    point, fourier = np.array([50.0, 0.0, 1.0]), FourierBasis(given, 128)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Multipliers, "_falls", lambda *_: False)
+        multipliers.sure(point, fourier, LIFTS)
+
+    assert sought == expected
+
+
 def test_a_multiplier_that_one_resolution_lacks_asks_for_more(
     sought: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -87,3 +114,108 @@ def test_a_multiplier_that_one_resolution_lacks_asks_for_more(
 
     assert known.size == 3
     assert sought == [31, 63]
+
+
+@pytest.mark.parametrize("falls", [True, False])
+def test_an_orbit_that_no_finer_one_confirms_is_in_doubt_where_friction_falls(
+    falls: bool, sought: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def lost(_: Multipliers, __: Array, fourier: FourierBasis) -> None:
+        sought.append(fourier.harmonics)
+
+    monkeypatch.setattr(Multipliers, "finer", lost)
+
+    known, fourier, confirmed = sure(1.0, LIFTS, falls=falls, monkeypatch=monkeypatch)
+
+    assert sought == [31, 63]  # none of them is found
+    assert confirmed == (not falls)
+    # the multipliers stay those of the orbit as it is
+    assert fourier == REPORTED
+    assert known[0] == 1.1 + 1.0 / REPORTED.harmonics**2
+
+
+def test_one_orbit_that_is_found_at_last_confirms(
+    sought: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def late(_: Multipliers, point: Array, fourier: FourierBasis) -> Array | None:
+        sought.append(fourier.harmonics)
+        return point if fourier.harmonics == 63 else None
+
+    monkeypatch.setattr(Multipliers, "finer", late)
+
+    _, fourier, confirmed = sure(1.0, STAYS, falls=True, monkeypatch=monkeypatch)
+
+    assert (sought, fourier.harmonics, confirmed) == ([31, 63], 63, True)
+
+
+def of(problem: Problem) -> Multipliers:
+    """Return the multipliers along the frequency of a problem with one coordinate."""
+    path = along_frequency(problem, static_equilibrium(problem), 1.0, 2.0)
+    resolution = PathResolution(path, np.ones((1, 1)))
+    motions = small_motions(problem)
+    return Multipliers(resolution, lambda _: motions, StepControl(), fixed=False)
+
+
+SPEED, SLOW, FAST = 0.3, 0.1, 0.5
+"""of a block [m/s], and thresholds below and above"""
+
+
+@pytest.mark.parametrize(
+    ("law", "static", "threshold", "stribeck", "doubted"),
+    [
+        # friction rises up to the threshold, falls by 1/e within the Stribeck velocity
+        ("gkf", 0.6, SLOW, SLOW, True),
+        ("gkf", 0.6, SLOW, FAST, True),
+        ("gkf", 0.6, FAST, SLOW, True),
+        ("gkf", 0.6, FAST, FAST, False),
+        ("gkf", 0.3, SLOW, SLOW, False),  # no static friction above the dynamic
+        ("coulomb", 0.6, SLOW, SLOW, False),  # knows no static friction
+    ],
+)
+def test_an_orbit_is_doubted_where_it_is_fast_enough_for_friction_to_fall(
+    law: str,
+    static: float,
+    threshold: float,
+    stribeck: float,
+    doubted: bool,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = sliding_block(
+        stiffness=3.0,
+        drive=1.0,
+        friction=FRICTION_LAWS[law],
+        dynamic=0.3,
+        static=static,
+        threshold=threshold,
+        stribeck=stribeck,
+        viscous=0.0,
+        load=1.0,
+    )
+    monkeypatch.setattr(Multipliers, "finer", lambda *_: None)
+    point = np.zeros(2 * COARSE.harmonics + 2)
+    point[2], point[-1] = SPEED / 1.5, 1.5  # a sine of amplitude speed over frequency
+
+    _, _, confirmed = of(problem).sure(point, COARSE, np.empty(0))
+
+    assert confirmed != doubted
+
+
+@pytest.mark.parametrize(("aside", "found"), [(0.01, True), (0.03, False)])
+def test_a_finer_orbit_with_another_amplitude_is_another_one(
+    aside: float, found: bool
+) -> None:
+    # 2 percent are admitted; the only orbit of a linear oscillator is so much aside
+    mass, damping, stiffness, drive, frequency = 2.0, 0.5, 300.0, 1.5, 1.5
+    problem = sliding_block(
+        mass=mass, damping=damping, stiffness=stiffness, drive=drive, friction=0
+    )
+    turned = drive / (stiffness - mass * frequency**2 + 1j * frequency * damping)
+    exact = np.array([turned.imag, turned.real])  # of drive · sin ωt: cosine and sine
+    point = np.zeros(2 * REPORTED.harmonics + 2)
+    point[1:3], point[-1] = exact / (1.0 + aside), frequency
+
+    finer = of(problem).finer(point, REPORTED)
+
+    assert (finer is not None) == found
+    if finer is not None:
+        np.testing.assert_allclose(finer[1:3], exact, rtol=1e-6)

@@ -139,6 +139,19 @@ def test_truncation_changes_less_than_its_bound(
     assert reduction.error(limit) == (np.inf, np.inf)
 
 
+def test_truncation_is_bounded_where_damping_is_most_of_what_is_left_out() -> None:
+    # Dashpots between the masses and the ground: at low frequencies a mode that is left
+    # out moves less by its inertia, (ω/ω_k)², than by its damping, 300 ω/ω_k².
+    problem = net(12, 11, contacts=4, stiffness_damping=0.0, mass_damping=300.0)
+    reduction = reduced(problem, 800.0)
+    limit = reduction.truncation.limit
+
+    stiffness, load = truncated(reduction, limit * np.array([0.02, 0.1, 0.3]))
+
+    assert stiffness.max() < 1.0  # measured 0.04; 4 by inertia alone
+    assert load.max() < 1.0
+
+
 def test_truncation_falls_with_the_modes() -> None:
     problem = net(12, 11)
 

@@ -103,6 +103,19 @@ def test_energy_of_a_slow_sweep_is_the_integral_along_the_upward_branch(
     assert energy == pytest.approx((6.0 + 2.0) / 0.5, rel=1e-12)
 
 
+def test_energy_of_a_slow_sweep_is_that_between_its_ends_alone(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz, joule = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [90.0, 7.0, 2.0, 2.0, 8.0, 50.0]
+    wider = curve_with(small_curve, hertz, joule)
+
+    energy = quasi_static_energy(wider, 0.5, (2.5, 4.5))
+
+    # trapezoids from 4.5 J at 2.5 Hz over 2 J at 3 and at 4 Hz to 5 J at 4.5 Hz
+    area = 0.5 * (4.5 + 2.0) / 2.0 + 2.0 + 0.5 * (2.0 + 5.0) / 2.0
+    assert energy == pytest.approx(area / 0.5, rel=1e-12)
+
+
 @pytest.mark.parametrize("outside", [0.0, 3.0])
 def test_energy_of_a_slow_sweep_is_exact_for_a_linear_course(
     outside: float, small_curve: ResponseCurve

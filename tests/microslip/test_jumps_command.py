@@ -45,6 +45,58 @@ def made(traced: Traced, away: float) -> list[Jump]:
     return found
 
 
+def beside(
+    traced: Traced, factor: float, *, count: int | None = None, stable: bool = True
+) -> Traced:
+    """Return a curve with a second piece, of so many times its first stable points."""
+    others = [
+        dataclasses.replace(
+            each,
+            coefficients=factor * each.coefficients,
+            multipliers=np.array([0.5 if stable else 2.0 + 0j]),
+            event="",
+        )
+        for each in traced.responses
+        if each.unstable == 0
+    ][:count]
+    others[0] = dataclasses.replace(others[0], event="restart")
+    every = (*traced.responses, *others)
+    problem = cubic_oscillator(drive=0.3, damping=0.1)
+    return Traced(response_curve(problem, every, "complete"), every, traced.rest)
+
+
+def test_a_jump_lands_on_the_nearest_stable_motion_behind_the_fold(
+    traced: Traced,
+) -> None:
+    problem = cubic_oscillator(drive=0.3, damping=0.1)
+
+    up, down = folds_of(problem, traced, lead=0.1)
+
+    # Duffing's backbone bends to the right: up it falls, down it rises
+    assert (up.upward, up.falls) == (True, True)
+    assert (down.upward, down.falls) == (False, False)
+    curve, stable = traced.curve, traced.curve.unstable == 0
+    for fold, branch in ((up, slice(None, None, -1)), (down, slice(None))):
+        # the branch on which it lands is traced last, or first
+        place = fold.response.frequency
+        last = np.flatnonzero(stable)[branch]
+        end = next(n for n, each in enumerate(np.diff(last)) if abs(each) > 1)
+        landing = np.sort(last[: end + 1])
+        there = np.interp(place, curve.frequency[landing], curve.amplitude[landing, 0])
+        here = np.hypot(*fold.response.coefficients[1:3, 0])
+        assert fold.height == pytest.approx(0.5 * (here + there), rel=1e-3)
+
+    # what lies farther away, or is not stable, changes nothing, nor does the way from
+    # one piece to another: that to two points at 0.8 Hz would pass 1.78 Hz at 1.05
+    for other in (
+        beside(traced, 50.0),
+        beside(traced, 1.01, stable=False),
+        beside(traced, 5.0, count=2),
+    ):
+        found = folds_of(problem, other, lead=0.1)
+        assert [each.height for each in found] == [up.height, down.height]
+
+
 @pytest.mark.parametrize(("away", "status"), [(1e-6, 0), (-2e-5, 0), (1e-3, 1)])
 def test_jumps_far_from_their_folds_decide_the_status(
     away: float,

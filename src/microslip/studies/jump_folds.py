@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hbm.detached import MARKS
 from microslip.studies.curve import Traced
 from microslip.studies.verify import StudyError
 from microslip_mechanics.problem import Problem
@@ -109,6 +110,8 @@ def _landing(
     here = float(np.hypot(*fold.seen(problem.probes.rows[:1])[1:3, 0]))
     landings = []
     for first in range(len(frequency) - 1):
+        if traced.curve.event[first + 1] in MARKS:
+            continue  # another piece begins there
         low, high = frequency[first : first + 2]
         stable = traced.curve.unstable[first : first + 2].max() <= 0
         if stable and (low - behind) * (high - behind) <= 0.0 and low != high:

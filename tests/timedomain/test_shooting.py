@@ -255,6 +255,22 @@ def test_steps_are_doubled_until_the_error_is_small() -> None:
     assert found[1].steps <= 8192
 
 
+@pytest.mark.parametrize(
+    ("error", "most", "taken"),
+    [(1e-15, 256, 256), (1e-15, 255, 128), (ONCE, 8192, 64)],
+)
+def test_no_more_steps_are_taken_than_are_allowed_or_needed(
+    error: float, most: int, taken: int
+) -> None:
+    problem = rubbing()  # none of its orbits meets 1e-15
+
+    orbit = periodic_orbit(
+        problem, 11.0, start=still(problem), options=ShootingOptions(32, error, most)
+    )
+
+    assert orbit.steps == taken  # of the finer march: 32 · 2ⁿ
+
+
 def test_an_unstable_orbit_is_found_and_known_as_one() -> None:
     # Duffing's oscillator: three motions at 1.6 rad/s, the middle one a saddle.
     problem = cubic_oscillator(drive=0.3, damping=0.1)

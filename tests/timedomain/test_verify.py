@@ -82,6 +82,17 @@ def test_a_march_on_its_way_to_the_orbit_drifts() -> None:
     assert arriving.drift > 100.0 * settled.drift
 
 
+def test_a_probe_that_hardly_moves_is_measured_by_a_hundredth_of_the_largest() -> None:
+    found = dataclasses.replace(
+        compared(orbit(), periods=2),
+        predicted=np.array([2.0, 1e-3, 0.0]),
+        marched=np.array([1.8, 2e-3, 4e-3]),
+    )
+
+    # by 2, and twice by 0.02
+    assert found.deviation == pytest.approx([0.1, 0.05, 0.2])
+
+
 @pytest.mark.parametrize(("asked", "taken"), [(60, 60), (61, 120), (600, 600)])
 def test_steps_per_period_are_rounded_up_to_whole_rows(asked: int, taken: int) -> None:
     blocks = list(march_periods(driven(), orbit(), periods=3, steps_per_period=asked))

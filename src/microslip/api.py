@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from microslip.errors import GivenError
-from microslip.experiments import Curve, March, check_samples
+from microslip.experiments import HERTZ, LONGEST, Curve, March, check_samples
 from microslip.quantity import quantity
 from microslip.table import read_table
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 class Swept:
     """The swept sine of :func:`sweep`."""
 
-    lowest: float = quantity("Hz", positive=True)
-    highest: float = quantity("Hz", positive=True)
-    duration: float = quantity("s", positive=True)
-    ramp: float = quantity("s", lowest=0.0)
+    lowest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
+    highest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
+    duration: float = quantity("s", positive=True, highest=LONGEST)
+    ramp: float = quantity("s", lowest=0.0, highest=LONGEST)
 
 
 def scene(source: str, overrides: Sequence[str] = ()) -> Problem:

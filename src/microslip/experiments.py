@@ -7,17 +7,22 @@ from dataclasses import dataclass
 
 from microslip.quantity import SceneError, quantity
 
+HERTZ = 1e-12, 1e12
+"""between which frequencies lie, so that periods and their steps can be counted"""
+LONGEST = 1e12
+"""time of a sweep [s]"""
+
 
 @dataclass(frozen=True, slots=True)
 class Sweep:
     """Load history of the time march."""
 
-    end: float = quantity("s", positive=True)
-    duration: float = quantity("s", positive=True)
-    lowest: float = quantity("Hz", positive=True)
-    highest: float = quantity("Hz", positive=True)
-    ramp: float = quantity("s", lowest=0.0, default=0.0)
-    start: float = quantity("s", lowest=0.0, default=0.0)
+    end: float = quantity("s", positive=True, highest=LONGEST)
+    duration: float = quantity("s", positive=True, highest=LONGEST)
+    lowest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
+    highest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
+    ramp: float = quantity("s", lowest=0.0, highest=LONGEST, default=0.0)
+    start: float = quantity("s", lowest=0.0, highest=LONGEST, default=0.0)
     kind: typing.Literal["exponential", "linear", "stepped"] = quantity(
         default="exponential"
     )
@@ -32,8 +37,8 @@ class Sweep:
 class Curve:
     """Frequency response by harmonic balance."""
 
-    lowest: float = quantity("Hz", positive=True)
-    highest: float = quantity("Hz", positive=True)
+    lowest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
+    highest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
     tolerance: float = quantity(lowest=1e-6, highest=0.5, default=1e-3)
     harmonics: int | None = quantity(lowest=1, highest=255, optional=True)
     samples: int | None = quantity(lowest=6, highest=2**16, optional=True)
@@ -43,7 +48,7 @@ class Curve:
 class March:
     """Time integration."""
 
-    time_step: float = quantity("s", positive=True, highest=1.0)
+    time_step: float = quantity("s", lowest=1e-18, highest=1.0)
     store_every: int = quantity(lowest=1, highest=10**6, default=1)
 
 

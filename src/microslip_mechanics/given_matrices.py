@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 import scipy.sparse
 
-from microslip_mechanics.arrays import Matrix
+from microslip_mechanics.arrays import Array, Matrix
+from microslip_mechanics.quantity import LARGEST
 
 
 def square_matrix(given: Matrix, what: str) -> Matrix:
@@ -36,12 +37,24 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
         raise ValueError(
             f"{what} has shape {matrix.shape}: give a square matrix, or its diagonal"
         )
+    _check_entries(matrix, what)
+    return matrix
+
+
+def _check_entries(matrix: Array, what: str) -> None:
+    """Check that all entries are numbers whose squares are."""
     if not np.isfinite(matrix).all():
         row, column = np.argwhere(~np.isfinite(matrix))[0] + 1
         raise ValueError(
             f"{what} holds a value that is not finite, in row {row}, column {column}"
         )
-    return matrix
+    if abs(matrix).max() > LARGEST:
+        row, column = np.argwhere(abs(matrix) > LARGEST)[0] + 1
+        raise ValueError(
+            f"{what} holds {matrix[row - 1, column - 1]:g} in row {row}, column "
+            f"{column}: give at most {LARGEST:g} in size, or what is reckoned with it "
+            "overflows"
+        )
 
 
 def dof_names(given: Sequence[str] | None, count: int) -> tuple[str, ...]:

@@ -34,6 +34,9 @@ UNITS = {
 NUMBER = re.compile(r"[-+]?(\d[\d_]*\.?\d*|\.\d+)(e[-+]?\d+)?(?![\d.,])", re.I)
 """at the beginning of a text, before a unit"""
 
+LARGEST = 1e50
+"""of any number: squares and products of a few are numbers still"""
+
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
@@ -49,6 +52,11 @@ class Quantity:
     def read(self, value: object) -> float:
         """Return the value in SI units; raise ValueError with cause and remedy."""
         number = self._number(value)
+        if abs(number) > LARGEST:
+            raise ValueError(
+                f"is out of range: give at most {LARGEST:g} in size, or what is "
+                "reckoned with it overflows"
+            )
         inside = self.lowest <= number <= self.highest
         if not inside or (self.positive and number == self.lowest):
             raise ValueError(f"is out of range: {self._range()}")

@@ -24,7 +24,7 @@ SWEPT: dict[str, Any] = {"duration": 1.0, "time_step": 1e-3}
 @pytest.mark.parametrize(
     ("given", "text"),
     [
-        ({"lowest": -4.0}, "lowest = -4.0: is out of range: it must be above 0 Hz"),
+        ({"lowest": -4.0}, "lowest = -4.0: is out of range: it must be at least 1e-12"),
         ({"lowest": "4 kg"}, r'lowest = "4 kg": '),
         ({"highest": float("nan")}, "highest = nan: is not finite"),
         ({"highest": 4.0}, "lowest and highest are both 4 Hz: give two"),

@@ -188,7 +188,7 @@ MALFORMED: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     ),
     "no time step": (
         edited('time_step = "25 us"', "time_step = 0"),
-        ("[march] time_step = 0", "above 0"),
+        ("[march] time_step = 0", "at least 1e-18 and at most 1 s"),
     ),
     "missing scene key": (edited('scene = "two-blades"', ""), ("scene", "two-blades")),
     "unknown kind of scene": (

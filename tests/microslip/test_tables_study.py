@@ -193,11 +193,11 @@ def test_interrupted_tables_keep_their_rows(
 def test_stuck_march_ends_the_tables_with_one_line_and_keeps_the_rows_before(
     run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    stuck = Variant("stuck", (*SHORT, "friction.mu_dynamic=1e300"), math.nan)
+    stuck = Variant("stuck", (*SHORT, "friction.mu_dynamic=1e49"), math.nan)
     march = tables._march
 
     def marched(scene: Scene, share: float, *, estimate: bool) -> TimeHistory:
-        if scene.rig.friction.mu_dynamic > 1e299:
+        if scene.rig.friction.mu_dynamic > 1e48:
             raise IntegrationError("the step at t = 0 s does not converge")
         return march(scene, share, estimate=estimate)
 

@@ -128,7 +128,9 @@ def positive(text: str) -> float:
 
 def hertz(text: str) -> float:
     """Read a frequency from the command line [Hz]; it may have a unit."""
-    return _quantity("Hz", text)
+    from microslip.experiments import HERTZ
+
+    return _quantity("Hz", text, *HERTZ)
 
 
 def millimetres(text: str) -> float:
@@ -136,7 +138,9 @@ def millimetres(text: str) -> float:
     return 1e3 * _quantity("m", text if text.strip()[-1:].isalpha() else f"{text} mm")
 
 
-def _quantity(unit: str, text: str) -> float:
+def _quantity(
+    unit: str, text: str, lowest: float = 0.0, highest: float = math.inf
+) -> float:
     from microslip.quantity import Quantity
 
     try:
@@ -144,7 +148,7 @@ def _quantity(unit: str, text: str) -> float:
     except ValueError:
         value = text
     try:
-        return Quantity(unit, 0.0, math.inf, positive=True).read(value)
+        return Quantity(unit, lowest, highest, positive=lowest == 0.0).read(value)
     except ValueError as error:
         raise argparse.ArgumentTypeError(f"{text} {error}") from None
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from microslip.experiments import March
 from microslip.quantity import SceneError
+from microslip.studies.march_size import demand_end
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.ring_down import RingDown, ring_down
@@ -21,6 +22,8 @@ from timedomain.start import Start, at_end
 
 ROWS = 60
 """per period at least, if the steps are not longer"""
+
+REMEDY = "give a longer march.time_step or fewer --periods"
 
 
 def released(
@@ -45,7 +48,8 @@ def released(
     Raises
     ------
     SceneError
-        If the state is that of another structure, or of other contacts.
+        If the state is that of another structure, or of other contacts, or if the
+        decay would not end.
     """
     dofs = problem.structure.dofs
     if state.displacement.size != dofs:
@@ -55,8 +59,10 @@ def released(
         )
     hertz = frequency / (2.0 * math.pi)
     loads = SineTest(0.0, 0.0, (Tone(hertz, hertz, periods / hertz, 0.0),), 0.0)
-    stride = max(1, int(1.0 / (ROWS * hertz * march.time_step)))
-    options = MarchOptions(march.time_step, min(stride, march.store_every))
+    dense = 1.0 / (ROWS * hertz * march.time_step)
+    stride = max(1, int(min(march.store_every, dense)))
+    options = MarchOptions(march.time_step, stride)
+    demand_end(loads, options, REMEDY)
     start = state if isinstance(state, Start) else _let_go(problem, state)
     for block in integrate(problem, loads, options, start=start):
         still = np.zeros(len(block.time))

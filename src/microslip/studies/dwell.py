@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from microslip.experiments import March
+from microslip.studies.march_size import demand_end
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
@@ -20,6 +21,7 @@ from timedomain.step_doubling import rows_between
 
 ROWS = 60
 """per period at least, if the steps are not longer"""
+REMEDY = "give a longer march.time_step, a higher --frequency or fewer --most-periods"
 WINDOW = 32
 """periods over which a transient is seen to fade: beats of modes should be shorter"""
 
@@ -52,27 +54,35 @@ def dwelling(
     The period map moves the state by d_k = |x_k − x_{k−1}| in the norm of energy. While
     the d fade by a factor of ρ in each period, d_k ρ/(1−ρ) is left to go. As modes
     that fade together beat, d_k and ρ are taken from the largest d of each window.
+
+    Raises
+    ------
+    SceneError
+        If it would not end.
     """
     period = 2.0 * math.pi / frequency
+    loads = Dwell(frequency, most * period)
+    options = _options(loads, march, period)
     rest = static_equilibrium(problem).displacement
     ruler = _Ruler(problem, frequency, rest)
-    dense = int(period / (ROWS * march.time_step))
-    stride = max(1, min(march.store_every, dense))
-    group = rows_between(stride)
-    rows = group * math.ceil(period / (march.time_step * stride * group))
-    blocks = integrate(
-        problem,
-        Dwell(frequency, most * period),
-        MarchOptions(period / (rows * stride), stride, estimate=True),
-        start=Start(rest, np.zeros_like(rest)),
-        block=period,
-    )
+    start = Start(rest, np.zeros_like(rest))
+    blocks = integrate(problem, loads, options, start=start, block=period)
     for block in blocks:
         told = np.full(len(block.time), frequency), np.ones(len(block.time))
         distance = ruler.distance(block.checkpoint)
         yield Period(replace(block, frequency=told[0], level=told[1]), distance)
         if distance <= tolerance:
             return
+
+
+def _options(loads: Dwell, march: March, period: float) -> MarchOptions:
+    """Return steps and rows of which a whole number fills a period."""
+    dense = period / (ROWS * march.time_step)
+    stride = max(1, int(min(march.store_every, dense)))
+    demand_end(loads, MarchOptions(march.time_step, stride), REMEDY, block=period)
+    group = rows_between(stride)
+    rows = group * math.ceil(period / (march.time_step * stride * group))
+    return MarchOptions(period / (rows * stride), stride, estimate=True)
 
 
 class _Ruler:

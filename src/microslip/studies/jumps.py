@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.studies.jump_folds import Fold
+from microslip.studies.march_size import demand_end
 from microslip.studies.verify import StudyError, envelope_of
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import SweptSine
@@ -119,12 +120,15 @@ def _swept(
     ------
     StudyError
         If it does not jump before the sweep's end.
+    SceneError
+        If the sweep would not end.
     """
     begin = fold.begin.frequency / (2.0 * np.pi)
     duration = abs(fold.end - begin) / rate
     sweep = SweptSine(0.0, 0.0, duration, duration, begin, fold.end)
     stride = max(1, steps // ROWS)
     options = MarchOptions(1.0 / (stride * ROWS * fold.hertz), stride)
+    demand_end(sweep, options, "give faster --rates")
     start = on_orbit(problem, fold.begin)
     blocks = []
     for block in integrate(

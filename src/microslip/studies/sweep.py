@@ -9,12 +9,20 @@ from typing import Any
 from microslip.experiments import March, Sweep
 from microslip.interruption import unmasked
 from microslip.progress import Watch
+from microslip.studies.march_size import demand_end
 from microslip_mechanics.envelope import Envelope, enveloped, parted
 from microslip_mechanics.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
+
+BLOCK, HELD = 0.1, 10**5
+"""length of what is written at once [s], and the most rows of it"""
+REMEDY = (
+    "give a longer march.time_step, a larger march.store_every, a shorter sweep or "
+    "force, or a lower sweep.highest"
+)
 
 
 def marched(
@@ -32,21 +40,27 @@ def marched(
     ``end`` is where a stopped march of the same scene and kind goes on. Steps are those
     of the scene, or follow from a ``tolerance``. Rows of equal steps have estimated
     errors unless ``estimate`` is False, which saves a third of the time.
+
+    Raises
+    ------
+    SceneError
+        If the march would not end.
     """
+    stride = 1 if envelope else march.store_every
+    estimate = estimate and not envelope
+    options = MarchOptions(march.time_step, stride, tolerance, estimate=estimate)
+    demand_end(loads, options, REMEDY, stored=not envelope)
+    block = min(BLOCK, HELD * march.time_step * stride)
     segments, begun = loads.segments(), None
     if envelope:
         if end is not None:
             end, begun = parted(end)
-        options = MarchOptions(march.time_step, 1, tolerance)
-        blocks = integrate(problem, loads, options, start=end)
+        blocks = integrate(problem, loads, options, start=end, block=block)
         yield from enveloped(blocks, segments, begun)
         return
-    options = MarchOptions(
-        march.time_step, march.store_every, tolerance, estimate=estimate
-    )
-    for block in integrate(problem, loads, options, start=end):
-        sine = clock(segments, block.time)
-        yield replace(block, frequency=sine[:, 0], level=sine[:, 1])
+    for rows in integrate(problem, loads, options, start=end, block=block):
+        sine = clock(segments, rows.time)
+        yield replace(rows, frequency=sine[:, 0], level=sine[:, 1])
 
 
 def kept(blocks: Iterable[Any], keep: Callable[[Any], None]) -> str:

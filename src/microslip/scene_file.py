@@ -15,7 +15,7 @@ from microslip.quantity import SceneError
 from microslip.scene_tables import Experiments, Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
-from microslip.table import meant, read_table
+from microslip.table import meant, read_table, shown
 
 KINDS = ("two-blades", "system", "bladed-disk")
 """what ``scene = "…"`` may name"""
@@ -108,7 +108,10 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
     for table in tables:
         place = _inner(place, table, override)
         if not isinstance(place, dict):
-            raise SceneError(f"--set {override}: {table} is a value, not a table")
+            raise SceneError(
+                f"--set {override}: {table}{shown(place)} has no keys: give "
+                f"{name.partition(table)[0]}{table} as a whole"
+            )
     held = place.get(key) if tables == ["drive"] else None
     if isinstance(held, dict) and AMPLITUDE in held and not isinstance(value, dict):
         value = {**held, AMPLITUDE: value}
@@ -135,11 +138,17 @@ def _inner(place: dict[str, typing.Any], table: str, override: str) -> typing.An
 
 
 def _scene(source: str, document: dict[str, typing.Any], text: str) -> Scene:
+    if not document:
+        raise SceneError(
+            f"{source} is empty: give it a scene, such as what microslip scenes "
+            f"{BUILT_IN[0]} prints"
+        )
     kind = document.pop("scene", None)
     if kind not in KINDS:
         raise SceneError(
-            f"{source}: scene = {kind!r}: name the kind of scene at the top, "
-            f"one of {', '.join(KINDS)}"
+            f"{source}: scene{' is missing' if kind is None else shown(kind)}: name "
+            f'the kind of scene at the top, such as scene = "{KINDS[1]}", one of '
+            f"{', '.join(KINDS)}"
         )
     tables = {"sweep": Sweep, "curve": Curve, "march": March}
     made = {

@@ -129,7 +129,8 @@ def translation(names: Sequence[str], direction: Array) -> Array:
             found[place] = direction[AXES.index(motion[-1])]
         elif motion not in MOTIONS:
             raise ValueError(
-                f"degree of freedom {name} does not say a direction: name it after "
-                "node.x, or give the motion itself"
+                f"degree of freedom {name} does not say in which direction it is, "
+                "which ground that moves needs: give it a name that does, such as "
+                f"{name}.x, {name}.y or {name}.z"
             )
     return found

@@ -67,12 +67,16 @@ def dof_names(given: Sequence[str] | None, count: int) -> tuple[str, ...]:
             f"there are {len(names)} names, but mass has shape ({count}, {count}): "
             "give one name for each degree of freedom"
         )
-    counts = Counter(names)
-    twice = {name for name in names if counts[name] > 1 or name == "ground"}
+    twice = [name for name, count in Counter(names).items() if count > 1]
     if twice:
         raise ValueError(
-            f"names of degrees of freedom: {', '.join(sorted(twice))} stands twice or "
-            "is the ground: give each its own name"
+            f"names of degrees of freedom: {', '.join(twice)} stands there more than "
+            "once: give each its own name"
+        )
+    if "ground" in names:
+        raise ValueError(
+            "names of degrees of freedom: ground is what does not move: give another "
+            "name"
         )
     return names
 

@@ -114,7 +114,9 @@ def test_what_is_no_motion_is_refused() -> None:
     )
     with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
         base_excitation(structure, DIRECTION)
-    with pytest.raises(ValueError, match=r"^degree of freedom 7 does not say a direc"):
+    with pytest.raises(
+        ValueError, match=r"^degree of freedom 7 does not say in which d"
+    ):
         translation(("7",), DIRECTION)
     with pytest.raises(ValueError, match="make the load depend on frequency"):
         BaseExcitation(np.ones(1), np.ones(1)).by_acceleration(1.0)

@@ -296,7 +296,10 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "NaN in the preload": ({"preload": {"x2": np.inf}}, ("preload of x2", "finite")),
     "drive on nothing": ({"drive": {"x9": 1.0}}, ("drive", "'x9'")),
     "too many names": ({"names": ["a", "b", "c"]}, ("3 names", "(2, 2)")),
-    "names alike": ({"names": ["a", "a"]}, ("a stands twice",)),
+    "names alike": (
+        {"names": ["a", "a"]},
+        ("a stands there more than once: give each its own name",),
+    ),
     "named ground": ({"names": ["a", "ground"]}, ("ground",)),
     "probe of nothing": ({"probes": {"tip": "tip"}}, ("probe tip", "'tip'")),
     "probe of the ground": ({"probes": {"g": "ground"}}, ("probe g never moves",)),

@@ -12,7 +12,7 @@ from microslip.commands import arguments
     ("given", "told"),
     [
         ("5 kN", "5 kN has the wrong unit: give a number in Hz, or a text with one of"),
-        ("-3", "-3 is out of range: it must be above 0 Hz"),
+        ("-3", "-3 is out of range: it must be at least 1e-12"),
         ("inf", "inf is not finite"),
         ("fast", "fast is not a number: give one in Hz"),
     ],
@@ -25,6 +25,69 @@ def test_frequencies_that_are_none_are_refused(
 
     assert stopped.value.code == 2
     assert f"argument --frequency: {told}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("dwell", "--most-periods=x"), "x: give a whole number from 1 to 10000000"),
+        (("dwell", "--most-periods=0"), "0: give a whole number from 1 to 10000000"),
+        (("dwell", "--tolerance=x"), "x: give a positive finite number"),
+        (("decay", "--periods=1.5"), "1.5: give a whole number from 1 to 10000000"),
+        (("verify", "--steps=few"), "few: give a whole number from 1 to 10000000"),
+        (("verify", "--periods=1"), "1: give a whole number from 2 to 10000000"),
+        (("stress", "--processes=65"), "65: give a whole number from 1 to 64"),
+        (("modes", "--harmonics=128"), "128: give a whole number from 1 to 127"),
+    ],
+)
+def test_numbers_that_are_none_are_told_what_is_wanted(
+    words: tuple[str, str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command, option = words
+    with pytest.raises(SystemExit) as stopped:
+        main([command, "duffing", option])
+
+    assert stopped.value.code == 2
+    name, _, _ = option.partition("=")
+    assert f"argument {name}: {told}: see" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (
+            ("poles", "tip-damper", "friction", "0", "0.3"),
+            "tip-damper: no one friction coefficient stands for this scene: give a key "
+            "and values (element.pin.mu, such as 0.09 0.3 0.9)",
+        ),
+        (
+            ("frc", "duffing", "--set=structure.mass.0=1"),
+            "--set structure.mass.0=1: mass = [1] has no keys: give structure.mass as "
+            "a whole",
+        ),
+        (
+            ("frc", "chain", '--set=structure.names=["a", "a", "b"]'),
+            "chain: names of degrees of freedom: a stands there more than once: give "
+            "each its own name",
+        ),
+        (
+            ("frc", "chain", '--set=structure.names=["a", "ground", "b"]'),
+            "chain: names of degrees of freedom: ground is what does not move: give "
+            "another name",
+        ),
+        (
+            ("frc", "chain", "--set=base={direction = [1, 0, 0], acceleration = 1}"),
+            "chain: degree of freedom x1 does not say in which direction it is, which "
+            "ground that moves needs: give it a name that does, such as x1.x, x1.y or "
+            "x1.z",
+        ),
+    ],
+)
+def test_keys_that_a_scene_does_not_take_are_told(
+    words: tuple[str, ...], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(list(words)) == 2
+    assert capsys.readouterr().err == f"microslip: {told}\n"
 
 
 def test_quantities_may_have_a_unit() -> None:

@@ -178,7 +178,7 @@ def test_rates_and_lead_must_be_positive(
     status, _, error = run("jumps", str(quick_scene), *arguments)
 
     assert status == 2
-    assert "is not positive and finite" in error
+    assert "give a positive finite number" in error
 
 
 def test_less_rates_than_an_extrapolation_needs_are_refused(

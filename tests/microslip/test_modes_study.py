@@ -60,7 +60,6 @@ def test_an_interrupted_mode_keeps_what_it_has() -> None:
 @pytest.mark.parametrize(
     ("words", "status", "hint"),
     [
-        (["--harmonics", "0"], 2, "1 to 127"),
         (["--amplitudes", "2", "1"], 2, "smaller one first"),
         (["--range", "140", "130"], 2, "lower frequency first"),
         (["--range", "140", "141"], 2, "another --range"),

@@ -123,6 +123,9 @@ def test_archives_that_are_none_are_refused(tmp_path: Path) -> None:
         np.save(file, STIFFNESS)
     np.savez(broken, format=b"csc", shape=(4, 4), data=np.ones(4))
 
-    for path, cause in ((single, "holds one array"), (broken, "sparse matrix")):
+    for path, cause in (
+        (single, "is no sound archive: write it by numpy.savez"),
+        (broken, "sparse matrix"),
+    ):
         with pytest.raises(MatrixFileError, match=cause):
             read_structure(MatrixFiles(MatrixSource(path), MatrixSource(path)))

@@ -6,6 +6,7 @@ import argparse
 import math
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from microslip.errors import GivenError
@@ -120,10 +121,30 @@ def ended(ending: str, *, kept: bool = True) -> int:
 
 def positive(text: str) -> float:
     """Read a positive finite number from the command line."""
-    number = float(text)
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
     if not (number > 0.0 and math.isfinite(number)):
-        raise argparse.ArgumentTypeError(f"{text} is not positive and finite")
+        raise argparse.ArgumentTypeError(f"{text}: give a positive finite number")
     return number
+
+
+def whole(lowest: int, highest: int) -> Callable[[str], int]:
+    """Return what reads a whole number within bounds from the command line."""
+
+    def read(text: str) -> int:
+        try:
+            number = int(text)
+        except ValueError:
+            number = lowest - 1
+        if not lowest <= number <= highest:
+            raise argparse.ArgumentTypeError(
+                f"{text}: give a whole number from {lowest} to {highest}"
+            )
+        return number
+
+    return read
 
 
 def hertz(text: str) -> float:

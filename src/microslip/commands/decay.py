@@ -44,7 +44,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     dwell.add_limits(parser)
     parser.add_argument(
         "--periods",
-        type=dwell.count,
+        type=arguments.whole(1, dwell.MOST),
         default=PERIODS,
         metavar="N",
         help=f"length of the decay in periods of the drive (default: {PERIODS})",

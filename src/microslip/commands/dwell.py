@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from microslip_mechanics.time_history import TimeHistory
 
 TOLERANCE, PERIODS = 1e-4, 5000
+MOST = 10**7
+"""periods that may be asked for"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -59,19 +61,11 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--most-periods",
-        type=count,
+        type=arguments.whole(1, MOST),
         default=PERIODS,
         metavar="N",
         help=f"periods after which it ends in any case (default: {PERIODS})",
     )
-
-
-def count(text: str) -> int:
-    """Read a number of periods from the command line."""
-    number = int(text)
-    if not 1 <= number <= 10**7:
-        raise argparse.ArgumentTypeError(f"{number}: give 1 to 10000000")
-    return number
 
 
 def _run(options: argparse.Namespace) -> int:

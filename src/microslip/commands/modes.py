@@ -63,7 +63,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     )
     parser.add_argument(
         "--harmonics",
-        type=int,
+        type=arguments.whole(1, 127),
         default=HARMONICS,
         metavar="N",
         help=f"number of harmonics, 1 to 127 (default: {HARMONICS})",
@@ -119,8 +119,6 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
     from hbm.modes import ModeOptions
     from microslip.quantity import SceneError
 
-    if not 1 <= options.harmonics <= 127:
-        raise SceneError(f"--harmonics {options.harmonics}: give 1 to 127")
     if options.range and not options.range[0] < options.range[1]:
         low, high = options.range
         raise SceneError(f"--range {low:g} {high:g}: give the lower frequency first")

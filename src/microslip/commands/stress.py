@@ -49,7 +49,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     )
     for name, kind, default, meaning in (
         ("--seconds", arguments.positive, None, "a case may take at most"),
-        ("--processes", _processes, 2, "cases are tried at the same time"),
+        ("--processes", arguments.whole(1, 64), 2, "cases are tried at the same time"),
     ):
         shown = default or f"{LONGEST:g}, {QUICK:g} with --quick"
         parser.add_argument(
@@ -57,13 +57,6 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         )
     arguments.add_output(parser, "stress")
     parser.set_defaults(run=_run)
-
-
-def _processes(text: str) -> int:
-    number = int(text)
-    if not 1 <= number <= 64:
-        raise argparse.ArgumentTypeError(f"{text}: give 1 to 64")
-    return number
 
 
 def _run(options: argparse.Namespace) -> int:

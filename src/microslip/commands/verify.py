@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
     from timedomain.verify import Agreement
 
-SLOWEST = 1000.0
+SLOWEST, MOST = 1000.0, 10**7
 """times the length of the scene's sweep"""
 
 
@@ -52,9 +52,19 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     arguments.add_scene(parser)
     arguments.add_output(parser, "verify")
     for name, kind, default, meaning in (
-        ("--frequencies", _count, 9, "orbits along the curve, about"),
-        ("--periods", _several, 0, "also march so many periods from each orbit"),
-        ("--steps", _count, 600, "time steps per period of that march"),
+        ("--frequencies", arguments.whole(1, MOST), 9, "orbits along the curve, about"),
+        (
+            "--periods",
+            arguments.whole(2, MOST),
+            0,
+            "also march so many periods from each orbit",
+        ),
+        (
+            "--steps",
+            arguments.whole(1, MOST),
+            600,
+            "time steps per period of that march",
+        ),
         ("--tolerance", arguments.positive, 0.01, "relative deviation of amplitudes"),
     ):
         parser.add_argument(
@@ -75,17 +85,6 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         f"{SLOWEST:g} (default: 1 4 10); none if no length is given",
     )
     parser.set_defaults(run=_run)
-
-
-def _count(text: str, least: int = 1) -> int:
-    number = int(text)
-    if number < least:
-        raise argparse.ArgumentTypeError(f"{number} is too few: give at least {least}")
-    return number
-
-
-def _several(text: str) -> int:
-    return _count(text, 2)
 
 
 def _slowness(text: str) -> float:

@@ -30,6 +30,7 @@ def read_npz(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
     MatrixFileError
         If there is none, or the file is not such an archive.
     """
+    _check_archive(path)
     there = _arrays(path)
     if there.keys() >= SPARSE:
         return LabelledMatrix(matrix_of(path, {"it": _sparse(path)}, ("it",)), ())
@@ -39,6 +40,18 @@ def read_npz(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         return LabelledMatrix(matrix, names)
     except ValueError as error:
         raise MatrixFileError(path, str(error)) from None
+
+
+def _check_archive(path: Path) -> None:
+    try:
+        with path.open("rb") as file:
+            sound = zipfile.is_zipfile(file)
+    except OSError as error:
+        raise MatrixFileError(
+            path, f"cannot be read ({error.strerror}): check the name"
+        ) from None
+    if not sound:
+        raise MatrixFileError(path, "is no sound archive: write it by numpy.savez")
 
 
 def _sparse(path: Path) -> Any:  # noqa: ANN401  (of any of scipy's formats)
@@ -52,15 +65,8 @@ def _sparse(path: Path) -> Any:  # noqa: ANN401  (of any of scipy's formats)
 
 def _arrays(path: Path) -> dict[str, Any]:
     try:
-        archive = np.load(path, allow_pickle=False)
-        if not isinstance(archive, np.lib.npyio.NpzFile):
-            raise MatrixFileError(path, "holds one array: use numpy.savez")
-        with archive:
+        with np.load(path, allow_pickle=False) as archive:
             return dict(archive)
-    except FileNotFoundError:
-        raise MatrixFileError(
-            path, "cannot be read (No such file or directory): check the name"
-        ) from None
     except UNSOUND as error:
         raise MatrixFileError(
             path, f"is no sound archive of numbers ({error}): use numpy.savez"

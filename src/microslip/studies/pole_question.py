@@ -42,9 +42,9 @@ class Question:
         """
         if self.key != FRICTION:
             return load_scene(self.scene, (*self.overrides, f"{self.key}={value}"))
-        dynamic = f"friction.mu_dynamic={value}"
+        ratio, dynamic = self._ratio(), f"friction.mu_dynamic={value}"
         load_scene(self.scene, (*self.overrides, dynamic))
-        static = f"friction.mu_static={self._ratio() * float(value)!r}"
+        static = f"friction.mu_static={ratio * float(value)!r}"
         return load_scene(self.scene, (*self.overrides, dynamic, static))
 
     def usual_values(self) -> list[str]:

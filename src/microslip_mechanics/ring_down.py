@@ -10,7 +10,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 
 FAINT = 1e-9
-"""amplitude over the largest at which a decay has ended"""
+"""amplitude over the largest deflection at which a decay has ended"""
 FEWEST = 4
 """extremes that a damping ratio needs"""
 
@@ -47,14 +47,14 @@ def ring_down(
         Where it comes to rest [m].
     """
     moments, extremes = _extremes(time, displacement - rest, velocity)
+    swing = 0.5 * np.abs(np.diff(extremes))
+    faint = swing <= FAINT * np.abs(displacement - rest).max()
+    if faint.any():  # what is left swings in the last digits
+        last = int(faint.argmax())
+        swing, moments = swing[:last], moments[: last + 1]
     if moments.size < FEWEST:
         none = np.zeros(0)
         return RingDown(none, none, none, none)
-    swing = 0.5 * np.abs(np.diff(extremes))
-    faint = swing <= FAINT * swing.max()
-    if faint.any():  # what is left swings in the last digits
-        last = max(int(faint.argmax()), FEWEST - 1)
-        swing, moments = swing[:last], moments[: last + 1]
     middle = 0.5 * (moments[1:] + moments[:-1])
     decrement = np.log(swing[:-2] / swing[2:])
     turning = 2.0 * np.pi / (middle[2:] - middle[:-2])

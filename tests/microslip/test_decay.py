@@ -15,12 +15,13 @@ from microslip.quantity import SceneError
 from microslip.result_file import load
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.studies.decay import liveliest, measured, released
+from microslip.studies.decay import liveliest, measured, released, unmeasured
 from microslip.studies.dwell import dwelling
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.ring_down import RingDown
 from microslip_mechanics.sine_test import SineTest, Tone
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from rigs import rig_problem
 from small_problems import oscillator, sliding_block
@@ -200,3 +201,45 @@ def test_state_of_another_structure_is_refused() -> None:
 
     with pytest.raises(SceneError, match="give the scene of its file"):
         let_go(oscillator(preload=4.0), two, 10.0, periods=1)
+
+
+@pytest.mark.parametrize(
+    ("damping", "drive", "told"),
+    [
+        (200.0, 1.0, "comes to rest before it has swung to and fro often enough"),
+        (1e5, 1.0, "unless it is damped so strongly that it creeps back to rest"),
+        (1.0, 0.0, "x1 does not move when it is let go: give the scene a drive"),
+    ],
+)
+def test_a_decay_without_swings_tells_why(
+    damping: float, drive: float, told: str
+) -> None:
+    problem = system(
+        mass=[1.0], stiffness=[1e3], damping=[damping], drive={"x1": drive}
+    )
+    start = Start(np.array([drive]), np.zeros(1))
+    march = March(1e-3, 10)
+
+    blocks = list(released(problem, start, march, frequency=30.0, periods=20))
+    history = joined(blocks, "complete")
+
+    assert not measured(problem, history, 0).time.size
+    assert told in unmeasured(problem, history, 0)
+
+
+def test_what_is_over_before_it_swings_is_not_measured_in_its_last_digits() -> None:
+    problem = system(mass=[1.0], stiffness=[1e3], damping_ratio=0.999)
+    start = Start(np.array([1.0]), np.zeros(1))
+
+    decay = let_go(problem, start, 30.0, periods=300, steps=60)
+
+    assert not decay.time.size
+
+
+def test_motions_that_beat_are_told(run: Run) -> None:
+    words = ("--frequency", "0.16", "--tolerance", "0.5", "--periods", "60")
+
+    status, output, _ = run("decay", "chain", *words)
+
+    assert status == 0
+    assert "cycles: several motions decay together and beat" in output

@@ -62,7 +62,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.store import save_figure, save_table
-    from microslip.studies.decay import liveliest, measured
+    from microslip.studies.decay import liveliest, measured, unmeasured
 
     data, picture = arguments.outputs(options, "decay")
     scene = load_scene(options.scene, options.overrides)
@@ -74,10 +74,9 @@ def _run(options: argparse.Namespace) -> int:
     decay = measured(problem, history, probe)
     if not decay.time.size:
         print(f"decay in {data}")
-        return arguments.ended(
-            f"{history.probes[probe]} does not swing to and fro often enough to be "
-            "measured: give more --periods"
-        )
+        if ending == "complete":
+            ending = unmeasured(problem, history, probe)
+        return arguments.ended(ending)
     table = data.with_suffix(".csv")
     hertz = decay.frequency / math.tau
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
@@ -170,4 +169,10 @@ def _lines(decay: RingDown, probe: str) -> list[str]:
         f"{100.0 * decay.damping[place]:18.4f}"
         for place in chosen
     ]
+    grows = int((decay.damping < 0.0).sum())
+    if grows:
+        rows.append(
+            f"the amplitude grows in {grows} of {count} cycles: several motions decay "
+            "together and beat, so that no row is of one alone, or something feeds them"
+        )
     return rows

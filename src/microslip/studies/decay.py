@@ -23,6 +23,10 @@ from timedomain.start import Start, at_end
 ROWS = 60
 """per period at least, if the steps are not longer"""
 
+STILL = 1e-12
+"""of where it is, that rounding moves"""
+GONE = 1e-2
+"""of the largest deflection, below which a decay is over"""
 REMEDY = "give a longer march.time_step or fewer --periods"
 
 
@@ -86,13 +90,38 @@ def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:
     That is the static equilibrium or, where friction depends on the past and may hold
     it anywhere, the middle of the last cycle of the march.
     """
+    seen, rest = history.displacement[:, probe], _rest(problem, history, probe)
+    return ring_down(history.time, seen, history.velocity[:, probe], rest=rest)
+
+
+def unmeasured(problem: Problem, history: TimeHistory, probe: int) -> str:
+    """Return why a decay has too few swings to be measured, and what may help."""
+    seen, name = history.displacement[:, probe], history.probes[probe]
+    away = np.abs(seen - _rest(problem, history, probe))
+    size = float(away.max())
+    if size <= STILL * float(np.abs(seen).max()):
+        return f"{name} does not move when it is let go: give the scene a drive"
+    late = away[history.time >= 0.9 * history.time[-1]]
+    if late.max() <= GONE * size:
+        return (
+            f"{name} comes to rest before it has swung to and fro often enough to be "
+            "measured: it is damped too strongly, or its contacts hold it"
+        )
+    return (
+        f"{name} does not swing to and fro often enough to be measured: give more "
+        "--periods, unless it is damped so strongly that it creeps back to rest"
+    )
+
+
+def _rest(problem: Problem, history: TimeHistory, probe: int) -> float:
+    """Return where a probe comes to rest [m]."""
     seen = history.displacement[:, probe]
-    rest = float(problem.probes.rows[probe] @ static_equilibrium(problem).displacement)
     if beyond_motion(problem.interface.points):
         period = 2.0 * math.pi / history.frequency[-1]
         last = seen[history.time >= history.time[-1] - period]
-        rest = 0.5 * float(last.max() + last.min())
-    return ring_down(history.time, seen, history.velocity[:, probe], rest=rest)
+        return 0.5 * float(last.max() + last.min())
+    at_rest = static_equilibrium(problem).displacement
+    return float(problem.probes.rows[probe] @ at_rest)
 
 
 def liveliest(history: TimeHistory) -> int:

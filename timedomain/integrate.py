@@ -18,6 +18,8 @@ from timedomain.step_doubling import StepDoubling, rows_between
 
 __all__ = ["IntegrationError", "MarchOptions", "integrate"]
 
+BLOCK, ROWS = 0.1, 10**5
+"""length [s] and rows of a block, at most, if none is given"""
 ROUNDING = 1e-12
 """of a number of steps, relative: a march of whole periods has no step more"""
 
@@ -28,7 +30,7 @@ def integrate(
     options: MarchOptions,
     *,
     start: Start | Checkpoint | None = None,
-    block: float = 0.1,
+    block: float | None = None,
 ) -> Iterator[TimeHistory]:
     """Yield the response to a load history, block by block.
 
@@ -46,7 +48,7 @@ def integrate(
         Initial displacement and velocity; all at rest and without load if left out.
         From the checkpoint of a block of the same march, the rest of it is yielded.
     block
-        Length of a block [s].
+        Length of a block [s]; :data:`BLOCK`, or :data:`ROWS` if those are less.
 
     Raises
     ------
@@ -55,6 +57,8 @@ def integrate(
     IntegrationError
         If a step does not converge even when it is divided; what was yielded stays.
     """
+    if block is None:
+        block = min(BLOCK, ROWS * options.time_step * options.store_every)
     if not 0.0 < block < math.inf:
         raise ValueError(f"block of {block:g} s: give a positive finite length")
     if beyond_motion(problem.interface.points):

@@ -8,6 +8,7 @@ import re
 import shlex
 import sys
 import warnings
+from collections.abc import Sequence
 from decimal import Decimal
 from typing import NoReturn
 
@@ -58,8 +59,6 @@ def main(arguments: list[str] | None = None) -> int:
     options, unknown = _parser().parse_known_args(words)
     if unknown:
         reason = f"{words[0]}: no such argument: {unknown[0]}"
-        if not unknown[0].startswith("-"):
-            reason += ", or not here: give the options after it"
         return _failed(f"{reason}: see microslip {words[0]} --help", 2)
     options.command = shlex.join(["microslip", *words])
     try:
@@ -113,6 +112,24 @@ class _Parser(argparse.ArgumentParser):
         self.exit(_failed(f"{where}{message}: see {self.prog} --help", 2))
 
 
+class _Command(_Parser):
+    """Take options before, between and behind what has no name."""
+
+    _mixed = False
+    """whether options are already told from the rest, which calls this again"""
+
+    def parse_known_args(  # type: ignore[override]
+        self,
+        args: Sequence[str] | None = None,
+        namespace: argparse.Namespace | None = None,
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Return what is known of the arguments, and the others."""
+        if self._mixed:
+            return super().parse_known_args(args, namespace)
+        self._mixed = True
+        return self.parse_known_intermixed_args(args, namespace)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="microslip",
@@ -122,7 +139,9 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="show the version")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    commands = parser.add_subparsers(
+        required=True, metavar="COMMAND", parser_class=_Command
+    )
     for command in (
         frc,
         sweep,

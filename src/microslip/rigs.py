@@ -35,6 +35,18 @@ def problem_of(scene: Scene) -> Problem:
     return problem(scene.rig)
 
 
+def solvable(scene: Scene) -> Problem:
+    """Return the problem of a scene that has a table [curve], too.
+
+    Raises
+    ------
+    SceneError
+        If it has none, or no problem: to be told before the work begins.
+    """
+    _ = scene.curve
+    return problem_of(scene)
+
+
 def sector_of(scene: Scene) -> CyclicProblem | None:
     """Return the sector that stands for a disk; None if the scene is no such thing."""
     if not isinstance(scene.rig, BladedDisk) or scene.rig.solve != "sector":

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from microslip.cli import main
+from microslip.cli import _parser, main
 from microslip.commands import arguments
 
 
@@ -88,6 +88,38 @@ def test_keys_that_a_scene_does_not_take_are_told(
 ) -> None:
     assert main(list(words)) == 2
     assert capsys.readouterr().err == f"microslip: {told}\n"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "poles duffing --set curve.highest=6 element.cubic.cubic 1 2",
+        "poles duffing element.cubic.cubic --set curve.highest=6 1 2",
+        "poles --set curve.highest=6 duffing element.cubic.cubic 1 2",
+        "poles duffing element.cubic.cubic 1 2 --set curve.highest=6",
+    ],
+)
+def test_options_stand_anywhere_between_what_has_no_name(words: str) -> None:
+    options, unknown = _parser().parse_known_args(words.split())
+
+    assert unknown == []
+    assert (options.scene, options.key) == ("duffing", "element.cubic.cubic")
+    assert options.values == ["1", "2"]
+    assert options.overrides == ["curve.highest=6"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["track bladed-disk drive.amplitude 1 2", "poles bladed-disk friction.limit 1"],
+)
+def test_what_cannot_be_solved_is_refused_before_a_head_is_printed(
+    words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(words.split()) == 2
+
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.startswith('microslip: solve = "sector": frc alone')
 
 
 def test_quantities_may_have_a_unit() -> None:

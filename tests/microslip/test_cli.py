@@ -91,7 +91,7 @@ def test_version_is_that_of_the_package(run: Run) -> None:
         (("frc",), "scene"),
         (("frc", "two-blades", "--harmonics", "8"), "--harmonics"),
         (("frc", "two-blades", "--set"), "--set"),
-        (("verify", "two-blades", "--frequencies", "0"), "give at least 1"),
+        (("verify", "two-blades", "--frequencies", "0"), "give a whole number from 1"),
         (("verify", "two-blades", "--periods", "1.5"), "--periods"),
         (("verify", "two-blades", "--tolerance", "small"), "--tolerance"),
         (("sweep", "duffing", "--tolerance", "1e-30"), "between 1e-14 and 1"),

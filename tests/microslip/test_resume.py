@@ -27,7 +27,7 @@ def stopped(blocks: int) -> Callable[..., object]:
     """Return an integrator that is interrupted after blocks of 7 ms."""
 
     def marched(*arguments: object, **named: object) -> Iterator[TimeHistory]:
-        march = integrate(*arguments, **{**named, "block": 7e-3})  # type: ignore[arg-type]
+        march = integrate(*arguments, **named, block=7e-3)  # type: ignore[arg-type]
         yield from itertools.islice(march, blocks)
         raise KeyboardInterrupt
 

@@ -65,6 +65,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
+    from microslip.rigs import solvable
     from microslip.studies.pole_question import Question
     from microslip.studies.poles import linearised
 
@@ -73,7 +74,7 @@ def _run(options: argparse.Namespace) -> int:
     question = Question(options.scene, tuple(options.overrides), options.key, frequency)
     values = options.values or question.usual_values()
     for value in values:
-        question.at(value)
+        solvable(question.at(value))
     found: list[Linearised] = []
     print(HEADER)
     ending = "complete"

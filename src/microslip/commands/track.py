@@ -43,12 +43,16 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
+    from microslip.rigs import solvable
     from microslip.scene_file import load_scene
     from microslip.studies.track import tracked
 
     data, picture = arguments.outputs(options, "track")
     for value in options.values:
-        load_scene(options.scene, [*options.overrides, f"{options.key}={value}"])
+        loaded = load_scene(
+            options.scene, [*options.overrides, f"{options.key}={value}"]
+        )
+        solvable(loaded)
     found: list[Tracked] = []
     print(HEADER)
     ending = "complete"

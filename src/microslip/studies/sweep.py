@@ -17,8 +17,6 @@ from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
 
-BLOCK, HELD = 0.1, 10**5
-"""length of what is written at once [s], and the most rows of it"""
 REMEDY = (
     "give a longer march.time_step, a larger march.store_every, a shorter sweep or "
     "force, or a lower sweep.highest"
@@ -50,15 +48,14 @@ def marched(
     estimate = estimate and not envelope
     options = MarchOptions(march.time_step, stride, tolerance, estimate=estimate)
     demand_end(loads, options, REMEDY, stored=not envelope)
-    block = min(BLOCK, HELD * march.time_step * stride)
     segments, begun = loads.segments(), None
     if envelope:
         if end is not None:
             end, begun = parted(end)
-        blocks = integrate(problem, loads, options, start=end, block=block)
+        blocks = integrate(problem, loads, options, start=end)
         yield from enveloped(blocks, segments, begun)
         return
-    for rows in integrate(problem, loads, options, start=end, block=block):
+    for rows in integrate(problem, loads, options, start=end):
         sine = clock(segments, rows.time)
         yield replace(rows, frequency=sine[:, 0], level=sine[:, 1])
 

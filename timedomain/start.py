@@ -17,6 +17,7 @@ from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.segments import factors_over
+from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint
 from timedomain.newmark import State
 from timedomain.record import FLOWS, Meters, accumulate
@@ -41,6 +42,24 @@ def at_rest(problem: Problem) -> Start:
     """Return the unloaded structure at rest."""
     still = np.zeros(problem.structure.dofs)
     return Start(still, still)
+
+
+def loaded(problem: Problem, history: LoadHistory) -> Start:
+    """Return rest under what loads a structure when a march begins, but its drive.
+
+    These are what is there of the preload, and contacts under a force of their own.
+    Where they balance at zero displacement, on a hilltop too, that is the place.
+
+    Raises
+    ------
+    StaticError
+        If the preload has no static equilibrium.
+    """
+    grown = float(history.segments().preload[0, 0])
+    there, begin = replace(problem, preload=grown * problem.preload), at_rest(problem)
+    if not first_state(there, Dwell(1.0, 1.0), begin).acceleration.any():
+        return begin
+    return Start(static_equilibrium(there).displacement, begin.velocity)
 
 
 def force_scale(problem: Problem, start: Start) -> float:

@@ -16,6 +16,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
+from timedomain.start import loaded
 
 REMEDY = (
     "give a longer march.time_step, a larger march.store_every, a shorter sweep or "
@@ -35,9 +36,10 @@ def marched(
 ) -> Iterator[TimeHistory | Envelope]:
     """Yield the march of a scene block by block, as rows or as their envelope.
 
-    ``end`` is where a stopped march of the same scene and kind goes on. Steps are those
-    of the scene, or follow from a ``tolerance``. Rows of equal steps have estimated
-    errors unless ``estimate`` is False, which saves a third of the time.
+    It begins at rest; ``end`` is where a stopped march of the same scene and kind goes
+    on. Steps are those of the scene, or follow from a ``tolerance``. Rows of equal
+    steps have estimated errors unless ``estimate`` is False, which saves a third of the
+    time.
 
     Raises
     ------
@@ -49,13 +51,14 @@ def marched(
     options = MarchOptions(march.time_step, stride, tolerance, estimate=estimate)
     demand_end(loads, options, REMEDY, stored=not envelope)
     segments, begun = loads.segments(), None
+    if envelope and end is not None:
+        end, begun = parted(end)
+    start = loaded(problem, loads) if end is None else end
     if envelope:
-        if end is not None:
-            end, begun = parted(end)
-        blocks = integrate(problem, loads, options, start=end)
+        blocks = integrate(problem, loads, options, start=start)
         yield from enveloped(blocks, segments, begun)
         return
-    for rows in integrate(problem, loads, options, start=end):
+    for rows in integrate(problem, loads, options, start=start):
         sine = clock(segments, rows.time)
         yield replace(rows, frequency=sine[:, 0], level=sine[:, 1])
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import contact_energy, contact_force
 from microslip_mechanics.contact.memory import friction_load, remembers
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
@@ -114,27 +115,7 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
     """Return the state whose acceleration balances all forces at time zero."""
     structure, interface = problem.structure, problem.interface
     basis, _ = interface.relative_motion()
-    moved = (interface.displacement @ start.displacement).reshape(-1, 3)
-    moving = (interface.displacement @ start.velocity).reshape(-1, 3)
-    forces, unused = np.zeros_like(moved), np.zeros((2, 3, 3))
-    past = np.zeros((interface.count, 4, 2))
-    past[:, 0], past[:, 2] = moved[:, 1:], moving[:, 1:]
-    for point in range(interface.count):
-        past[point, 3, 0], _, _ = friction_load(
-            interface.points, point, moved[point, 0], moving[point, 0]
-        )
-        contact_force(
-            interface.points,
-            point,
-            moved[point],
-            moving[point],
-            forces[point],
-            unused[0],
-            unused[1],
-        )
-    if start.traction is not None:
-        past[:, 1] = start.traction
-        forces[:, 1:] += start.traction
+    moved, moving, forces, past = _contacts(interface, start)
     loads = problem.loads
     factors = factors_over(history.segments(), np.zeros(1), len(loads))[0]
     unbalanced = (
@@ -154,6 +135,30 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
         past,
         past.copy(),
     )
+
+
+def _contacts(interface: Interface, start: Start) -> tuple[Array, Array, Array, Array]:
+    """Return displacement, velocity, force and past of the contact points.
+
+    Of shape ``(points, 3)`` each, the past ``(points, 4, 2)`` as
+    :func:`~microslip_mechanics.contact.memory.add_traction` wants it.
+    """
+    moved = (interface.displacement @ start.displacement).reshape(-1, 3)
+    moving = (interface.displacement @ start.velocity).reshape(-1, 3)
+    forces, unused = np.zeros_like(moved), np.zeros((2, 3, 3))
+    past = np.zeros((interface.count, 4, 2))
+    past[:, 0], past[:, 2] = moved[:, 1:], moving[:, 1:]
+    for point in range(interface.count):
+        past[point, 3, 0], _, _ = friction_load(
+            interface.points, point, moved[point, 0], moving[point, 0]
+        )
+        contact_force(
+            interface.points, point, moved[point], moving[point], forces[point], *unused
+        )
+    if start.traction is not None:
+        past[:, 1] = start.traction
+        forces[:, 1:] += start.traction
+    return moved, moving, forces, past
 
 
 def checkpoint(

@@ -2,6 +2,7 @@
 
 import dataclasses
 import itertools
+import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TypeAlias
@@ -100,6 +101,28 @@ def test_what_a_kill_left_half_written_is_marched_again(
     assert isinstance(before, TimeHistory)
     check_equal(load(path).result, before)
     assert run("plot", "parts.nc")[0] == 0
+    assert run(*words, "--resume", "parts.nc")[0] == 0
+    check_equal(load(path).result, load(tmp_path / "whole.nc").result)
+
+
+def test_a_kill_between_the_state_and_the_number_of_its_rows_loses_no_row(
+    run: Run, quick_scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ("sweep", str(quick_scene), *LONG)
+    run(*words, "-o", "whole")
+    with monkeypatch.context() as stop:
+        stop.setattr(MARCH, stopped(3))
+        run(*words, "-o", "parts")
+    path = tmp_path / "parts.nc"
+    content = bytearray(path.read_bytes())
+    # a netCDF file begins with CDF, its version, and the number of its records
+    (records,) = struct.unpack_from(">i", content, 4)
+    struct.pack_into(">i", content, 4, records - 10)
+    path.write_bytes(content)
+
+    before = load(path).result
+    assert isinstance(before, TimeHistory)
+    assert before.time.size == records - 10
     assert run(*words, "--resume", "parts.nc")[0] == 0
     check_equal(load(path).result, load(tmp_path / "whole.nc").result)
 

@@ -1,5 +1,7 @@
 """The force of a contact point: values, exact tangents, powers, energy."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -27,6 +29,8 @@ from microslip_mechanics.contact.law import (
     ELASTIC,
     FRICTIONLESS,
     GENERAL_KINETIC,
+    ONE_SIDED,
+    TWO_SIDED,
     ContactPoints,
     contact_energy,
     contact_force,
@@ -103,6 +107,34 @@ def test_pattern_holds_each_tangent_that_is_ever_written_and_no_other(
 
     seen = np.zeros((2, count, 3, 3), dtype=bool)
     for region in 8 * REGIONS:
+        _, *tangents = written(points, region(points, random))
+        seen |= np.array(tangents) != 0.0
+    np.testing.assert_array_equal(seen, np.swapaxes(np.array(patterns), 0, 1))
+
+
+@pytest.mark.parametrize("friction", [FRICTIONLESS, ELASTIC, BRISTLE])
+def test_pattern_leaves_out_springs_dampers_and_drag_that_are_none(
+    friction: int,
+) -> None:
+    rows = list(
+        itertools.product((ONE_SIDED, TWO_SIDED), (0.0, 3.0), (0.0, 0.8), (0.0, 0.04))
+    )
+    normal, stiffness, damping, viscous = zip(*rows, strict=True)
+    points = contact_points(
+        len(rows),
+        friction=friction,
+        normal=normal,
+        stiffness=stiffness,
+        damping=damping,
+        viscous=viscous,
+        constant_load=True,
+    )
+    random = np.random.default_rng(12)
+
+    patterns = [tangent_pattern(points, point) for point in range(len(rows))]
+
+    seen = np.zeros((2, len(rows), 3, 3), dtype=bool)
+    for region in 8 * [sticking, slipping, separated]:
         _, *tangents = written(points, region(points, random))
         seen |= np.array(tangents) != 0.0
     np.testing.assert_array_equal(seen, np.swapaxes(np.array(patterns), 0, 1))

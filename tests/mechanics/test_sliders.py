@@ -51,5 +51,26 @@ def test_a_point_that_touches_sooner_sticks_sooner() -> None:
     )
 
 
+def test_either_end_of_a_step_moves_the_touch_by_its_share() -> None:
+    # A step from 0.1 m above the surface to 0.4 m below it touches at a fifth of it;
+    # 1 m deeper it touches 1/ḋ sooner, where it is ẇ/ḋ less far: T = k_t (w − w_touch).
+    # The depth there is that before the step by four fifths, that after it by one.
+    moved, moving = np.zeros((2, 2, 1, 3))
+    moved[:, 0, 0], moved[:, 0, 1] = [0.3 - 0.1, 0.3 + 0.4], [0.0, 0.25]
+    moving[:, 0, 0], moving[:, 0, 1] = [1.0, 2.0], [0.4, 0.1]
+    sliders = Sliders.of(contact_table([SHOE]), EVERY)
+
+    known, unknown = (
+        sliders.slides(moved, moving, np.zeros(2), 1.0, continuous=each)
+        for each in (True, False)
+    )
+
+    stiffer = 8.0 * (0.8 * 0.4 + 0.2 * 0.1) / (0.8 * 1.0 + 0.2 * 2.0)
+    by_depth_after = (known.motion - unknown.motion)[1, 0, 0]
+    by_depth_before = -(known.past - unknown.past)[1, 0, 0]
+    assert by_depth_after == pytest.approx(0.2 * stiffer)
+    assert by_depth_before == pytest.approx(0.8 * stiffer)
+
+
 def test_steps_that_touch_jump_and_know_nothing_of_it() -> None:
     assert by_depth(touched(0.0, continuous=False)) == pytest.approx(np.zeros(2))

@@ -85,16 +85,27 @@ def test_the_most_harmonics_are_not_exceeded_and_the_error_says_so() -> None:
     assert error > 1e-6
 
 
-def test_fixed_harmonics_stay_and_have_the_error_before_the_correction() -> None:
-    start = FourierBasis(5, 96)
+@pytest.mark.parametrize(("harmonics", "samples"), [(3, 64), (5, 96), (9, 128)])
+def test_fixed_harmonics_stay_and_have_the_error_before_the_correction(
+    harmonics: int, samples: int
+) -> None:
+    start, finest = FourierBasis(harmonics, samples), FourierBasis(127, 4096)
     system, guess = adaptive(block(), tolerance=None, start=start)
+    reference, finer = adaptive(block(), tolerance=None, start=finest)
 
     found = correct_at(system, guess, CONTROL, system)
+    exact = correct_at(reference, finer, CONTROL, reference)
 
     point, fourier, error = system.kept(found.point)
-    assert system.estimate is not None
-    assert (fourier, error) == (start, system.estimate.before)
+    assert fourier == start
     np.testing.assert_array_equal(point, found.point)
+    (known,), (size,) = resolution_of(block()).amplitudes([point, exact.point])
+    true = abs(known / size - 1.0)
+    # a bound, and no idle one: measured 6.3, 6.2 and 1.6 times as large
+    assert true <= error <= 10.0 * true
+    # nothing is corrected: the error is larger than with a tolerance
+    assert system.estimate is not None
+    assert error > system.estimate.error
 
 
 def test_a_settled_point_solves_the_system_of_its_resolution() -> None:

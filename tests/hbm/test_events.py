@@ -111,8 +111,11 @@ def amplitudes(points: Sequence[Array]) -> Array:
     return np.abs([point[:1] for point in points])
 
 
-def found(known: Known, line: Line) -> list[tuple[str, float]]:
-    """Return the events between the places 0 and 1, and where they are."""
+def found(known: Known, line: Line, *, owes: bool = False) -> list[tuple[str, float]]:
+    """Return the events between the places 0 and 1, and where they are.
+
+    ``owes`` says that no multiplier has crossed for a fold before 0.
+    """
     known.component = line.component
     system: Any = line
     resolution: Any = SimpleNamespace(amplitudes=amplitudes)
@@ -137,7 +140,9 @@ def found(known: Known, line: Line) -> list[tuple[str, float]]:
             (0.0,),
             along / np.linalg.norm(along),
         )
-        settled = Settled(solved, known.at(point), FOURIER, False, solved, FOURIER)
+        settled = Settled(
+            solved, known.at(point), FOURIER, False, solved, FOURIER, owes=owes
+        )
         ends.append(events.directed(settled, np.ones_like))
     between = events.between(ends[0], ends[1], np.ones_like)
     return [(name, located.point[line.component]) for located, name, _ in between]
@@ -203,6 +208,25 @@ def test_a_crossing_is_named_by_what_the_multiplier_is_there(
 @pytest.mark.parametrize("start", [2.0, 0.0], ids=["moving", "from rest"])
 def test_nothing_happens_where_multipliers_stay_inside(start: float) -> None:
     assert found(Known(INSIDE, (1.5, 0.6)), Line(start)) == []
+
+
+@pytest.mark.parametrize(
+    ("owes", "places", "told"),
+    [
+        (False, (0.3,), [0.3]),
+        (True, (0.3,), []),
+        (False, (0.3, 0.8), [0.3, 0.8]),
+        (True, (0.3, 0.8), [0.8]),
+        (True, (), []),
+    ],
+)
+def test_a_crossing_that_a_fold_behind_owes_is_no_branch_point(
+    owes: bool, places: tuple[float, ...], told: list[float]
+) -> None:
+    events = found(Passing(*places, 5.0), Line(2.0), owes=owes)
+
+    assert [name for name, _ in events] == ["branch point"] * len(told)
+    assert [place for _, place in events] == pytest.approx(told, abs=2e-3)
 
 
 @pytest.mark.parametrize(

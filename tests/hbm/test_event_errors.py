@@ -1,16 +1,22 @@
 """Peaks and folds lie no farther from their true places than their errors say."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 
+from hbm.event_error import fold_error
+from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
+from hbm.segment import Segment, folds
 from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from systems import Dense
 
 MARKS = ("peak", "fold")
 SCENES = (
@@ -84,3 +90,74 @@ def test_other_points_have_no_such_error() -> None:
 
     for each in points:
         assert np.isfinite(each.parameter_error) == (each.event in MARKS)
+
+
+class Graph:
+    """The curve p = f(x) of points (x, p), each of which is as it is reported."""
+
+    fourier = None
+    aside = 1e-3
+    """error of the parameter by resolution"""
+
+    def __init__(
+        self, height: Callable[[float], float], slope: Callable[[float], float]
+    ) -> None:
+        self.height, self.slope = height, slope
+
+    def __call__(self, point: Array) -> tuple[Array, Dense]:
+        x, p = point
+        return np.array([p - self.height(x)]), Dense([[-self.slope(x), 1.0]])
+
+    def kept(self, point: Array) -> tuple[Array, None, float]:
+        """Return a point as it is reported."""
+        return point, None, 0.0
+
+    def at(self, x: float, *, turns: bool = False) -> Correction:
+        """Return a point of the curve with its tangent."""
+        along = np.array([1.0, self.slope(x)]) / np.hypot(1.0, self.slope(x))
+        point = np.array([x, self.height(x)])
+        residual, linearised = self(point)
+        return Correction(
+            point, residual, linearised, Outcome.CONVERGED, (0.0,), along, turns=turns
+        )
+
+    def segment(self, before: float, after: Correction) -> Segment:
+        """Return what lies between two points."""
+        system: Any = self
+        return Segment(system, self.at(before), after, np.ones(2), 1e-12)
+
+
+@pytest.mark.parametrize("away", [1e-2, 3e-3])
+def test_a_fold_that_is_not_yet_upright_may_be_as_far_aside_as_the_curve_goes_on(
+    away: float,
+) -> None:
+    graph = Graph(lambda x: 1.0 - x**2, lambda x: -2.0 * x)
+    segment = graph.segment(-0.1, graph.at(0.1))
+    bend = abs(folds(segment.after) - folds(segment.before)) / segment.length
+    system: Any = graph
+
+    error = fold_error(system, segment, graph.at(away), bend)
+
+    # the fold lies at p = 1, the point at 1 − away²: twice as much is told
+    assert error is not None
+    assert error - graph.aside == pytest.approx(2.0 * away**2, rel=0.05)
+
+
+@pytest.mark.parametrize("away", [0.1, 0.01])
+def test_a_fold_at_a_corner_may_be_as_far_aside_as_the_corner(away: float) -> None:
+    graph = Graph(lambda x: 1.0 - abs(x), lambda x: -np.sign(x))
+    segment = graph.segment(-away, graph.at(0.3 * away, turns=True))
+    system: Any = graph
+
+    error = fold_error(system, segment, segment.before, 1.0)
+
+    # the corner lies at p = 1, the point in front of it at 1 − away
+    assert error == pytest.approx(graph.aside + away)
+
+
+def test_what_goes_on_upwards_is_no_fold() -> None:
+    graph = Graph(lambda x: x + 0.1 * x**2, lambda x: 1.0 + 0.2 * x)
+    segment = graph.segment(-0.1, graph.at(0.1))
+    system: Any = graph
+
+    assert fold_error(system, segment, graph.at(0.0), 1.0) is None

@@ -13,8 +13,8 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.figures.jumps import JumpLine, jumps_figure
 from microslip.studies.curve import Traced
-from microslip.studies.jump_folds import folds_of
-from microslip.studies.jumps import LEAST, Jump
+from microslip.studies.jump_folds import Fold, folds_of
+from microslip.studies.jumps import LEAST, Jump, Sweep
 from microslip.studies.verify import StudyError
 from microslip_mechanics.response import ResponseCurve, response_curve
 from microslip_mechanics.static import static_equilibrium
@@ -215,3 +215,34 @@ def test_the_picture_shows_curve_envelopes_and_delays(
     dots = np.asarray(right.lines[0].get_xydata())
     np.testing.assert_allclose(dots, np.stack([RATES ** (2 / 3), late], axis=1))
     assert right.get_ylabel().endswith("[Hz]")
+
+
+@pytest.mark.parametrize("stops", [KeyboardInterrupt(), StudyError("no jump")])
+def test_sweeps_before_one_fails_are_kept(
+    stops: BaseException,
+    traced: Traced,
+    run: Run,
+    quick_scene: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hertz = np.linspace(0.2, 0.3, 5)
+
+    def swept(_: object, fold: Fold, rate: float, *__: object) -> Sweep:
+        if rate < 2.0:
+            raise stops
+        return fold.hertz + rate, (hertz, 1e-3 * hertz)
+
+    folds = folds_of(cubic_oscillator(drive=0.3, damping=0.1), traced, lead=0.1)
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
+    monkeypatch.setattr("microslip.studies.jump_folds.folds_of", lambda *_, **__: folds)
+    monkeypatch.setattr("microslip.studies.jumps._swept", swept)
+
+    rates = ("--rates", *(f"{rate:g}" for rate in RATES))
+    ended, output, error = run("jumps", str(quick_scene), *rates)
+
+    assert ended == (130 if isinstance(stops, KeyboardInterrupt) else 1)
+    assert error.endswith("; what was computed is kept\n")
+    rows = re.findall(r"(up|down) +(\S+) +\S+ +\S+\n", output)
+    assert [float(row[1]) for row in rows] == [8.0, 4.0, 2.0]
+    assert "agree" not in output.lower()
+    assert (quick_scene.parent / "quick-jumps.png").is_file()

@@ -114,6 +114,8 @@ def _lines(jump: Jump) -> str:
         f"{fold:9.4f}  {way:5s} {rate:8.3g} {place:8.4f} {_late(jump, place):16.2e}"
         for rate, place in zip(jump.rates, jump.frequency, strict=True)
     ]
+    if not jump.whole:
+        return "\n".join(rows)
     word = "agree" if _agrees(jump) else "DISAGREE"
     rows.append(
         f"{fold:9.4f}  {way:5s}        0 {jump.extrapolated:8.4f} "

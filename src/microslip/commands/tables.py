@@ -61,31 +61,25 @@ def _run(options: argparse.Namespace) -> int:
     table = arguments.table(options)
     variants = (*PAPER, *SENSITIVITIES)
     found: list[Row] = []
+    print(HEADER, flush=True)
     try:
-        for _ in collected(
+        for row in collected(
             rows("two-blades", variants, halve=not options.quick),
             found,
             total=len(variants),
             unit="sweeps",
             name="tables",
         ):
-            pass
+            print(_line(row), flush=True)
+            if table is not None:
+                _write(table, found)
     except KeyboardInterrupt:
-        return arguments.ended("interrupted")
+        return arguments.ended("interrupted", kept=bool(found and table))
     finally:
-        _print(found)
-        if table is not None:
-            _write(table, found)
+        if found:
+            print(_jamming(found[0]))
+            print(NOTES)
     return 0
-
-
-def _print(found: list[Row]) -> None:
-    print(HEADER)
-    for row in found:
-        print(_line(row))
-    if found:
-        print(_jamming(found[0]))
-    print(NOTES)
 
 
 def _line(row: Row) -> str:

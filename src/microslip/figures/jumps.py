@@ -36,7 +36,7 @@ class JumpLine:
     late: Array
     """how far behind the fold each sweep jumps [Hz], shape (rates,)"""
     extrapolated: float
-    """the same of an infinitely slow one [Hz]"""
+    """the same of an infinitely slow one [Hz]; NaN if it is not known"""
     error: float
     """its error [Hz]"""
     envelopes: Sequence[tuple[Array, Array]]

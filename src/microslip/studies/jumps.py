@@ -8,15 +8,19 @@ near a saddle-node x' = r t + x² escapes where the first zero of Airy's functio
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
+from microslip.interruption import unmasked
 from microslip.studies.jump_folds import Fold
 from microslip.studies.march_size import demand_end
 from microslip.studies.verify import StudyError, envelope_of
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import joined
@@ -32,6 +36,9 @@ STEPS, ROWS = 200, 20
 BLOCK = 200
 """periods after which one looks whether the motion has jumped"""
 
+Sweep: TypeAlias = tuple[float, tuple[Array, Array]]
+"""where it jumps [Hz], and its envelope by frequency [Hz]"""
+
 
 @dataclass(frozen=True, slots=True)
 class Jump:
@@ -43,11 +50,16 @@ class Jump:
     frequency: Array
     """at which the envelope has fallen or risen half way [Hz], shape (rates,)"""
     extrapolated: float
-    """to no rate [Hz]"""
+    """to no rate [Hz]; NaN while there are too few rates"""
     error: float
     """of that, see :func:`extrapolated` [Hz]"""
     envelopes: tuple[tuple[Array, Array], ...]
     """frequency [Hz] and largest deflection [m] of each cycle, for each rate"""
+
+    @property
+    def whole(self) -> bool:
+        """Whether enough sweeps were made to extrapolate."""
+        return not math.isnan(self.extrapolated)
 
 
 def jumps(
@@ -57,7 +69,7 @@ def jumps(
     *,
     steps: int = STEPS,
 ) -> Iterator[Jump]:
-    """Yield the jump at each fold.
+    """Yield the jump at each fold; of one that is not swept to its end what there is.
 
     Parameters
     ----------
@@ -72,17 +84,35 @@ def jumps(
     Raises
     ------
     StudyError
-        If a sweep does not jump before its end.
+        If a sweep does not jump before its end: after what there is of its fold.
+    KeyboardInterrupt
+        After what there is of the fold whose sweeps are interrupted.
     """
     if rates is not None and len(set(rates)) < LEAST:
         raise StudyError(f"{len(set(rates))} rates: give at least {LEAST} different")
     for fold in folds:
         chosen = [fold.hertz**2 * each for each in RATES] if rates is None else rates
         ordered = np.array(sorted(set(chosen), reverse=True))
-        swept = [_swept(problem, fold, rate, steps) for rate in ordered]
-        places = np.array([place for place, _ in swept])
-        envelopes = tuple(envelope for _, envelope in swept)
-        yield Jump(fold, ordered, places, *extrapolated(ordered, places), envelopes)
+        swept: list[Sweep] = []
+        try:
+            with unmasked():
+                for rate in ordered:
+                    swept.append(_swept(problem, fold, rate, steps))  # noqa: PERF401  (what is there must be kept)
+        except (KeyboardInterrupt, MicroslipError):
+            if swept:
+                yield _jump(fold, ordered[: len(swept)], swept)
+            raise
+        yield _jump(fold, ordered, swept)
+
+
+def _jump(fold: Fold, rates: Array, swept: Sequence[Sweep]) -> Jump:
+    """Return what sweeps of these rates tell; too few tell of none slower."""
+    places = np.array([place for place, _ in swept])
+    envelopes = tuple(envelope for _, envelope in swept)
+    slow = (math.nan, math.nan)
+    if len(rates) >= LEAST:
+        slow = extrapolated(rates, places)
+    return Jump(fold, rates, places, *slow, envelopes)
 
 
 def extrapolated(rates: Array, frequency: Array) -> tuple[float, float]:
@@ -109,9 +139,7 @@ def _fitted(rates: Array, frequency: Array) -> tuple[float, float]:
     return float(found[0]), float(np.sqrt(variance * spread))
 
 
-def _swept(
-    problem: Problem, fold: Fold, rate: float, steps: int
-) -> tuple[float, tuple[Array, Array]]:
+def _swept(problem: Problem, fold: Fold, rate: float, steps: int) -> Sweep:
     """Sweep through a fold until the motion has jumped.
 
     Return where [Hz], and the envelope by frequency [Hz].

@@ -99,3 +99,20 @@ def test_values_that_are_no_numbers_have_their_names_and_no_line() -> None:
         ticks = [label.get_text() for label in axes.get_xticklabels()]
         assert ticks == ["coulomb", "gkf"]
         assert axes.lines[0].get_linewidth() == 0.0
+
+
+@pytest.mark.parametrize(
+    "values",
+    [[0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 4.0], [0.1, 0.11, 0.12, 0.2, 1.0, 5.0]],
+)
+def test_no_tick_of_a_parameter_is_without_its_label(values: list[float]) -> None:
+    peaks = [(value, 130.0, 1e-3) for value in values]
+
+    figure = track_figure(peaks, [], "preload.force", "title")
+
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        labels = [label.get_text() for label in axes.get_xticklabels()]
+        assert len(labels) >= 2
+        assert all(labels)
+        assert not axes.get_xticks(minor=True).size

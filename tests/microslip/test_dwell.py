@@ -1,6 +1,7 @@
 """Dwells: the steady state of closed forms and of harmonic balance, limits, texts."""
 
 import dataclasses
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
@@ -156,3 +157,20 @@ def test_a_dwell_of_one_probe_has_no_empty_panel(small_history: TimeHistory) -> 
     check_labels(figure)
     assert len(figure.axes) == 5
     assert all(axes.lines for axes in figure.axes)
+
+
+def test_a_dwell_of_few_periods_counts_them_and_says_what_is_unknown(
+    small_history: TimeHistory,
+) -> None:
+    figure = dwell_figure(small_history, [math.inf] * 3, 1e-3, "few")
+
+    figure.draw_without_rendering()
+    (distance,) = [
+        axes
+        for axes in figure.axes
+        if axes.get_title(loc="left").startswith("Distance")
+    ]
+    assert [int(tick) for tick in distance.get_xticks()] == list(distance.get_xticks())
+    assert [text.get_text() for text in distance.texts] == [
+        "not known after so few periods"
+    ]

@@ -9,6 +9,8 @@ from matplotlib.axes import Axes
 from figure_checks import check_labels, check_lines, legend
 from microslip.figures import curve as curves
 from microslip.figures import sweep as sweeps
+from microslip.figures.passes import Pass, amplitude
+from microslip.figures.style import alike
 from microslip_mechanics.response import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
@@ -160,3 +162,56 @@ def test_without_normal_forces_there_is_no_panel_of_them(
 
     assert any("Normal" in each.get_title(loc="left") for each in pressed.axes)
     assert not any("Normal" in each.get_title(loc="left") for each in free.axes)
+
+
+def test_curves_that_hide_one_another_are_one_with_both_names(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    forces = small_history.normal_force.copy()
+    forces[:, 1] = forces[:, 0]
+    history = dataclasses.replace(small_history, normal_force=forces)
+
+    sweeps.normal_force(axes, history, "B", [0, 1])
+
+    check_lines(axes.lines, history.time, [forces[:, 0]])
+    assert legend(axes) == ["B1, B2"]
+
+
+def test_an_input_that_friction_takes_all_of_is_seen_beneath_it(
+    axes: Axes, small_history: TimeHistory
+) -> None:
+    sweeps.energies(axes, small_history)
+
+    first, *others = axes.lines
+    assert all(first.get_linewidth() >= 2.0 * each.get_linewidth() for each in others)
+    assert first.get_zorder() <= min(each.get_zorder() for each in others)
+
+
+@pytest.mark.parametrize("levels", [[1.0, 2.0], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]])
+def test_legend_of_levels_lies_above_their_lines(
+    axes: Axes, levels: list[float]
+) -> None:
+    hertz = np.linspace(4.0, 7.0, 9)
+    ways = [
+        Pass(level, rises, hertz, np.full((9, 1), 1e-3 * level))
+        for level in levels
+        for rises in (True, False)
+    ]
+
+    amplitude(axes, ways, 0, "x")
+
+    axes.figure.draw_without_rendering()  # type: ignore[union-attr]
+    shown = axes.get_legend()
+    assert shown is not None
+    box = axes.transData.inverted().transform(shown.get_window_extent())
+    assert box[0, 1] > max(levels)
+    assert axes.get_ylim()[0] == 0.0
+
+
+def test_dense_curves_hide_one_another_where_their_ranges_are_alike() -> None:
+    time = np.linspace(0.0, 1.0, 40_000)
+    wave = np.sin(2.0 * np.pi * 2000.0 * time)
+    columns = np.stack([wave, -wave, 0.9 * wave], axis=1)
+
+    assert alike(columns, [0, 1, 2]) == [[0, 1], [2]]
+    assert alike(columns[:1000], [0, 1, 2]) == [[0], [1], [2]]

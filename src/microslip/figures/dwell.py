@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.style import (
     COLOURS,
@@ -93,6 +94,13 @@ def _distance(axes: Axes, distances: Sequence[float], tolerance: float) -> None:
     axes.plot(np.flatnonzero(known) + 1, values[known], color=COLOURS[0], lw=WIDTH)
     axes.axhline(tolerance, color="0.15", linewidth=WIDTH, linestyle="--")
     axes.set_yscale("log")
+    axes.set_xlim(0.0, max(1, len(distances)))
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
+    if not known.any():
+        axes.text(
+            0.5, 0.5, "not known after so few periods", ha="center", color="0.3",
+            transform=axes.transAxes,
+        )  # fmt: skip
     title = "Distance from the steady state (dashed: tolerance)"
     framed(axes, x="period [-]", y="relative distance [-]", title=title)
 

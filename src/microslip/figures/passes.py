@@ -8,7 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, readable
+from microslip.figures.style import (
+    COLOURS,
+    STYLES,
+    WIDTH,
+    framed,
+    legend_above,
+    readable,
+)
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import TimeHistory
@@ -67,7 +74,7 @@ def amplitude(axes: Axes, ways: list[Pass], place: int, probe: str) -> None:
     framed(axes, x="frequency [Hz]", y="amplitude [mm]", title=title)
     axes.set_ylim(bottom=0.0)
     if 1 < len(named) <= MOST:
-        axes.legend(frameon=False, fontsize="small")
+        legend_above(axes)
 
 
 def _cycles(history: TimeHistory) -> tuple[Array, Array, Array]:

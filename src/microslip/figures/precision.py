@@ -35,6 +35,11 @@ TITLES = {
     "energy": "Energy per period",
     "distance": "Distance of orbits",
 }
+EXPLAINED = (
+    "A mark is one motion found with one setting; the lines join the best of each "
+    "method, whose error falls like time to the power of the slope.\n"
+    "Down and to the left is better. Within the grey the reference itself is not known."
+)
 LOWEST = 1e-12
 """error below which nothing is drawn"""
 
@@ -92,7 +97,7 @@ def precision_figure(
     handles, names = panels[0].get_legend_handles_labels()
     figure.legend(
         handles, names, loc="outside lower center", ncols=4, frameon=False,
-        fontsize="small",
+        fontsize="small", title=EXPLAINED, title_fontsize="small",
     )  # fmt: skip
     headline(figure, title)
     return figure

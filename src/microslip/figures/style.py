@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Sequence
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
@@ -21,6 +22,10 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Okabe and Ito's palette: told apart by colour-blind readers too"""
 WIDTH = 0.9
 """of lines [pt]"""
+HIDDEN = 1e-2
+"""of the largest value, by which a curve must differ from another to be seen"""
+WIDTHS, CROWD = 200, 20
+"""of lines in an axis, about, and rows in one from which on its lines are an area"""
 STYLES = ("-", "--", ":", "-.")
 """lines that lie on one another stay apart"""
 
@@ -57,14 +62,49 @@ def plain_logarithmic(axis: Axis) -> None:
     axis.set_minor_locator(NullLocator())
 
 
+FEW = 4
+"""names of a legend up to which two columns are enough"""
+
+
 def legend_above(axes: Axes) -> None:
     """Put the legend, if there is any, above the lines in space made for it."""
-    lines = -(-len(axes.get_legend_handles_labels()[0]) // 2)
+    count = len(axes.get_legend_handles_labels()[0])
+    columns = 2 if count <= FEW else 3
+    lines = -(-count // columns)
     if not lines:
         return
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + (0.08 + 0.1 * lines) * (high - low))
-    axes.legend(frameon=False, loc="upper left", ncols=2, fontsize="small")
+    axes.legend(
+        frameon=False, loc="upper left", ncols=columns, fontsize="small",
+        handlelength=1.6, columnspacing=1.2,
+    )  # fmt: skip
+
+
+def alike(columns: Array, places: Sequence[int]) -> list[list[int]]:
+    """Return the places by columns that would be drawn on one another.
+
+    Those differ by less than a line's width: at each row or, where many rows share a
+    width, in what they reach from below and above. Shape (rows, columns).
+    """
+    if len(columns) > CROWD * WIDTHS:
+        begins = np.linspace(0, len(columns), WIDTHS, endpoint=False).astype(int)
+        reached = (
+            np.maximum.reduceat(columns, begins),
+            np.minimum.reduceat(columns, begins),
+        )
+        columns = np.concatenate(reached)
+    size = abs(columns[:, list(places)]).max(initial=0.0)
+    groups: list[list[int]] = []
+    for place in places:
+        for group in groups:
+            away = abs(columns[:, place] - columns[:, group[0]]).max(initial=0.0)
+            if away <= HIDDEN * size:
+                group.append(place)
+                break
+        else:
+            groups.append([place])
+    return groups
 
 
 def absolute(probes: Iterable[str]) -> list[int]:

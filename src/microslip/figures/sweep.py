@@ -12,6 +12,7 @@ from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
+    alike,
     faces,
     foremost,
     framed,
@@ -25,6 +26,8 @@ from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import TimeHistory
 
 TIME = "time [s]"
+BROAD = 3.0
+"""width of the input's line beside others"""
 ROUNDING = 1e-12
 """share of the largest energy below which another is nothing but rounding"""
 
@@ -105,14 +108,15 @@ def normal_force(
     axes: Axes, history: TimeHistory, face: str, places: list[int]
 ) -> None:
     """Draw the normal forces of the points of one face."""
-    for colour, place in zip(COLOURS, places, strict=False):
+    groups = alike(history.normal_force, places)
+    for colour, group in zip(COLOURS, groups, strict=False):
         axes.plot(
             history.time,
-            history.normal_force[:, place],
+            history.normal_force[:, group[0]],
             color=colour,
             linewidth=0.3,
             alpha=0.8,
-            label=history.contacts[place],
+            label=", ".join(history.contacts[place] for place in group),
             rasterized=True,
         )
     framed(axes, x=TIME, y="force [N]", title=f"Normal forces, face {face}")
@@ -128,7 +132,10 @@ def friction_power(axes: Axes, history: TimeHistory) -> None:
 
 
 def energies(axes: Axes, history: TimeHistory | Envelope) -> None:
-    """Draw the energies that flowed, and the closing error of their balance."""
+    """Draw the energies that flowed, and the closing error of their balance.
+
+    The input is a broad line, on which another that is as large can be seen.
+    """
     names = ("input", "friction", "normal_damping", "structural_damping")
     flows = {name: history.of(name) for name in names}
     least = ROUNDING * max(float(np.abs(flow).max()) for flow in flows.values())
@@ -139,7 +146,7 @@ def energies(axes: Axes, history: TimeHistory | Envelope) -> None:
             history.time,
             flow,
             color=colour,
-            linewidth=WIDTH * 1.5,
+            linewidth=WIDTH * (BROAD if name == "input" else 1.5),
             label=f"{name.replace('_', ' ')}: {flow[-1]:.4g} J",
         )
     closing = abs(history.closing_error).max()

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.curve import MARKERS
@@ -14,10 +16,11 @@ from microslip.figures.style import (
     framed,
     headline,
     literal,
+    plain_logarithmic,
 )
 
 MANY = 10
-"""values up to which each has its own tick"""
+"""values up to which each may have its own tick"""
 LETTER = 0.021
 """width of a letter of a tick's label, over the axis"""
 
@@ -65,9 +68,8 @@ def track_figure(
             axes.set_xscale("log")
         if names:
             axes.set_xticks(range(len(names)), [literal(name) for name in names])
-        elif len(values) <= MANY:
-            axes.set_xticks(list(values), _labels(values, axes.get_xscale() == "log"))
-            axes.set_xticks([], minor=True)
+        else:
+            _ticks(axes, values)
     right.ticklabel_format(axis="y", useOffset=False)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
     sizes = [1e3 * amplitude for *_, amplitude in peaks]
@@ -80,17 +82,24 @@ def track_figure(
     return figure
 
 
-def _labels(values: Sequence[float], logarithmic: bool) -> list[str]:
-    """Return the text of each tick, none for those too near to the one before."""
+def _ticks(axes: Axes, values: Sequence[float]) -> None:
+    """Set a tick at each value, or usual ones where their labels would not fit."""
+    logarithmic = axes.get_xscale() == "log"
+    if len(values) <= MANY and _fit(values, logarithmic=logarithmic):
+        axes.set_xticks(list(values), [f"{value:g}" for value in values])
+        axes.set_xticks([], minor=True)
+    elif logarithmic:
+        plain_logarithmic(axes.xaxis)
+
+
+def _fit(values: Sequence[float], *, logarithmic: bool) -> bool:
+    """Return whether a label fits at each of the values, which increase."""
     places = [math.log(value) if logarithmic else value for value in values]
     length = (places[-1] - places[0]) or 1.0
-    labels: list[str] = []
-    end = -math.inf
-    for value, place in zip(values, places, strict=True):
-        text = f"{value:g}"
-        half = 0.5 * LETTER * len(text)
-        middle = (place - places[0]) / length
-        near = middle - half < end
-        labels.append("" if near else text)
-        end = end if near else middle + half + LETTER
-    return labels
+    halves = [0.5 * LETTER * len(f"{value:g}") for value in values]
+    return all(
+        (after - before) / length >= left + right + LETTER
+        for (before, after), (left, right) in zip(
+            itertools.pairwise(places), itertools.pairwise(halves), strict=True
+        )
+    )

@@ -180,3 +180,17 @@ def test_springs_that_pull_are_not_called_normal(small_curve: ResponseCurve) -> 
     assert axes.get_title(loc="left").startswith("Spring forces")
     assert axes.get_ylim()[0] < pulling.normal_smallest.min()
     assert not damped.pulls
+
+
+def test_curves_that_lie_on_one_another_have_different_dashes(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.normal_forces(axes, small_curve)
+    forces = [line.get_linestyle() for line in axes.lines]
+    axes.clear()
+    curves.sliding_velocity(axes, small_curve)
+    slips = [line.get_linestyle() for line in axes.lines]
+
+    assert len(forces) > 1
+    assert len(set(forces)) == min(4, len(forces))
+    assert len(set(slips)) == min(4, len(slips))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -148,10 +149,12 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
     slips = relative(curve.probes)
     watched = slips or absolute(curve.probes)
     shown = greatest(watched, curve.velocity_peak, len(COLOURS))
-    for colour, place in zip(COLOURS, shown, strict=False):
+    looks = zip(COLOURS, itertools.cycle(STYLES), shown, strict=False)
+    for colour, style, place in looks:
         axes.plot(
             abscissa(curve),
             curve.velocity_peak[:, place],
+            style,
             color=colour,
             linewidth=WIDTH * 1.5,
             label=readable(curve.probes[place]),
@@ -202,9 +205,10 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
 
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the range of normal forces at the points of each face."""
+    styles = itertools.cycle(STYLES)
     for colour, places in zip(COLOURS, faces(curve.contacts).values(), strict=False):
         pressed = [place for place in places if largest(curve.normal_largest[:, place])]
-        for style, place in zip(STYLES, pressed, strict=False):
+        for place, style in zip(pressed[: len(STYLES)], styles, strict=False):
             low, high = curve.normal_smallest[:, place], curve.normal_largest[:, place]
             axes.fill_between(
                 abscissa(curve), low, high, color=colour, alpha=0.12, lw=0.0

@@ -105,16 +105,32 @@ class Passing(Known):
         return np.sort(1.0 + 0.3 * away)[::-1].astype(complex)
 
 
+class Leaping(Known):
+    """A real multiplier that rises by 0.4 in all, half way partly by a leap."""
+
+    def __init__(self, leap: float) -> None:
+        self.leap = leap
+
+    def at(self, point: Array, _: object = None) -> ComplexArray:
+        """Return the multiplier at a point, and another one."""
+        away = point[self.component] - 0.5
+        value = 1.0 + (0.4 - self.leap) * away + 0.5 * self.leap * np.sign(away)
+        return np.array([value, 0.1], dtype=complex)
+
+
 def amplitudes(points: Sequence[Array]) -> Array:
     """Return the amplitudes; there are none beyond the limits of the parameter."""
     assert all(0.0 <= point[-1] <= 1.0 for point in points)
     return np.abs([point[:1] for point in points])
 
 
-def found(known: Known, line: Line, *, owes: bool = False) -> list[tuple[str, float]]:
+def found(
+    known: Known, line: Line, *, owes: bool = False, recalls: bool = False
+) -> list[tuple[str, float]]:
     """Return the events between the places 0 and 1, and where they are.
 
-    ``owes`` says that no multiplier has crossed for a fold before 0.
+    ``owes`` says that no multiplier has crossed for a fold before 0, ``recalls`` that
+    there are sliders.
     """
     known.component = line.component
     system: Any = line
@@ -126,7 +142,7 @@ def found(known: Known, line: Line, *, owes: bool = False) -> list[tuple[str, fl
         StepControl(),
         multipliers,
         limits=(0.0, 1.0),
-        recalls=False,
+        recalls=recalls,
     )
     ends = []
     for place in (0.0, 1.0):
@@ -208,6 +224,25 @@ def test_a_crossing_is_named_by_what_the_multiplier_is_there(
 @pytest.mark.parametrize("start", [2.0, 0.0], ids=["moving", "from rest"])
 def test_nothing_happens_where_multipliers_stay_inside(start: float) -> None:
     assert found(Known(INSIDE, (1.5, 0.6)), Line(start)) == []
+
+
+@pytest.mark.parametrize(
+    ("leap", "recalls", "told"),
+    [
+        (0.4, True, False),
+        (0.2, True, False),
+        (0.02, True, True),  # half of it is left: a fortieth of the change
+        (0.0, True, True),
+        (0.4, False, True),  # nothing begins to slip
+    ],
+)
+def test_a_multiplier_that_leaps_as_a_slider_begins_to_slip_crosses_nothing(
+    leap: float, recalls: bool, told: bool
+) -> None:
+    events = found(Leaping(leap), Line(2.0), recalls=recalls)
+
+    assert [name for name, _ in events] == ["branch point"] * told
+    assert [place for _, place in events] == pytest.approx([0.5] * told, abs=2e-3)
 
 
 @pytest.mark.parametrize(

@@ -12,11 +12,15 @@ from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
 from hbm.solve import frequency_response, periodic_response
 from hbm.stability import small_motions
-from microslip_mechanics.problem import Problem
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.interface import Interface
+from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.structure import Structure
 from rigs import rig_problem
 from small_motions.multipliers import floquet_multipliers
+from small_problems import sliding_block
 
 HERTZ = 2.0 * np.pi
 
@@ -167,3 +171,32 @@ def test_a_peak_is_where_dense_points_have_it() -> None:
     ]
     # a kink or a smooth top: none of the neighbours is higher
     assert sizes[-1] >= max(sizes[:-1])
+
+
+def test_a_mass_that_a_dashpot_alone_couples_is_not_left_out() -> None:
+    # The first mass rubs and holds the third by a spring; stuck, it moves the second
+    # neither by springs nor by inertia.
+    rubbing = sliding_block().interface
+    structure = Structure(
+        np.diag([2.0, 1.0, 0.5]),
+        np.array([[3.0, -3.0, 0.0], [-3.0, 3.5, 0.0], [0.0, 0.0, 0.1]]),
+        np.array([[300.0, 0.0, -50.0], [0.0, 200.0, 0.0], [-50.0, 0.0, 150.0]]),
+        ("rubs", "by a dashpot", "by a spring"),
+    )
+    along = np.hstack([rubbing.displacement, np.zeros((3, 2))])
+    contact, probes = Interface(rubbing.points, along, ("point",)), np.eye(1, 3)
+    whole = Problem(
+        structure, contact, np.zeros(3), np.zeros(3), Probes(("rubs",), probes)
+    )
+
+    motions = small_motions(whole)
+
+    def poles(mass: Array, damping: Array, stiffness: Array) -> ComplexArray:
+        below = -np.linalg.solve(mass, np.hstack([stiffness, damping]))
+        count = len(mass)
+        first_order = np.vstack([np.eye(count, 2 * count, count), below])
+        return np.sort_complex(np.linalg.eigvals(first_order).astype(complex))
+
+    found = poles(motions.mass, motions.damping, motions.stiffness)
+    exact = poles(structure.mass, structure.damping, structure.stiffness)
+    assert found == pytest.approx(exact, rel=1e-9)

@@ -1,7 +1,7 @@
 """The sweep of the paper: its energies, and what it says about the contacts.
 
 Paper: tables 4 and 5 and section 5. The rig is one that fits the printed numbers, not a
-measured one, hence the tolerances: 12 % for macroslip, 25 % for the jammed rig.
+measured one, hence the tolerances: 1 to 8 % for macroslip, an eighth when jammed.
 """
 
 import functools
@@ -53,26 +53,30 @@ def peaks(rig: str, law: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    ("rig", "law", "paper"),
+    ("rig", "law", "paper", "away"),
     [
-        ("A", "coulomb", 0.149),
-        ("B", "coulomb", 0.148),
-        ("soft", "coulomb", 0.143),
-        ("A", "gkf", 0.099),
-        ("B", "gkf", 0.099),
-        ("soft", "gkf", 0.102),
+        # 0.5 mJ of rounding, 1 mJ by which the paper's A and B differ, which are one
+        # rig for our march, and its own estimated error of 0.2 mJ
+        ("A", "coulomb", 0.149, 1.7e-3),
+        ("B", "coulomb", 0.148, 1.7e-3),
+        ("soft", "gkf", 0.102, 1.7e-3),
+        # differences that the paper does not explain: 4.4 mJ, and 7.2 mJ
+        ("soft", "coulomb", 0.143, 5e-3),
+        ("A", "gkf", 0.099, 8e-3),
+        ("B", "gkf", 0.099, 8e-3),
     ],
 )
 def test_macroslip_dissipates_what_the_paper_prints(
-    rig: str, law: str, paper: float
+    rig: str, law: str, paper: float, away: float
 ) -> None:
-    # Measured 0.1477, 0.1477, 0.1474; 0.0918, 0.0918, 0.1026.
-    assert dissipated(rig, law) == pytest.approx(paper, rel=0.12)
+    # Measured 0.1474, 0.1474, 0.1026; 0.1474, 0.0918, 0.0918.
+    assert dissipated(rig, law) == pytest.approx(paper, abs=away)
 
 
 def test_the_jammed_rig_dissipates_what_the_paper_prints() -> None:
-    # Measured 0.0075; the paper's 0.009 has one digit.
-    assert dissipated("stiff", "coulomb") == pytest.approx(0.009, rel=0.25)
+    # Measured 0.0075. The paper's 0.009 has one digit: between 0.0085 and 0.0095; that
+    # an eighth is missing to 0.0085 is not explained.
+    assert 0.875 * 0.0085 < dissipated("stiff", "coulomb") < 0.0095
 
 
 def test_jammed_with_falling_friction_half_as_much_is_dissipated() -> None:

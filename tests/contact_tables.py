@@ -13,6 +13,7 @@ from microslip_mechanics.contact.law import (
     GENERAL_KINETIC,
     ONE_SIDED,
     ContactPoints,
+    contact_force,
 )
 
 FRICTION_LAWS = {
@@ -157,3 +158,21 @@ REGIONS = [
     around_zero_force,
     pulling,
 ]
+
+
+def written(points: ContactPoints, motion: Motion) -> tuple[Array, Array, Array]:
+    """Return force (points, 3) and both tangents (points, 3, 3)."""
+    count = len(points.load)
+    force = np.full((count, 3), np.nan)
+    by_displacement, by_velocity = np.full((2, count, 3, 3), np.nan)
+    for point in range(count):
+        contact_force(
+            points,
+            point,
+            motion[0][point],
+            motion[1][point],
+            force[point],
+            by_displacement[point],
+            by_velocity[point],
+        )
+    return force, by_displacement, by_velocity

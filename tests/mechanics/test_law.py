@@ -1,14 +1,11 @@
 """The force of a contact point: values, exact tangents, powers, energy."""
 
-import itertools
-
 import numpy as np
 import pytest
 
 from contact_tables import (
     FRICTION_LAWS,
     REGIONS,
-    Motion,
     Region,
     around_the_surface,
     around_the_threshold,
@@ -20,8 +17,8 @@ from contact_tables import (
     sizes,
     slipping,
     sticking,
+    written,
 )
-from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.hunt_crossley import spring_force
 from microslip_mechanics.contact.law import (
     BRISTLE,
@@ -29,37 +26,14 @@ from microslip_mechanics.contact.law import (
     ELASTIC,
     FRICTIONLESS,
     GENERAL_KINETIC,
-    ONE_SIDED,
-    TWO_SIDED,
-    ContactPoints,
     contact_energy,
-    contact_force,
     contact_power,
     normal_law,
-    tangent_pattern,
 )
 
 pytestmark = pytest.mark.kernels
 
 SLIDING = [COULOMB, GENERAL_KINETIC]
-
-
-def written(points: ContactPoints, motion: Motion) -> tuple[Array, Array, Array]:
-    """Return force (points, 3) and both tangents (points, 3, 3)."""
-    count = len(points.load)
-    force = np.full((count, 3), np.nan)
-    by_displacement, by_velocity = np.full((2, count, 3, 3), np.nan)
-    for point in range(count):
-        contact_force(
-            points,
-            point,
-            motion[0][point],
-            motion[1][point],
-            force[point],
-            by_displacement[point],
-            by_velocity[point],
-        )
-    return force, by_displacement, by_velocity
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)
@@ -93,51 +67,6 @@ def test_tangents_are_the_central_differences_of_the_force(
             difference = change / width[:, None]
             allowed = 1e-9 * np.abs(tangent[:, :, column]) + (rounding / width)[:, None]
             assert np.all(np.abs(difference - tangent[:, :, column]) <= allowed)
-
-
-@pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)
-def test_pattern_holds_each_tangent_that_is_ever_written_and_no_other(
-    friction: int,
-) -> None:
-    points = every_combination(friction)
-    random = np.random.default_rng(11)
-    count = len(points.load)
-
-    patterns = [tangent_pattern(points, point) for point in range(count)]
-
-    seen = np.zeros((2, count, 3, 3), dtype=bool)
-    for region in 8 * REGIONS:
-        _, *tangents = written(points, region(points, random))
-        seen |= np.array(tangents) != 0.0
-    np.testing.assert_array_equal(seen, np.swapaxes(np.array(patterns), 0, 1))
-
-
-@pytest.mark.parametrize("friction", [FRICTIONLESS, ELASTIC, BRISTLE])
-def test_pattern_leaves_out_springs_dampers_and_drag_that_are_none(
-    friction: int,
-) -> None:
-    rows = list(
-        itertools.product((ONE_SIDED, TWO_SIDED), (0.0, 3.0), (0.0, 0.8), (0.0, 0.04))
-    )
-    normal, stiffness, damping, viscous = zip(*rows, strict=True)
-    points = contact_points(
-        len(rows),
-        friction=friction,
-        normal=normal,
-        stiffness=stiffness,
-        damping=damping,
-        viscous=viscous,
-        constant_load=True,
-    )
-    random = np.random.default_rng(12)
-
-    patterns = [tangent_pattern(points, point) for point in range(len(rows))]
-
-    seen = np.zeros((2, len(rows), 3, 3), dtype=bool)
-    for region in 8 * [sticking, slipping, separated]:
-        _, *tangents = written(points, region(points, random))
-        seen |= np.array(tangents) != 0.0
-    np.testing.assert_array_equal(seen, np.swapaxes(np.array(patterns), 0, 1))
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS.values(), ids=FRICTION_LAWS)

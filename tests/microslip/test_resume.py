@@ -81,6 +81,18 @@ def test_two_parts_are_the_whole(
     check_equal(both, whole)
 
 
+def whole_and_part(
+    run: Run, scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> tuple[str, ...]:
+    """March a sweep to its end, and a part of it into a file of its own."""
+    words = ("sweep", str(scene), *LONG)
+    run(*words, "-o", "whole")
+    with monkeypatch.context() as stop:
+        stop.setattr(MARCH, stopped(3))
+        run(*words, "-o", "parts")
+    return words
+
+
 @pytest.mark.parametrize("torn", [0, 3, 997])
 def test_what_a_kill_left_half_written_is_marched_again(
     torn: int,
@@ -89,11 +101,7 @@ def test_what_a_kill_left_half_written_is_marched_again(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    words = ("sweep", str(quick_scene), *LONG)
-    run(*words, "-o", "whole")
-    with monkeypatch.context() as stop:
-        stop.setattr(MARCH, stopped(3))
-        run(*words, "-o", "parts")
+    words = whole_and_part(run, quick_scene, monkeypatch)
     path = tmp_path / "parts.nc"
     before = load(path).result
     path.write_bytes(path.read_bytes() + b"\x7f" * torn)
@@ -108,11 +116,7 @@ def test_what_a_kill_left_half_written_is_marched_again(
 def test_a_kill_between_the_state_and_the_number_of_its_rows_loses_no_row(
     run: Run, quick_scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    words = ("sweep", str(quick_scene), *LONG)
-    run(*words, "-o", "whole")
-    with monkeypatch.context() as stop:
-        stop.setattr(MARCH, stopped(3))
-        run(*words, "-o", "parts")
+    words = whole_and_part(run, quick_scene, monkeypatch)
     path = tmp_path / "parts.nc"
     content = bytearray(path.read_bytes())
     # a netCDF file begins with CDF, its version, and the number of its records

@@ -10,6 +10,7 @@ from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
 from microslip.studies.sweep import march_sweep, march_whole, swept_sine
+from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate
 
@@ -52,6 +53,24 @@ def test_march_stores_what_the_scene_asks_for(scene: Scene) -> None:
     assert history.time[-1] == pytest.approx(0.01)
     assert history.probes == problem.probes.names
     assert history.contacts == ("B1", "A1")
+
+
+def test_a_sweep_begins_where_a_preloaded_contact_rests() -> None:
+    short = ("sweep.end=0.3", "sweep.duration=0.3", "sweep.start=0.25")
+    scene = load_scene("tip-damper", short)
+    problem = problem_of(scene)
+
+    history = march_sweep(problem, swept_sine(scene.sweep), scene.march)
+
+    # it had begun with a blow: 20 N at zero displacement, 14 N at rest
+    rest = static_equilibrium(problem)
+    still = history.time < 0.25
+    np.testing.assert_allclose(
+        history.normal_force[still],
+        np.broadcast_to(rest.normal_force, history.normal_force[still].shape),
+        rtol=1e-6,
+    )
+    assert history.peak_error.size == history.time.size
 
 
 def test_march_that_stores_rarely_takes_no_shorter_steps(quick_scene: Path) -> None:

@@ -68,6 +68,7 @@ def test_the_estimates_cover_what_a_finer_march_shows(element: Element) -> None:
         energy, rows = told.of("friction")[-1], round(1e-3 / step)
         # the curvature of forces told a sixtieth of the stiff contact's error
         assert abs(energy - exact) <= told.energy_error[-1] < 0.04 * energy
+        assert (np.diff(told.energy_error) >= 0.0).all()  # from block to block, too
         peak = swing(told.displacement[rows - 1 :: rows]) / moved
         assert abs(peak - 1.0) <= told.peak_error[-1] < 0.04
 

@@ -18,7 +18,7 @@ from hbm.symmetry import Symmetry, holds, symmetry
 from hbm.tangent_entries import kinds, tangent_entries
 from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import RIGID, ContactPoints
+from microslip_mechanics.contact.points import RIGID, ContactPoints
 from microslip_mechanics.errors import MicroslipError
 
 

@@ -7,12 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
-    PUSHED,
-    ContactPoints,
-    contact_force,
-    contact_power,
-)
+from microslip_mechanics.contact.law import contact_force, contact_power
+from microslip_mechanics.contact.points import PUSHED, ContactPoints
 from microslip_mechanics.jit import kernel
 
 

@@ -13,7 +13,8 @@ import numpy as np
 from hbm.aft import AlternatingFrequencyTime
 from hbm.symmetry import mirror
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, edge, normal_response, rubs
+from microslip_mechanics.contact.law import edge, normal_response, rubs
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
 
 HALVINGS = 40

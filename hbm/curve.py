@@ -19,7 +19,7 @@ from hbm.residual import HarmonicBalance
 from hbm.resolution import PathResolution
 from hbm.settled import Settled
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import ONE_SIDED
+from microslip_mechanics.contact.points import ONE_SIDED
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 

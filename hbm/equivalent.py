@@ -15,8 +15,8 @@ from hbm.fourier import FourierBasis, to_complex
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response, periodic_response
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import FRICTIONLESS
 from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState

@@ -17,7 +17,7 @@ from hbm.resolution import PathResolution
 from hbm.stability import SmallMotions
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import GENERAL_KINETIC
+from microslip_mechanics.contact.points import GENERAL_KINETIC
 
 RATTLING = 0.5
 """share of the contact points that lift off, from which more harmonics are tried"""

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from hbm.symmetry import Symmetry
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force, edge
+from microslip_mechanics.contact.law import contact_force, edge
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel
 
 GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])

@@ -14,7 +14,7 @@ from hbm.condensed import Condensed
 from hbm.fourier import FourierBasis
 from hbm.tractions import Tractions
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import FRICTIONLESS, RIGID, ContactPoints
+from microslip_mechanics.contact.points import FRICTIONLESS, RIGID, ContactPoints
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
 

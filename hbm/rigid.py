@@ -11,8 +11,8 @@ from scipy.sparse.csgraph import connected_components
 from hbm.relative import RelativeProblem
 from hbm.tractions import PushedStructure, Tractions
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import PUSHED, RIGID
 from microslip_mechanics.contact.memory import friction_load
+from microslip_mechanics.contact.points import PUSHED, RIGID
 
 HIGH = 100.0
 """times the excitation frequency: there a structure shows the mass of its contacts"""

@@ -17,7 +17,8 @@ from hbm.refinement import Samples, Work, refine
 from hbm.symmetry import Symmetry
 from hbm.transitions import EVENTS, faded, locate, passes
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force, edge, rubs
+from microslip_mechanics.contact.law import contact_force, edge, rubs
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
 
 

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import ELASTIC, ContactPoints, edge
+from microslip_mechanics.contact.law import edge
+from microslip_mechanics.contact.points import ELASTIC, ContactPoints
 from microslip_mechanics.contact.sliders import Sliders, Slides
 
 TURN = 2.0 * np.pi

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints
 from microslip_mechanics.contact.memory import friction_load
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.rigid import slide
 from microslip_mechanics.contact.steady_loop import Waves
 from microslip_mechanics.jit import kernel

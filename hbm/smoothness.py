@@ -8,7 +8,8 @@ from hbm.options import CurveOptions
 from hbm.path import Path
 from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import GENERAL_KINETIC, rubs
+from microslip_mechanics.contact.law import rubs
+from microslip_mechanics.contact.points import GENERAL_KINETIC
 
 SHARE = 3.0
 """of the sliding velocity without contact times the error: more is taken back"""

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, tangent_pattern
+from microslip_mechanics.contact.law import tangent_pattern
+from microslip_mechanics.contact.points import ContactPoints
 
 
 def tangent_entries(points: ContactPoints, pruned: bool) -> NDArray[np.int64]:

@@ -6,7 +6,8 @@ import numpy as np
 
 from hbm.contact_path import Path, place
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force, edge
+from microslip_mechanics.contact.law import contact_force, edge
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 
 SUDDEN = 1e-9

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from hbm.contact_path import Path, place
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.law import contact_force
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
 
 STIFF = 1.0

@@ -22,7 +22,7 @@ from hbm.contact_path import Path, events, last_path
 from hbm.tangent_jumps import add_jump
 from hbm.tangent_moments import add_steps, caught, largest_change, write_moments
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 
 COARSE, FINE = 48, 96

@@ -21,8 +21,8 @@ from hbm.pieces import Pieces
 from hbm.resolution import PathResolution
 from hbm.smoothness import smoothest
 from microslip_mechanics.arrays import Array, largest
-from microslip_mechanics.contact.law import RIGID
 from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 

@@ -10,12 +10,8 @@ from __future__ import annotations
 import math
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
-    GENERAL_KINETIC,
-    ContactPoints,
-    edge,
-    rubs,
-)
+from microslip_mechanics.contact.law import edge, rubs
+from microslip_mechanics.contact.points import GENERAL_KINETIC, ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
 
 EVENTS = 10

@@ -7,13 +7,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
+from microslip_mechanics.contact.law import contact_force
+from microslip_mechanics.contact.points import (
     COULOMB,
     FRICTIONLESS,
     GENERAL_KINETIC,
     ONE_SIDED,
     ContactPoints,
-    contact_force,
 )
 
 FRICTION_LAWS = {

@@ -7,12 +7,7 @@ import pytest
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import (
-    BRISTLE,
-    ELASTIC,
-    PointLaw,
-    contact_table,
-)
+from microslip_mechanics.contact.points import BRISTLE, ELASTIC, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structure import Structure
 

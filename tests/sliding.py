@@ -6,9 +6,7 @@ from contact_tables import contact_points
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis, to_complex, to_real
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import (
-    ContactPoints,
-)
+from microslip_mechanics.contact.points import ContactPoints
 
 FREQUENCY, SPEED, LOAD, FRICTION = 11.0, 0.2, 1.7, 0.3
 HARMONICS, SAMPLES = 5, 64

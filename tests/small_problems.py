@@ -12,7 +12,7 @@ from contact_tables import contact_points
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.frame import Beam, Frame, Node
 from microslip_mechanics.problem import Probes, Problem

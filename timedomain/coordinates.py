@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.undamped_modes import undamped_modes
 

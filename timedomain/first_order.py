@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ELASTIC, RIGID, ContactPoints
 from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.points import ELASTIC, RIGID, ContactPoints
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.jit import closure
 from microslip_mechanics.problem import Problem

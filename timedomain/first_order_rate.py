@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
-    ContactPoints,
     contact_energy,
     contact_force,
     contact_power,
     spring_response,
 )
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.segments import Segments, load_factors
 

@@ -7,14 +7,14 @@ from typing import NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
+from microslip_mechanics.contact.law import contact_force
+from microslip_mechanics.contact.memory import add_traction
+from microslip_mechanics.contact.points import (
     ELASTIC,
     FRICTIONLESS,
     RIGID,
     ContactPoints,
-    contact_force,
 )
-from microslip_mechanics.contact.memory import add_traction
 from microslip_mechanics.jit import kernel
 from timedomain.dense import solve_in_place
 from timedomain.projection import projected

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import RIGID
+from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.contact.sliders import Sliders, Slides
 from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.excitation import Dwell

@@ -17,15 +17,14 @@ import math
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.gkf import GKF, gkf_coefficients
-from microslip_mechanics.contact.law import (
+from microslip_mechanics.contact.law import normal_response, spring_response
+from microslip_mechanics.contact.points import (
     COULOMB,
     FRICTIONLESS,
     GENERAL_KINETIC,
     ONE_SIDED,
     TANH,
     ContactPoints,
-    normal_response,
-    spring_response,
 )
 from microslip_mechanics.jit import bare_kernel
 

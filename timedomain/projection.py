@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 from timedomain.dense import solve_in_place
 from timedomain.point_law import linearise

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import RIGID, ContactPoints
 from microslip_mechanics.contact.memory import friction_load
+from microslip_mechanics.contact.points import RIGID, ContactPoints
 from microslip_mechanics.contact.rigid import slide
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import RIGID
 from microslip_mechanics.contact.memory import beyond_motion, remembers
+from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ClosedMarch, ShootingError, closed

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.law import contact_force
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.response import PeriodicResponse

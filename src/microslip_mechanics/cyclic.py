@@ -9,7 +9,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import repeated_points
+from microslip_mechanics.contact.points import repeated_points
 from microslip_mechanics.engine_order import phasor
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structure import Structure

@@ -9,7 +9,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import PointLaw, contact_table
+from microslip_mechanics.contact.points import PointLaw, contact_table
 from microslip_mechanics.forms import Pair, relative
 from microslip_mechanics.laws.row import Direction, Law, Row
 

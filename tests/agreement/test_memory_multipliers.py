@@ -7,7 +7,7 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from memory_problems import CONTACTS, masses
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import PointLaw
+from microslip_mechanics.contact.points import PointLaw
 from microslip_mechanics.static import static_equilibrium
 from timedomain.shooting import ShootingOptions, periodic_orbit
 from timedomain.start import on_orbit

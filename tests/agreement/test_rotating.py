@@ -10,7 +10,7 @@ from hbm.poles import poles
 from hbm.solve import frequency_response
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import TWO_SIDED, PointLaw, contact_table
+from microslip_mechanics.contact.points import TWO_SIDED, PointLaw, contact_table
 from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.response import PeriodicResponse

@@ -31,7 +31,7 @@ from hbm.relative import RelativeProblem, relative_problem
 from hbm.residual import HarmonicBalance
 from hbm.solve import frequency_response
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction import reduced
 from microslip_mechanics.static import static_equilibrium

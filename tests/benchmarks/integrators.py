@@ -27,7 +27,7 @@ from microslip.scene_file import load_scene
 from microslip.studies.sweep import swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import TimeHistory, joined

@@ -31,7 +31,7 @@ from hbm.solve import frequency_response, periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.beam import RectangularSection, beam_matrices
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import TWO_SIDED, PointLaw, contact_table
+from microslip_mechanics.contact.points import TWO_SIDED, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.reduction import reduced
 from microslip_mechanics.response import PeriodicResponse, response_curve

@@ -8,7 +8,7 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.contact_cycle import ContactCycle
 from hbm.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.points import ContactPoints
 
 pytestmark = pytest.mark.kernels
 

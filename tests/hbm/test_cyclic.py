@@ -13,7 +13,7 @@ from hbm.solve import periodic_response
 from memory_problems import JENKINS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import COULOMB, PointLaw, contact_table
+from microslip_mechanics.contact.points import COULOMB, PointLaw, contact_table
 from microslip_mechanics.cyclic import Coupling, CyclicProblem
 from microslip_mechanics.problem import Probes
 from microslip_mechanics.response import PeriodicResponse

@@ -8,11 +8,8 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis, to_complex, to_real
 from hbm.jacobian import assemble, terms
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
-    ContactPoints,
-    contact_force,
-    tangent_pattern,
-)
+from microslip_mechanics.contact.law import contact_force, tangent_pattern
+from microslip_mechanics.contact.points import ContactPoints
 
 pytestmark = pytest.mark.kernels
 

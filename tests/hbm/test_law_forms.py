@@ -7,7 +7,7 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.contact_cycle import ContactCycle
 from hbm.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_table
+from microslip_mechanics.contact.points import contact_table
 from microslip_mechanics.laws.area_contact import AreaContact
 from microslip_mechanics.laws.dampers import LinearDamper, QuadraticDamper
 from microslip_mechanics.laws.iwan import Iwan

@@ -7,12 +7,7 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis
 from memory_problems import JENKINS, LIMIT, STIFFNESS
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
-    BRISTLE,
-    ELASTIC,
-    PointLaw,
-    contact_table,
-)
+from microslip_mechanics.contact.points import BRISTLE, ELASTIC, PointLaw, contact_table
 
 FREQUENCY = 7.0
 TANGENT = np.eye(3)[:, 1:2]

@@ -13,11 +13,7 @@ from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
 from hbm.poles import poles
 from memory_problems import JENKINS, LIMIT, STIFFNESS
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import (
-    ELASTIC,
-    PointLaw,
-    contact_table,
-)
+from microslip_mechanics.contact.points import ELASTIC, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure

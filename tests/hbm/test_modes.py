@@ -9,7 +9,7 @@ import scipy.linalg
 
 from contact_tables import contact_points
 from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
-from microslip_mechanics.contact.law import FRICTIONLESS
+from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem

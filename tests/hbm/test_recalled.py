@@ -13,11 +13,7 @@ from hbm.solve import frequency_response
 from memory_problems import JENKINS, LIMIT, STIFFNESS
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import (
-    COULOMB,
-    PointLaw,
-    contact_table,
-)
+from microslip_mechanics.contact.points import COULOMB, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium

@@ -11,11 +11,8 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis, derivative, to_complex
 from hbm.refinement import GAUSS_PLACES, GAUSS_WEIGHTS
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import (
-    FRICTIONLESS,
-    ContactPoints,
-    contact_force,
-)
+from microslip_mechanics.contact.law import contact_force
+from microslip_mechanics.contact.points import FRICTIONLESS, ContactPoints
 from sliding import (
     FREQUENCY,
     FRICTION,

@@ -10,12 +10,12 @@ from contact_tables import contact_points
 from convergence import observed_order
 from hbm.fourier import derivative, to_complex
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import (
+from microslip_mechanics.contact.law import contact_force
+from microslip_mechanics.contact.points import (
     COULOMB,
     FRICTIONLESS,
     GENERAL_KINETIC,
     ContactPoints,
-    contact_force,
 )
 from sliding import (
     FREQUENCY,

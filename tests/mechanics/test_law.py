@@ -20,15 +20,13 @@ from contact_tables import (
     written,
 )
 from microslip_mechanics.contact.hunt_crossley import spring_force
-from microslip_mechanics.contact.law import (
+from microslip_mechanics.contact.law import contact_energy, contact_power, normal_law
+from microslip_mechanics.contact.points import (
     BRISTLE,
     COULOMB,
     ELASTIC,
     FRICTIONLESS,
     GENERAL_KINETIC,
-    contact_energy,
-    contact_power,
-    normal_law,
 )
 
 pytestmark = pytest.mark.kernels

@@ -7,8 +7,9 @@ import pytest
 
 from law_examples import CASES, NAMES, element
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.memory import beyond_motion, remembers, traction
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.element import interface_of
 from microslip_mechanics.laws.catalogue import LAWS, law_name
 from microslip_mechanics.laws.jenkins import Jenkins

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ELASTIC, PointLaw, contact_table
+from microslip_mechanics.contact.points import ELASTIC, PointLaw, contact_table
 from microslip_mechanics.contact.sliders import Sliders, Slides
 
 STEPS = 20_000

@@ -17,14 +17,14 @@ from contact_tables import (
     sticking,
     written,
 )
-from microslip_mechanics.contact.law import (
+from microslip_mechanics.contact.law import tangent_pattern
+from microslip_mechanics.contact.points import (
     BRISTLE,
     ELASTIC,
     FRICTIONLESS,
     ONE_SIDED,
     TWO_SIDED,
     ContactPoints,
-    tangent_pattern,
 )
 
 pytestmark = pytest.mark.kernels

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force, edge, rubs
+from microslip_mechanics.contact.law import contact_force, edge, rubs
 from microslip_mechanics.contact.memory import beyond_motion
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem

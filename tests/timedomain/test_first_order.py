@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from benchmarks.dop853 import DOP853, integrated, real_limit
 from convergence import observed_order
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ELASTIC, PointLaw, contact_table
+from microslip_mechanics.contact.points import ELASTIC, PointLaw, contact_table
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import factors_over

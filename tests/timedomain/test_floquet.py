@@ -10,7 +10,7 @@ from scipy.special import mathieu_a
 from contact_tables import contact_points
 from convergence import observed_order
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import FRICTIONLESS
+from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from small_motions.multipliers import floquet_multipliers, monodromy

@@ -8,9 +8,7 @@ import pytest
 
 from memory_problems import JENKINS, LIMIT, LUGRE, SHOE, STIFFNESS, masses
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
-    contact_table,
-)
+from microslip_mechanics.contact.points import contact_table
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem

@@ -9,7 +9,7 @@ from contact_tables import contact_points
 from convergence import observed_order
 from hbm.solve import periodic_response
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import TWO_SIDED
+from microslip_mechanics.contact.points import TWO_SIDED
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium

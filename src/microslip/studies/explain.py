@@ -16,7 +16,8 @@ from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.imported import FRC, imported
 from microslip.studies.unpruned import path_of, unpruned_path_of
-from microslip_mechanics.contact.law import (
+from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.points import (
     BRISTLE,
     COULOMB,
     ELASTIC,
@@ -25,7 +26,6 @@ from microslip_mechanics.contact.law import (
     RIGID,
     TANH,
 )
-from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import FRICTIONLESS
+from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse.csgraph import connected_components
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints
+from microslip_mechanics.contact.points import ContactPoints
 
 ROUNDING = 1e-14
 """columns of this size beside the largest are those of rounding"""

@@ -17,13 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ELASTIC, ContactPoints
 from microslip_mechanics.contact.memory import (
     end_share,
     friction_load,
     remembers,
     traction,
 )
+from microslip_mechanics.contact.points import ELASTIC, ContactPoints
 from microslip_mechanics.jit import kernel
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints
 from microslip_mechanics.contact.memory import end_share, friction_load, traction
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 
 PERIODS = 20

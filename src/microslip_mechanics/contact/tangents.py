@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import ContactPoints, contact_force
+from microslip_mechanics.contact.law import contact_force
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 
 

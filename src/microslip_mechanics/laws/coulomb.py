@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from microslip_mechanics.contact.law import COULOMB, TANH
+from microslip_mechanics.contact.points import COULOMB, TANH
 from microslip_mechanics.laws.normal_load import NormalLoad
 from microslip_mechanics.laws.row import Row
 from microslip_mechanics.quantity import quantity

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from microslip_mechanics.contact.law import TWO_SIDED, PointLaw
+from microslip_mechanics.contact.points import TWO_SIDED, PointLaw
 from microslip_mechanics.laws.row import ALONG, Counts, Row, along
 from microslip_mechanics.quantity import check_quantities, quantity
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from microslip_mechanics.contact.law import PointLaw
+from microslip_mechanics.contact.points import PointLaw
 from microslip_mechanics.laws.row import Counts, Direction, Row
 from microslip_mechanics.laws.unilateral import touching
 from microslip_mechanics.quantity import check_quantities, quantity

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from microslip_mechanics.contact.law import TWO_SIDED, PointLaw
+from microslip_mechanics.contact.points import TWO_SIDED, PointLaw
 from microslip_mechanics.laws.row import ALONG, BETWEEN, Counts, Row, along
 from microslip_mechanics.quantity import check_quantities, quantity
 

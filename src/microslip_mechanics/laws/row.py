@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
-from microslip_mechanics.contact.law import PointLaw
+from microslip_mechanics.contact.points import PointLaw
 
 Direction: TypeAlias = tuple[str, int]
 """key of an element (between, normal, tangents, rotations), and number from 0"""

@@ -7,7 +7,7 @@ import numpy as np
 from microslip.scenes.bladed_disk.tables import PARTS, BladedDisk, Friction
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import COULOMB, PointLaw, contact_table
+from microslip_mechanics.contact.points import COULOMB, PointLaw, contact_table
 from microslip_mechanics.cyclic import Coupling, CyclicProblem
 from microslip_mechanics.laws.jenkins import slider
 from microslip_mechanics.problem import Probes, Problem

@@ -13,7 +13,7 @@ from microslip.scenes.two_blades import layout
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import (
+from microslip_mechanics.contact.points import (
     COULOMB,
     FRICTIONLESS,
     GENERAL_KINETIC,

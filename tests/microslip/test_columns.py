@@ -15,6 +15,9 @@ from microslip.commands.columns import decimal, tabled
         (0.0, 0.0004, " 0.000e+00"),
         (0.0, 0.0, "   0.00000"),
         (-1e-22, 6e-22, "   0.00000"),
+        (1234.5, 9999.0, "1234.50000"),
+        (1234.5, 12345.6, " 1.234e+03"),
+        (4e119, 4e119, "4.000e+119"),
     ],
 )
 def test_small_columns_have_powers_of_ten(

@@ -58,9 +58,10 @@ def decimal(value: float, largest: float, decimals: int, width: int = WIDTH) -> 
     """Return a number in a column, whose largest is ``largest``, right aligned.
 
     It has so many decimals, unless they would leave less than :data:`DIGITS` digits of
-    the largest: then powers of ten.
+    the largest, or more than the column is wide: then powers of ten.
     """
-    if NOTHING < abs(largest) < 10.0 ** (DIGITS - 1 - decimals):
+    few = NOTHING < abs(largest) < 10.0 ** (DIGITS - 1 - decimals)
+    if few or abs(largest) >= 10.0 ** (width - decimals - 1):
         return f"{value:{width}.{DIGITS}e}"
     return f"{value:z{width}.{decimals}f}"
 

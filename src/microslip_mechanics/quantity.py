@@ -35,7 +35,8 @@ NUMBER = re.compile(r"[-+]?(\d[\d_]*\.?\d*|\.\d+)(e[-+]?\d+)?(?![\d.,])", re.I)
 """at the beginning of a text, before a unit"""
 
 LARGEST = 1e50
-"""of any number: squares and products of a few are numbers still"""
+"""of any number, and of the inverse of any other than zero: squares and products of a
+few are numbers still"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +57,11 @@ class Quantity:
             raise ValueError(
                 f"is out of range: give at most {LARGEST:g} in size, or what is "
                 "reckoned with it overflows"
+            )
+        if 0.0 < abs(number) < 1.0 / LARGEST:
+            raise ValueError(
+                f"is out of range: give 0 or at least {1.0 / LARGEST:g} in size, or "
+                "what is reckoned with it vanishes"
             )
         inside = self.lowest <= number <= self.highest
         if not inside or (self.positive and number == self.lowest):

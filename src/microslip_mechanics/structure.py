@@ -8,10 +8,13 @@ import numpy as np
 import scipy.sparse
 from scipy.sparse.linalg import LinearOperator
 
-from microslip_mechanics.arrays import Matrix
+from microslip_mechanics.arrays import Array, Matrix
 from microslip_mechanics.factors import factors
+from microslip_mechanics.quantity import LARGEST
 
 MATRICES = ("mass", "damping", "stiffness")
+LIGHTEST = 1e-15
+"""mass over the largest one, below which sums of both have nothing of it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +37,7 @@ class Structure:
     """whether the damping has a skew-symmetric part"""
 
     def __post_init__(self) -> None:
-        """Check shapes, finiteness, symmetry and that no motion is massless."""
+        """Check shapes, sizes, symmetry and that no motion is massless."""
         shape = (len(self.names), len(self.names))
         arrays = self._arrays(shape)
         for name in arrays:
@@ -46,14 +49,14 @@ class Structure:
                 )
             if self.sparse:
                 matrix = matrix.tocsc()
-            if not np.all(np.isfinite(matrix.data if self.sparse else matrix)):
-                raise ValueError(f"{name} holds a value that is not finite")
+            _check_sizes(matrix.data if self.sparse else matrix, name)
             if self.gyroscopic and name == "damping":
                 continue
             if abs(matrix - matrix.T).max() > 1e-9 * abs(matrix).max():
                 raise ValueError(
                     f"{name} is not symmetric: only symmetric is supported"
                 )
+        self._check_light()
         if not self._heavy():
             raise ValueError(
                 "mass is not positive definite: some motion has no mass; "
@@ -110,8 +113,36 @@ class Structure:
         if abs(power[0, 1] - power[1, 0]) > 1e-9 * np.abs(power).max():
             raise ValueError("damping is not symmetric: only symmetric is supported")
 
+    def _check_light(self) -> None:
+        """Check that no mass is lost beside the others by rounding."""
+        diagonal = self.mass.diagonal()
+        light, heavy = int(diagonal.argmin()), int(diagonal.argmax())
+        if 0.0 < diagonal[light] < LIGHTEST * diagonal[heavy]:
+            raise ValueError(
+                f"mass of {self.names[light]} is {diagonal[light]:g} kg beside "
+                f"{diagonal[heavy]:g} kg of {self.names[heavy]}, which rounding takes "
+                "for nothing: lock it or give it more mass"
+            )
+
     def _heavy(self) -> bool:
         """Return whether the mass is positive definite."""
         if self.sparse:
             return factors(self.mass) is not None
         return bool(np.linalg.eigvalsh(self.mass)[0] > 0.0)
+
+
+def _check_sizes(entries: Array, name: str) -> None:
+    """Check that the entries of a matrix, if any, are numbers whose squares are."""
+    most = float(np.abs(entries).max(initial=0.0))
+    if not np.isfinite(most):
+        raise ValueError(f"{name} holds a value that is not finite")
+    if most > LARGEST:
+        raise ValueError(
+            f"{name} holds a value of {most:g}: give at most {LARGEST:g} in size, or "
+            "what is reckoned with it overflows"
+        )
+    if name != "damping" and 0.0 < most < 1.0 / LARGEST:
+        raise ValueError(
+            f"{name} holds nothing above {most:g}: give at least {1.0 / LARGEST:g}, "
+            "or what is reckoned with it vanishes"
+        )

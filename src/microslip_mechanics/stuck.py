@@ -114,6 +114,10 @@ class StuckStructure:
             return np.asarray(self.damping @ motion) - share
 
         shape = self.mass.shape
+        if shape[0] <= SMALL:
+            share = momenta @ own @ momenta.T
+            lossy = self.damping @ np.eye(shape[0]) - share
+            return max(0.0, float(_largest(lossy, self.stiffness.toarray())))
         largest = eigsh(
             LinearOperator(shape, matvec=damped, dtype=float),
             1,
@@ -125,6 +129,15 @@ class StuckStructure:
             return_eigenvectors=False,
         )
         return max(0.0, float(largest[0]))
+
+
+def _largest(matrix: Array, beside: Array) -> float:
+    """Return the largest eigenvalue of a dense symmetric pair."""
+    last = len(matrix) - 1
+    found = scipy.linalg.eigh(
+        matrix, beside, eigvals_only=True, subset_by_index=(last, last)
+    )
+    return float(found[0])
 
 
 def stuck_structure(structure: Structure, selection: Array) -> StuckStructure:

@@ -107,6 +107,19 @@ def test_damping_beside_the_modes_is_that_of_the_fastest_modes(count: int) -> No
     assert found == pytest.approx(30.0 / modes.next**2 + 1e-5, rel=2e-3)
 
 
+@pytest.mark.parametrize(("rows", "cutoff"), [(1, 1.0), (2, 1.0), (5, 1100.0)])
+def test_few_degrees_of_freedom_have_damping_beside_the_modes(
+    rows: int, cutoff: float
+) -> None:
+    problem = net(rows, 2, mass_damping=30.0, stiffness_damping=1e-5)
+    _, selection = problem.interface.relative_motion()
+    held = stuck_structure(problem.structure, selection)
+    modes = held.modes(cutoff)
+    assert modes.squares.size < held.mass.shape[0]
+
+    assert held.loss(modes) == pytest.approx(30.0 / modes.next**2 + 1e-5, rel=1e-9)
+
+
 def test_a_fine_mesh_loses_no_digits() -> None:
     elements, section = 1500, RectangularSection(0.02, 0.01, 2.1e11, 0.3, 7800.0)
     bent = [2, 4, 8, 10]

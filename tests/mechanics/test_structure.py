@@ -13,8 +13,10 @@ from microslip_mechanics.structure import MATRICES, Structure
 NAMES = ("a", "b")
 
 
-def structure(**matrices: Array) -> Structure:
-    sound = {name: np.array([[2.0, -1.0], [-1.0, 3.0]]) for name in MATRICES}
+def structure(**matrices: Matrix) -> Structure:
+    sound: dict[str, Matrix] = {
+        name: np.array([[2.0, -1.0], [-1.0, 3.0]]) for name in MATRICES
+    }
     mass, damping, stiffness = ((sound | matrices)[name] for name in MATRICES)
     return Structure(mass, damping, stiffness, NAMES)
 
@@ -53,6 +55,39 @@ def test_matrix_with_a_value_that_is_not_finite_is_refused(
         structure(**{name: matrix})
 
 
+@pytest.mark.parametrize("sparse", [False, True])
+@pytest.mark.parametrize(
+    ("name", "size", "text"),
+    [
+        *(
+            (each, 1e60, "holds a value of 1e+60: give at most 1e+50")
+            for each in MATRICES
+        ),
+        ("mass", 1e-200, "holds nothing above 1e-200: give at least 1e-50"),
+        ("stiffness", 1e-200, "holds nothing above 1e-200: give at least 1e-50"),
+    ],
+)
+def test_matrix_whose_squares_leave_the_numbers_is_refused(
+    name: str, size: float, text: str, *, sparse: bool
+) -> None:
+    kind = scipy.sparse.csc_array if sparse else np.array
+    matrices = {each: kind(np.eye(2)) for each in MATRICES}
+    matrices[name] = kind(size * np.eye(2))
+
+    with pytest.raises(ValueError, match=f"^{name} {re.escape(text)}"):
+        structure(**matrices)
+
+
+@pytest.mark.parametrize("sparse", [False, True])
+def test_mass_that_rounding_takes_for_nothing_is_refused(*, sparse: bool) -> None:
+    kind = scipy.sparse.csc_array if sparse else np.array
+    matrices = {each: kind(np.eye(2)) for each in MATRICES}
+    matrices["mass"] = kind(np.diag([3.0, 1e-16]))
+
+    with pytest.raises(ValueError, match=r"^mass of b is 1e-16 kg beside 3 kg of a, "):
+        structure(**matrices)
+
+
 @pytest.mark.parametrize("name", MATRICES)
 def test_asymmetric_matrix_is_refused(name: str) -> None:
     matrix = np.array([[1.0, 2e-9], [0.0, 1.0]])
@@ -86,7 +121,9 @@ def test_massless_motion_is_refused(mass: Array) -> None:
 
 
 def sparse_structure(**matrices: Matrix) -> Structure:
-    sound = {name: np.array([[2.0, -1.0], [-1.0, 3.0]]) for name in MATRICES}
+    sound: dict[str, Matrix] = {
+        name: np.array([[2.0, -1.0], [-1.0, 3.0]]) for name in MATRICES
+    }
     made = {name: scipy.sparse.csr_array(each) for name, each in sound.items()}
     mass, damping, stiffness = ((made | matrices)[name] for name in MATRICES)
     return Structure(mass, damping, stiffness, NAMES)

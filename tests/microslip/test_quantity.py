@@ -123,3 +123,15 @@ def test_bounds_themselves_are_inside_unless_the_value_must_be_positive() -> Non
 def test_whole_number_beyond_all_floats_is_out_of_range() -> None:
     with pytest.raises(ValueError, match=r"range|finite"):
         LENGTH.read(10**400)
+
+
+@pytest.mark.parametrize("value", [1e-300, -1e-60, "1e-60 m", 5e-324])
+def test_number_whose_square_vanishes_is_refused(value: float | str) -> None:
+    kind = Quantity("m", -math.inf, math.inf, positive=False)
+
+    with pytest.raises(
+        ValueError, match=r"^is out of range: give 0 or at least 1e-50 "
+    ):
+        kind.read(value)
+    assert kind.read(0.0) == 0.0
+    assert kind.read(1e-50) == 1e-50

@@ -54,6 +54,12 @@ def read_structure(files: MatrixFiles) -> Structure:
     if files.damping is not None:
         damping = _beside(files.damping, "damping", stiffness, names)
     free = np.flatnonzero(stiffness.matrix.diagonal() < HELD)
+    if not free.size:
+        raise MatrixFileError(
+            files.stiffness.path,
+            f"all degrees of freedom are held, by {HELD:g} N/m or more on the "
+            "diagonal: give the stiffness of what moves",
+        )
     mass, damping, spring = (
         scipy.sparse.csc_array(each[free][:, free])
         for each in (mass, damping, stiffness.matrix)

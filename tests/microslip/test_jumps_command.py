@@ -11,6 +11,7 @@ import pytest
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
+from microslip.commands.verify_tables import HELD
 from microslip.figures.jumps import JumpLine, jumps_figure
 from microslip.studies.curve import Traced
 from microslip.studies.jump_folds import Fold, folds_of
@@ -127,6 +128,32 @@ def test_jumps_far_from_their_folds_decide_the_status(
     assert behind == pytest.approx([*(away + 1e-3 * RATES ** (2 / 3)), away], abs=6e-5)
     assert rows[4][4] == rows[9][4] == ("DISAGREE" if status else "agree")
     assert (quick_scene.parent / "quick-jumps.png").is_file()
+
+
+@pytest.mark.parametrize(
+    ("scene", "away", "told"),
+    [("jenkins", 1e-3, True), ("jenkins", 1e-6, False), ("duffing", 1e-3, False)],
+)
+def test_jumps_beside_folds_of_contacts_that_hold_a_force_are_explained(
+    scene: str,
+    away: float,
+    *,
+    told: bool,
+    traced: Traced,
+    run: Run,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    jumps = made(traced, away)
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
+    monkeypatch.setattr(
+        "microslip.studies.jump_folds.folds_of", lambda *_, **__: [1, 2]
+    )
+    monkeypatch.setattr("microslip.studies.jumps.jumps", lambda *_: iter(jumps))
+
+    _, output, error = run("jumps", scene)
+
+    assert error == ""
+    assert (HELD in output) == told
 
 
 @pytest.mark.parametrize(

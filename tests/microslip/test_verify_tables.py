@@ -9,7 +9,7 @@ import pytest
 
 from microslip.commands.frc_tables import events, resolution, table
 from microslip.commands.verify import Found, _verdict
-from microslip.commands.verify_tables import marches_said, sweep_rows, sweeps_said
+from microslip.commands.verify_tables import HELD, marches_said, sweep_rows, sweeps_said
 from microslip.studies.curve import Traced
 from microslip.studies.orbits import Verdict
 from microslip.studies.verify import SweepAgreement
@@ -68,6 +68,10 @@ def test_sweeps_without_friction_have_no_columns_of_its_energy() -> None:
     widths = {len(line) for line in sweep_rows(free).splitlines()[1:]}
     assert max(widths) - min(widths) < 3
     assert sweeps_said(rubbing, agree=True).startswith("agree: energy and envelope of")
+    assert sweeps_said(rubbing, agree=True, holds=True).count("\n") == 0
+    held = sweeps_said(rubbing, agree=False, holds=True).splitlines()
+    assert held[0].startswith("DISAGREE: ")
+    assert held[1:] == [HELD]
     assert sweeps_said(free, agree=False) == (
         "DISAGREE: envelope of the sweep does not approach the curve as it slows"
     )

@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc
+from microslip.commands.verify_tables import HELD
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
@@ -64,6 +65,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.curve import trace_curve
     from microslip.studies.jump_folds import folds_of
     from microslip.studies.jumps import LEAST, jumps
+    from microslip_mechanics.contact.memory import beyond_motion
 
     if options.rates is not None and len(set(options.rates)) < LEAST:
         raise SceneError(f"--rates: give at least {LEAST} different ones")
@@ -81,8 +83,10 @@ def _run(options: argparse.Namespace) -> int:
     found, ending = _collected(jumps(problem, folds, options.rates), len(folds))
     _draw(options, traced, found, picture)
     print(f"picture in {picture}")
-    status = arguments.ended(ending)
-    return status or (0 if all(_agrees(each) for each in found) else 1)
+    status, agree = arguments.ended(ending), all(_agrees(each) for each in found)
+    if not agree and beyond_motion(problem.interface.points):
+        print(HELD)
+    return status or (0 if agree else 1)
 
 
 def _collected(swept: Iterator[Jump], count: int) -> tuple[list[Jump], str]:

@@ -29,6 +29,8 @@ class Found:
     """What was found so far; it stays when a march is stopped."""
 
     probes: tuple[str, ...]
+    holds: bool = False
+    """whether contacts may hold a force while they stick"""
     places: list[int] = field(default_factory=list)
     """of the orbits on the curve"""
     orbits: list[Verdict] = field(default_factory=list)
@@ -101,6 +103,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.studies.curve import Wanted, trace_curve
+    from microslip_mechanics.contact.memory import beyond_motion
 
     _, picture = arguments.outputs(options, "verify")
     scene = load_scene(options.scene, options.overrides)
@@ -120,7 +123,7 @@ def _run(options: argparse.Namespace) -> int:
         print("\n".join(traced.searched.lines()))
     if traced.curve.ending != "complete":
         return arguments.ended(traced.curve.ending, kept=False)
-    found = Found(problem.probes.names)
+    found = Found(problem.probes.names, beyond_motion(problem.interface.points))
     try:
         _orbits(options, problem, traced, found)
         _marches(options, problem, traced, found)
@@ -269,5 +272,5 @@ def _verdict(options: argparse.Namespace, found: Found) -> int:
         agrees &= stays
     slows = falls(found.sweeps)
     if len(found.sweeps) > 1:
-        print(verify_tables.sweeps_said(found.sweeps, agree=slows))
+        print(verify_tables.sweeps_said(found.sweeps, agree=slows, holds=found.holds))
     return 0 if agrees and slows else 1

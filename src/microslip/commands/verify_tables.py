@@ -25,6 +25,10 @@ frequency  amplitude  {deviation}  distance from orbit  drift
 SWEEPS = "swept sine beside the curve's prediction for an infinitely slow one"
 SLOWER = "  slower"
 ENERGY = "   energy of friction [J]    error  predicted [J]  difference"
+HELD = (
+    "contacts that stick throughout hold a mean force in a sweep, from when they slid "
+    "last; on the curve they have none: this alone may part the two"
+)
 ENVELOPE = "  envelope  closing error"
 
 
@@ -88,13 +92,19 @@ def _about(error: float) -> str:
     return f"{'-' if math.isnan(error) else format(error, '.1e'):>8s}"
 
 
-def sweeps_said(sweeps: Sequence[SweepAgreement], *, agree: bool) -> str:
-    """Return whether the sweeps approach the curve."""
+def sweeps_said(
+    sweeps: Sequence[SweepAgreement], *, agree: bool, holds: bool = False
+) -> str:
+    """Return whether the sweeps approach the curve.
+
+    ``holds`` says whether contacts may hold a force while they stick.
+    """
     many = any(sweep.rubs for sweep in sweeps)
     what, ending = ("energy and envelope", "") if many else ("envelope", "es")
     verb = f"approach{ending}" if agree else f"{'do' if many else 'does'} not approach"
     sign = "agree" if agree else "DISAGREE"
-    return f"{sign}: {what} of the sweep {verb} the curve as it slows"
+    said = f"{sign}: {what} of the sweep {verb} the curve as it slows"
+    return said if agree or not holds else f"{said}\n{HELD}"
 
 
 def orbits_said(verdicts: Sequence[Verdict]) -> str:

@@ -78,6 +78,10 @@ def test_sweep_figure_has_a_labelled_panel_for_each_thing_to_see(
     figure = sweeps.sweep_figure(small_history, "two-blades")
 
     check_labels(figure)
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        assert any(label.get_text() for label in axes.get_xticklabels())
+        assert all(tick.label1.get_visible() for tick in axes.xaxis.get_major_ticks())
     titles = [axes.get_title(loc="left") for axes in figure.axes]
     # two blades, one slip, two faces, power, energies
     assert len(titles) == len(set(titles)) == 7

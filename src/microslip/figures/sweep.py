@@ -80,8 +80,6 @@ def grid_of(count: int, others: int) -> tuple[Figure, Iterator[Axes], list[Axes]
     panels, last = axes[:count], axes[count : count + others]
     for panel in panels[1:]:
         panel.sharex(panels[0])
-    for panel in panels[:-2]:
-        panel.tick_params(labelbottom=False)
     for panel in axes:
         if panel not in (*panels, *last):
             panel.remove()

@@ -39,9 +39,9 @@ class ModeOptions:
     """Amplitudes, resolution and accuracy of a nonlinear mode."""
 
     smallest: float
-    """first amplitude [m]"""
+    """first amplitude [m], of the linear mode's share in the motion"""
     largest: float
-    """last amplitude [m]"""
+    """last amplitude [m], likewise: where the shape changes, probes have another one"""
     error: float = 1e-2
     """of the damping ratio at each point, relative: harmonics follow from it"""
     harmonics: int | None = None

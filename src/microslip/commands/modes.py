@@ -50,8 +50,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         nargs=2,
         metavar=("SMALLEST", "LARGEST"),
         default=AMPLITUDES,
-        help="of the probe that moves most, in mm unless a unit stands behind it "
-        "(default: 0.01 10)",
+        help="of the sticking mode's share in the motion, as its highest probe has it, "
+        "in mm unless a unit stands behind it; where contacts slide the shape changes, "
+        "and the probe moves more or less than that (default: 0.01 10)",
     )
     parser.add_argument(
         "--range",

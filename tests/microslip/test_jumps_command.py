@@ -273,3 +273,17 @@ def test_sweeps_before_one_fails_are_kept(
     assert [float(row[1]) for row in rows] == [8.0, 4.0, 2.0]
     assert "agree" not in output.lower()
     assert (quick_scene.parent / "quick-jumps.png").is_file()
+
+
+@pytest.mark.parametrize(("ending", "code"), [("interrupted", 130), ("lost", 1)])
+def test_a_curve_that_is_not_whole_leaves_no_file_and_says_so(
+    ending: str, code: int, traced: Traced, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    curve = dataclasses.replace(traced.curve, ending=ending)
+    half = dataclasses.replace(traced, curve=curve)
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: half)
+
+    status, output, error = run("jumps", "duffing")
+
+    assert (status, output) == (code, "")
+    assert error == f"microslip: {ending}; no file is written\n"

@@ -74,7 +74,7 @@ def _run(options: argparse.Namespace) -> int:
     problem = problem_of(scene)
     traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))
     if traced.curve.ending != "complete":
-        return arguments.ended(traced.curve.ending)
+        return arguments.ended(traced.curve.ending, kept=False)
     folds = folds_of(problem, traced, lead=options.lead)
     if not folds:
         print("no stable motion ends at a fold: sweeps do not jump")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from dataclasses import replace
 
 import numpy as np
@@ -50,9 +49,6 @@ STRAIGHT = 0.8
 """cosine between the tangents where a point is settled and where it is reported, below
 which the first belongs to a fold that more harmonics do not have
 """
-NEIGHBOURS, ALIKE = 5, 0.5
-"""points before whose errors by sampling tell that of one where a march goes from
-sample to sample, and the share of theirs that it has at least"""
 
 
 class AdaptiveBalance:
@@ -70,7 +66,6 @@ class AdaptiveBalance:
         most: int = HARMONICS,
         errors: bool = True,
         effort: Effort | None = None,
-        marched: bool = False,
         pushed: bool = False,
     ) -> None:
         """Begin with ``start``; without ``tolerance`` stay there.
@@ -79,11 +74,9 @@ class AdaptiveBalance:
 
         ``tolerance`` is the relative error of the amplitude at each point; ``most`` the
         number of harmonics that are not exceeded. Without ``errors`` those of a fixed
-        resolution are not estimated. ``effort`` counts the evaluations. ``marched``
-        says that contacts are marched from sample to sample: how far a transition is
-        from the next sample, by which they err, is an accident at each point.
-        ``pushed`` says that pushes on rigid contacts are among the components: they
-        jump, so that they turn the tangent with every harmonic.
+        resolution are not estimated. ``effort`` counts the evaluations. ``pushed``
+        says that pushes on rigid contacts are among the components: they jump, so that
+        they turn the tangent with every harmonic.
         """
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
         self.fourier = self.settled = self._kept = start
@@ -92,7 +85,6 @@ class AdaptiveBalance:
         self._superharmonics = Superharmonics()
         self._smoothest, self._sharpest = start.threshold, 0.0
         self._estimates = errors or tolerance is not None
-        self._sampled: deque[tuple[float, int]] = deque(maxlen=NEIGHBOURS * marched)
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold or none is asked for"""
         orders = 2 * (start.harmonics if tolerance is None else most) + 1
@@ -223,16 +215,6 @@ class AdaptiveBalance:
     def _estimated(
         self, correction: Correction, normal: Array, across: bool
     ) -> Estimate:
-        """Return the error of a point, by sampling that of the points before it too.
-
-        Of second order: where they had more samples, theirs is smaller.
-        """
-        found, samples = self._alone(correction, normal, across), self.fourier.samples
-        likely = [ALIKE * each * (had / samples) ** 2 for each, had in self._sampled]
-        self._sampled.append((found.sampling, samples))
-        return replace(found, sampling=max(found.sampling, *likely, 0.0))
-
-    def _alone(self, correction: Correction, normal: Array, across: bool) -> Estimate:
         """Return the error at constant frequency or, where that is steep, across."""
         if across:
             return self._resolution.estimate(correction, self.fourier, normal)

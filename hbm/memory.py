@@ -10,11 +10,12 @@ coefficients of each direction in which the point itself moves.
 from __future__ import annotations
 
 import itertools
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.fourier import FourierBasis, waves
+from hbm.fourier import FourierBasis, derivative, waves
 from hbm.sliding_loop import sliding_loop
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import remembers
@@ -34,16 +35,7 @@ class FrictionMemory:
 
     def __init__(self, basis: Array, fourier: FourierBasis) -> None:
         """Plan for ``basis``, the map from y to the points, ``(3 points, rank)``."""
-        self._basis = basis
-        there, self._analysis = waves(fourier.harmonics, fourier.samples)
-        value = np.ascontiguousarray(there.T)
-        orders = np.arange(1, fourier.harmonics + 1)
-        slope = np.zeros_like(value)
-        slope[:, 1::2], slope[:, 2::2] = (
-            -orders * value[:, 2::2],
-            orders * value[:, 1::2],
-        )
-        self._waves = Waves(value, slope)
+        self._basis, self._fourier = basis, fourier
 
     def add(
         self,
@@ -57,12 +49,12 @@ class FrictionMemory:
 
         ``moved`` are displacement and velocity of the points at all samples.
         """
-        none = np.zeros((2, 3, 0, 0))
+        none, waves = np.zeros((2, 3, 0, 0)), Waves(np.zeros((0, 0)), np.zeros((0, 0)))
         for point in np.flatnonzero(marched(points)).tolist():
             rows = slice(3 * point, 3 * point + 3)
             loop = sliding_loop if points.friction[point] == PUSHED else steady_loop
             made, by_frequency = loop(
-                points, point, moved[0][rows], moved[1][rows], self._waves, frequency,
+                points, point, moved[0][rows], moved[1][rows], waves, frequency,
                 self._axes(point), none,
             )  # fmt: skip
             force[3 * point + 1 : 3 * point + 3] += made
@@ -81,22 +73,30 @@ class FrictionMemory:
         ``places``, shape ``(2H + 1, rank)``, are the rows and columns of the
         coefficients; negative ones are left out.
         """
-        gradient = np.empty((2, 3, *self._waves.value.shape))
+        waves, analysis = self._series
+        gradient = np.empty((2, 3, *waves.value.shape))
         for point in np.flatnonzero(marched(points)).tolist():
             rows, axes = slice(3 * point, 3 * point + 3), self._axes(point)
             loop = sliding_loop if points.friction[point] == PUSHED else steady_loop
             loop(
-                points, point, moved[0][rows], moved[1][rows], self._waves, frequency,
+                points, point, moved[0][rows], moved[1][rows], waves, frequency,
                 axes, gradient,
             )  # fmt: skip
             for row, column in itertools.product((1, 2), range(3)):
                 if axes[row] and axes[column]:
-                    block = self._analysis @ gradient[row - 1, column]
+                    block = analysis @ gradient[row - 1, column]
                     left, right = (
                         self._basis[3 * point + row],
                         self._basis[rows][column],
                     )
                     _scatter(block, left, right, places, jacobian)
+
+    @cached_property
+    def _series(self) -> tuple[Waves, Array]:
+        """Return the terms at the samples, and the analysis; for derivatives alone."""
+        there, analysis = waves(self._fourier.harmonics, self._fourier.samples)
+        slope = -derivative(there)  # of the terms, not of coefficients
+        return Waves(*map(np.ascontiguousarray, (there.T, slope.T))), analysis
 
     def _axes(self, point: int) -> NDArray[np.bool_]:
         """Return along which directions a point moves, shape (3,)."""

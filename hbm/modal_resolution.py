@@ -12,6 +12,7 @@ from hbm.active import extended
 from hbm.fourier import FourierBasis
 from hbm.free_motion import FreeMotion
 from hbm.linear_modes import LinearMode
+from hbm.memory import marched
 from hbm.modal import ModalBalance, ModalParts, Reference
 from hbm.relative import RelativeProblem
 from hbm.resolution import Resolution
@@ -37,6 +38,7 @@ class ModalResolution(Resolution):
         self._free, self._reference, self._linear = free, reference, linear
         self._balances: dict[FourierBasis, ModalBalance] = {}
         self.rank = problem.rank + free.count + 1
+        self.marched = bool(marched(problem.points).any())
 
     def at(self, fourier: FourierBasis) -> ModalBalance:
         """Return the balance at one resolution."""

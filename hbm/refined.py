@@ -50,6 +50,8 @@ class Refined(NamedTuple):
     """what further steps would change, over what the last did"""
     beyond: float
     """what still more harmonics would change, over what all steps did"""
+    rest: Array
+    """the residual there"""
     slope: Linearised
     """the derivative that the last step had"""
 
@@ -82,7 +84,7 @@ def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Re
     share = system.impulses(harmonics, 2 * harmonics + 1) / known if known else 0.0
     left = _left(sizes) if moves else 1.0
     beyond = _beyond(share, harmonics)
-    return Refined(residual, before, after, left, beyond, slope)
+    return Refined(residual, before, after, left, beyond, now, slope)
 
 
 def _size(values: Array) -> float:

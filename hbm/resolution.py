@@ -18,6 +18,8 @@ from microslip_mechanics.arrays import Array, ComplexArray, largest
 
 SMOOTHER = 1e-3
 """relative change of a threshold velocity that tells what it does"""
+MORE = 4
+"""times the samples after the steps, with which marches tell what these err"""
 TURNING = 0.25
 """share of a phasor's change that counts where its length just has an extremum"""
 
@@ -62,6 +64,9 @@ class Resolution(ABC):
 
     rank: int
     """number of components of a point for each Fourier coefficient"""
+    marched = False
+    """whether contacts are marched from sample to sample: how far a transition is from
+    the next sample, by which they err, is an accident at each resolution"""
 
     @abstractmethod
     def at(self, fourier: FourierBasis) -> Resolved:
@@ -97,7 +102,10 @@ class Resolution(ABC):
             for right in (correction.residual, low - correction.residual)
         )
         solved = point - newton
-        points = (point, solved, solved - sampled, made.before, made.corrected)
+        points = (
+            point, solved, solved - sampled, made.before, made.corrected,
+            made.corrected + self._resampled(made, finer, normal),
+        )  # fmt: skip
         sizes = self.amplitudes(points)
         places = np.array([each[-1:] for each in points])
         change, truncation, sampling = _changes(sizes, made)
@@ -115,6 +123,19 @@ class Resolution(ABC):
             finer,
             made.slope,
         )
+
+    def _resampled(self, made: Refined, finer: FourierBasis, normal: Array) -> Array:
+        """Return how a point after the steps changes if marches have ever more samples.
+
+        Where loads jump between samples marches are of first order: what so many times
+        the samples still err is that share of it.
+        """
+        if not self.marched:
+            return np.zeros_like(made.corrected)
+        finest = replace(finer, samples=MORE * finer.samples)
+        change = self.at(finest).residual(made.corrected) - made.rest
+        change *= MORE / (MORE - 1.0)
+        return made.slope.solve(normal, np.append(-change, 0.0))
 
     def _smoothing(
         self, correction: Correction, fourier: FourierBasis, normal: Array
@@ -143,24 +164,26 @@ def _changes(values: Array, made: Refined) -> tuple[float, float, float]:
     """Return how values change by steps, and how far they are off after them.
 
     That is by harmonics, and by samples. The rows of ``values`` are those of a point,
-    of it solved, solved with more samples, before the last step, and after it.
+    of it solved, solved with more samples, before the last step, after it, and of that
+    with still more samples, if these count.
     """
-    before, solved, resampled, after, last = values
+    before, solved, resampled, after, last, finest = values
     truncation = made.beyond * largest(last - resampled)
     lost = math.isinf(made.left)
     truncation += math.inf if lost else made.left * largest(last - after)
-    return largest(last - before), truncation, largest(resampled - solved)
+    sampling = max(largest(resampled - solved), largest(finest - last))
+    return largest(last - before), truncation, sampling
 
 
 class PathResolution(Resolution):
     """A path at any number of harmonics and samples, made when first asked for."""
 
-    def __init__(self, path: Path, probes: Array) -> None:
+    def __init__(self, path: Path, probes: Array, *, marched: bool = False) -> None:
         """Resolve ``path``; its points are judged by the amplitude of the probes.
 
-        ``probes`` has shape ``(probes, dofs)``.
+        ``probes`` has shape ``(probes, dofs)``; ``marched`` is that of a resolution.
         """
-        self._path, self._probes = path, probes
+        self._path, self._probes, self.marched = path, probes, marched
         self.rank = path.rank
         self._made: dict[FourierBasis, Balance] = {}
 

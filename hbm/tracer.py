@@ -33,9 +33,10 @@ class Tracer:
     def __init__(self, problem: Problem, path: Path, options: CurveOptions) -> None:
         """Plan for ``path``; ``problem``, one on it, says what is large."""
         self.path, self.effort = path, Effort(options.effort)
-        resolution = PathResolution(path, problem.probes.rows)
         points = problem.interface.points
         rigid = bool((points.friction == RIGID).any())
+        by_steps = rigid or bool(marched(points).any())
+        resolution = PathResolution(path, problem.probes.rows, marched=by_steps)
         self.system = AdaptiveBalance(
             resolution,
             replace(options.first, threshold=smoothest(path, options)),
@@ -43,7 +44,6 @@ class Tracer:
             most=options.most_harmonics,
             errors=options.errors,
             effort=self.effort,
-            marched=bool(marched(points).any()),
             pushed=rigid,
         )
         drive = largest(problem.drive)

@@ -104,7 +104,7 @@ class Resolution(ABC):
         solved = point - newton
         points = (
             point, solved, solved - sampled, made.before, made.corrected,
-            made.corrected + self._resampled(made, finer, normal),
+            *self._resampled(made, finer, normal),
         )  # fmt: skip
         sizes = self.amplitudes(points)
         places = np.array([each[-1:] for each in points])
@@ -124,18 +124,20 @@ class Resolution(ABC):
             made.slope,
         )
 
-    def _resampled(self, made: Refined, finer: FourierBasis, normal: Array) -> Array:
-        """Return how a point after the steps changes if marches have ever more samples.
+    def _resampled(
+        self, made: Refined, finer: FourierBasis, normal: Array
+    ) -> list[Array]:
+        """Return the point after the steps with ever more samples, if it is marched.
 
         Where loads jump between samples marches are of first order: what so many times
         the samples still err is that share of it.
         """
         if not self.marched:
-            return np.zeros_like(made.corrected)
+            return []
         finest = replace(finer, samples=MORE * finer.samples)
         change = self.at(finest).residual(made.corrected) - made.rest
         change *= MORE / (MORE - 1.0)
-        return made.slope.solve(normal, np.append(-change, 0.0))
+        return [made.corrected + made.slope.solve(normal, np.append(-change, 0.0))]
 
     def _smoothing(
         self, correction: Correction, fourier: FourierBasis, normal: Array
@@ -167,12 +169,12 @@ def _changes(values: Array, made: Refined) -> tuple[float, float, float]:
     of it solved, solved with more samples, before the last step, after it, and of that
     with still more samples, if these count.
     """
-    before, solved, resampled, after, last, finest = values
+    before, solved, resampled, after, last, *finest = values
     truncation = made.beyond * largest(last - resampled)
     lost = math.isinf(made.left)
     truncation += math.inf if lost else made.left * largest(last - after)
-    sampling = max(largest(resampled - solved), largest(finest - last))
-    return largest(last - before), truncation, sampling
+    sampling = [resampled - solved, *(each - last for each in finest)]
+    return largest(last - before), truncation, max(map(largest, sampling))
 
 
 class PathResolution(Resolution):

@@ -17,7 +17,11 @@ from microslip.studies.curve import Traced
 from microslip.studies.jump_folds import Fold, folds_of
 from microslip.studies.jumps import LEAST, Jump, Sweep
 from microslip.studies.verify import StudyError
-from microslip_mechanics.response import ResponseCurve, response_curve
+from microslip_mechanics.response import (
+    PeriodicResponse,
+    ResponseCurve,
+    response_curve,
+)
 from microslip_mechanics.static import static_equilibrium
 from small_problems import cubic_oscillator
 
@@ -96,6 +100,49 @@ def test_a_jump_lands_on_the_nearest_stable_motion_behind_the_fold(
     ):
         found = folds_of(problem, other, lead=0.1)
         assert [each.height for each in found] == [up.height, down.height]
+
+
+def upper_fold(traced: Traced) -> int:
+    """Return the place of the fold that ends sweeps upwards."""
+    return next(n for n, each in enumerate(traced.responses) if each.event == "fold")
+
+
+@pytest.mark.parametrize("behind", [1, 2])
+def test_sweeps_begin_on_the_piece_of_their_fold(behind: int, traced: Traced) -> None:
+    place = upper_fold(traced)
+    first = place - behind
+    mark = dataclasses.replace(traced.responses[first], event="restart")
+    piece = [mark, *traced.responses[first + 1 :]]
+
+    # what is traced before the piece is stable, and as near to the fold
+    for count in (0, first - 1):
+        response, begin = begun(traced, [*traced.responses[:count], *piece])
+
+        assert response is traced.responses[place]
+        assert begin is mark
+
+
+def test_no_sweep_begins_on_the_piece_behind_the_fold(traced: Traced) -> None:
+    place = upper_fold(traced)
+    before, fold = traced.responses[place - 1 : place + 1]
+    unstable = dataclasses.replace(before, multipliers=np.array([2.0 + 0j]))
+    behind = dataclasses.replace(before, event="restart")
+
+    assert begun(traced, [before, fold, behind])[1] is before
+    problem = cubic_oscillator(drive=0.3, damping=0.1)
+    for pieces in ([unstable, fold, behind], [behind, unstable, fold]):
+        cut = dataclasses.replace(traced, responses=(*pieces,))
+        assert folds_of(problem, cut, lead=0.5) == []
+
+
+def begun(
+    traced: Traced, responses: list[PeriodicResponse]
+) -> tuple[PeriodicResponse, PeriodicResponse]:
+    """Return the first fold of such a curve, and where sweeps to it begin."""
+    problem = cubic_oscillator(drive=0.3, damping=0.1)
+    made = dataclasses.replace(traced, responses=tuple(responses))
+    first = folds_of(problem, made, lead=0.5)[0]
+    return first.response, first.begin
 
 
 @pytest.mark.parametrize(("away", "status"), [(1e-6, 0), (-2e-5, 0), (1e-3, 1)])

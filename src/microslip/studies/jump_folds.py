@@ -64,7 +64,7 @@ def folds_of(problem: Problem, traced: Traced, *, lead: float) -> list[Fold]:
         )
     found = []
     for place, response in enumerate(traced.responses):
-        if response.event != "fold" or not 0 < place < len(traced.responses) - 1:
+        if response.event != "fold":
             continue
         begin = _begin(traced.responses, place, lead)
         if begin is not None:
@@ -85,17 +85,28 @@ def _begin(
     None if neither side of the fold is stable.
     """
     fold = responses[place].frequency
-    for step in (-1, 1):
-        begin, at = None, place + step
-        while 0 <= at < len(responses) and responses[at].unstable == 0:
-            if begin is not None and responses[at].event not in ("", "peak"):
+    for side in _sides(responses, place):
+        begin = None
+        for each in side:
+            other = each.event not in ("", "peak", *MARKS)
+            if each.unstable != 0 or (other and begin is not None):
                 break
-            begin, at = responses[at], at + step
+            begin = each
             if abs(begin.frequency - fold) >= lead * fold:
                 break
         if begin is not None:
             return begin
     return None
+
+
+def _sides(
+    responses: Sequence[PeriodicResponse], place: int
+) -> tuple[Sequence[PeriodicResponse], Sequence[PeriodicResponse]]:
+    """Return what lies before and behind a point of its piece, nearest first."""
+    begins = [n for n, each in enumerate(responses) if n == 0 or each.event in MARKS]
+    first = max(begin for begin in begins if begin <= place)
+    last = min((n for n in begins if n > place), default=len(responses))
+    return responses[first:place][::-1], responses[place + 1 : last]
 
 
 def _landing(

@@ -38,7 +38,9 @@ def traced() -> Traced:
     return Traced(response_curve(problem, found, "complete"), found, rest)
 
 
-def made(traced: Traced, away: float) -> list[Jump]:
+def made(
+    traced: Traced, away: float, fit: float = 1e-6, step: float = 0.0
+) -> list[Jump]:
     """Return jumps that lie so far behind their folds once extrapolated [Hz]."""
     problem, found = cubic_oscillator(drive=0.3, damping=0.1), []
     for fold in folds_of(problem, traced, lead=0.1):
@@ -46,7 +48,7 @@ def made(traced: Traced, away: float) -> list[Jump]:
         late = away + 1e-3 * RATES ** (2.0 / 3.0)
         places, slow = fold.hertz + sign * late, fold.hertz + sign * away
         envelopes = tuple((places, 0.1 * places) for _ in RATES)
-        found.append(Jump(fold, RATES, places, slow, 1e-6, envelopes))
+        found.append(Jump(fold, RATES, places, slow, fit, step, envelopes))
     return found
 
 
@@ -145,16 +147,28 @@ def begun(
     return first.response, first.begin
 
 
-@pytest.mark.parametrize(("away", "status"), [(1e-6, 0), (-2e-5, 0), (1e-3, 1)])
+@pytest.mark.parametrize(
+    ("away", "fit", "step", "status"),
+    [
+        (1e-6, 1e-6, 0.0, 0),
+        (-2e-5, 1e-6, 0.0, 0),
+        (1e-3, 1e-6, 0.0, 1),
+        (1e-3, 1e-6, 1e-3, 0),
+        (1e-3, 3.3e-4, 0.0, 0),
+        (1e-3, 1e-6, 3.3e-4, 1),
+    ],
+)
 def test_jumps_far_from_their_folds_decide_the_status(
     away: float,
+    fit: float,
+    step: float,
     status: int,
     traced: Traced,
     run: Run,
     quick_scene: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    jumps = made(traced, away)
+    jumps = made(traced, away, fit, step)
 
     def marched(*_: object) -> Iterator[Jump]:
         yield from jumps
@@ -168,12 +182,15 @@ def test_jumps_far_from_their_folds_decide_the_status(
     ended, output, error = run("jumps", str(quick_scene))
 
     assert (ended, error) == (status, "")
-    rows = re.findall(r"(up|down) +(\S+) +(\S+) +(\S+)(?: ± \S+  (\w+))?\n", output)
+    rows = re.findall(r"(up|down) +(\S+) +(\S+) +(\S+)(?: ± (\S+)  (\w+))?\n", output)
     assert [row[0] for row in rows] == ["up"] * 5 + ["down"] * 5
     assert [float(row[1]) for row in rows[:5]] == [8.0, 4.0, 2.0, 1.0, 0.0]
     behind = [float(row[3]) for row in rows[5:]]
     assert behind == pytest.approx([*(away + 1e-3 * RATES ** (2 / 3)), away], abs=6e-5)
-    assert rows[4][4] == rows[9][4] == ("DISAGREE" if status else "agree")
+    assert [float(row[4]) for row in rows[4::5]] == pytest.approx(
+        [fit + step] * 2, rel=0.1
+    )
+    assert rows[4][5] == rows[9][5] == ("DISAGREE" if status else "agree")
     assert (quick_scene.parent / "quick-jumps.png").is_file()
 
 
@@ -304,7 +321,7 @@ def test_sweeps_before_one_fails_are_kept(
     def swept(_: object, fold: Fold, rate: float, *__: object) -> Sweep:
         if rate < 2.0:
             raise stops
-        return fold.hertz + rate, (hertz, 1e-3 * hertz)
+        return fold.hertz + rate, fold.hertz + rate, (hertz, 1e-3 * hertz)
 
     folds = folds_of(cubic_oscillator(drive=0.3, damping=0.1), traced, lead=0.1)
     monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)

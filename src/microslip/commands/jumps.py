@@ -20,9 +20,9 @@ HEADER = """\
      fold  sweep     rate     jump  behind the fold
      [Hz]          [Hz/s]     [Hz]             [Hz]"""
 SPREAD = 3.0
-"""errors of the extrapolation within which a jump is on its fold"""
-STEPS = 1e-4
-"""of a fold's frequency: what time steps and harmonics may shift it by"""
+"""errors of the fit within which a jump is on its fold"""
+HARMONICS = 1e-4
+"""of a fold's frequency: what harmonics that it lacks may shift it by"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -33,8 +33,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Trace the curve of a scene; sweep through each fold at which a "
         "stable motion ends, at several rates, up or down; extrapolate the jump to no "
         "rate, compare it with the fold; write SCENE-jumps.png. Exit status 1 if one "
-        f"is further from its fold than {SPREAD:g} errors of the extrapolation and "
-        f"{STEPS:g} of the frequency; a curve without folds is told, and is 0.",
+        f"is further from its fold than {SPREAD:g} errors of the fit, the error of "
+        f"time steps and {HARMONICS:g} of the frequency; a curve without folds is "
+        "told, and is 0.",
         epilog="example: microslip jumps two-blades --set model=A --set "
         "friction.law=gkf --set excitation.force=1.9",
     )
@@ -134,7 +135,8 @@ def _late(jump: Jump, place: float) -> float:
 
 
 def _agrees(jump: Jump) -> bool:
-    accepted = SPREAD * jump.error + STEPS * jump.fold.hertz
+    accepted = SPREAD * jump.fit_error + jump.step_error
+    accepted += HARMONICS * jump.fold.hertz
     return abs(_late(jump, jump.extrapolated)) <= accepted
 
 

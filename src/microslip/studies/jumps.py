@@ -26,18 +26,21 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import joined
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import on_orbit
+from timedomain.step_doubling import CAUTION
 
 LEAST = 4
 """rates: three unknowns of the fit, and one to judge it by"""
 RATES = (2.2e-5, 1.1e-5, 5.5e-6, 2.75e-6)
 """of the sweeps, over the square of a fold's frequency, unless others are asked for"""
 STEPS, ROWS = 200, 20
-"""taken and stored per period"""
+"""taken and stored per period; another march takes half as many steps"""
 BLOCK = 200
 """periods after which one looks whether the motion has jumped"""
 
-Sweep: TypeAlias = tuple[float, tuple[Array, Array]]
-"""where it jumps [Hz], and its envelope by frequency [Hz]"""
+Envelope: TypeAlias = tuple[Array, Array]
+"""frequency [Hz] and largest deflection [m] of each cycle"""
+Sweep: TypeAlias = tuple[float, float, Envelope]
+"""where it jumps, and where with steps twice as long [Hz]; its envelope"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,10 +54,17 @@ class Jump:
     """at which the envelope has fallen or risen half way [Hz], shape (rates,)"""
     extrapolated: float
     """to no rate [Hz]; NaN while there are too few rates"""
-    error: float
+    fit_error: float
     """of that, see :func:`extrapolated` [Hz]"""
-    envelopes: tuple[tuple[Array, Array], ...]
-    """frequency [Hz] and largest deflection [m] of each cycle, for each rate"""
+    step_error: float
+    """of that, by the length of time steps [Hz]"""
+    envelopes: tuple[Envelope, ...]
+    """for each rate"""
+
+    @property
+    def error(self) -> float:
+        """Of ``extrapolated``, by both [Hz]."""
+        return self.fit_error + self.step_error
 
     @property
     def whole(self) -> bool:
@@ -74,7 +84,8 @@ def jumps(
     Parameters
     ----------
     problem
-        What is marched, with ``steps`` per period.
+        What is marched, with ``steps`` per period, rounded down to double steps of
+        whole rows, and beside with half as many.
     folds
         Of its curve.
     rates
@@ -107,11 +118,14 @@ def jumps(
 
 def _jump(fold: Fold, rates: Array, swept: Sequence[Sweep]) -> Jump:
     """Return what sweeps of these rates tell; too few tell of none slower."""
-    places = np.array([place for place, _ in swept])
-    envelopes = tuple(envelope for _, envelope in swept)
-    slow = (math.nan, math.nan)
+    places = np.array([place for place, _, _ in swept])
+    others = np.array([other for _, other, _ in swept])
+    envelopes = tuple(envelope for _, _, envelope in swept)
+    slow = (math.nan, math.nan, math.nan)
     if len(rates) >= LEAST:
-        slow = extrapolated(rates, places)
+        found, error = extrapolated(rates, places)
+        other, _ = extrapolated(rates, others)
+        slow = (found, error, CAUTION * abs(found - other))
     return Jump(fold, rates, places, *slow, envelopes)
 
 
@@ -140,9 +154,19 @@ def _fitted(rates: Array, frequency: Array) -> tuple[float, float]:
 
 
 def _swept(problem: Problem, fold: Fold, rate: float, steps: int) -> Sweep:
-    """Sweep through a fold until the motion has jumped.
+    """Sweep through a fold with these steps per period, and with half as many."""
+    half = ROWS * max(1, steps // (2 * ROWS))
+    place, envelope = _marched(problem, fold, rate, 2 * half)
+    other, _ = _marched(problem, fold, rate, half)
+    return place, other, envelope
 
-    Return where [Hz], and the envelope by frequency [Hz].
+
+def _marched(
+    problem: Problem, fold: Fold, rate: float, steps: int
+) -> tuple[float, Envelope]:
+    """March through a fold until the motion has jumped.
+
+    Return where [Hz], and the envelope.
 
     Raises
     ------
@@ -154,8 +178,7 @@ def _swept(problem: Problem, fold: Fold, rate: float, steps: int) -> Sweep:
     begin = fold.begin.frequency / (2.0 * np.pi)
     duration = abs(fold.end - begin) / rate
     sweep = SweptSine(0.0, 0.0, duration, duration, begin, fold.end)
-    stride = max(1, steps // ROWS)
-    options = MarchOptions(1.0 / (stride * ROWS * fold.hertz), stride)
+    options = MarchOptions(1.0 / (steps * fold.hertz), steps // ROWS)
     demand_end(sweep, options, "give faster --rates")
     start = on_orbit(problem, fold.begin)
     blocks = []

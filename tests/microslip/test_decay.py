@@ -2,9 +2,10 @@
 
 import csv
 import dataclasses
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
@@ -15,7 +16,13 @@ from microslip.quantity import SceneError
 from microslip.result_file import load
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.studies.decay import liveliest, measured, released, unmeasured
+from microslip.studies.decay import (
+    liveliest,
+    measured,
+    released,
+    step_errors,
+    unmeasured,
+)
 from microslip.studies.dwell import dwelling
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.ring_down import RingDown
@@ -24,8 +31,8 @@ from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from rigs import rig_problem
-from small_problems import oscillator, sliding_block
-from timedomain.integrate import MarchOptions, integrate
+from small_problems import cubic_oscillator, oscillator, sliding_block
+from timedomain.integrate import IntegrationError, MarchOptions, integrate
 from timedomain.start import Start, at_end
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -50,6 +57,27 @@ def test_linear_decay_has_the_damping_of_its_equation() -> None:
     np.testing.assert_allclose(decay.damping, 0.5 / (2.0 * np.sqrt(600.0)), rtol=1e-4)
     # average acceleration turns slower by (ωh)²/12
     np.testing.assert_allclose(decay.frequency, np.sqrt(150.0), rtol=2e-5)
+
+
+def test_the_error_of_the_steps_is_what_a_finer_march_shows() -> None:
+    # a hardening spring: frequency falls with the amplitude
+    problem = cubic_oscillator(cubic=50.0, damping=0.4, stiffness=100.0, drive=0.0)
+    start = Start(np.ones(1), np.zeros(1))
+
+    def of(steps: int) -> TimeHistory:
+        march = March(2.0 * np.pi / 10.0 / steps, 1)
+        blocks = released(problem, start, march, frequency=10.0, periods=10)
+        return joined(list(blocks), "complete")
+
+    true, other = measured(problem, of(6400), 0), of(100)
+    for steps in (200, 400):
+        history = of(steps)
+        told = step_errors(problem, history, other, 0)
+        found, other = measured(problem, history, 0), history
+        for name, error in zip(("frequency", "damping"), told, strict=True):
+            exact, seen = getattr(true, name), getattr(found, name)
+            away = np.abs(seen - exact).max() / exact.max()
+            assert away <= error < 10.0 * away
 
 
 def test_decay_against_friction_loses_as_much_in_each_cycle() -> None:
@@ -164,6 +192,8 @@ def test_decay_is_measured_from_a_dwell_and_from_a_file(
     status, output, _ = run("decay", scene, "--frequency", "135", *words)
     assert status == 0
     assert "damping ratio" in output
+    told = r"estimated error of time steps: frequency (\S+), damping (\S+), of the larg"
+    assert all(0.0 < float(each) < 1e-2 for each in re.findall(told, output)[0])
     run("dwell", scene, "--frequency", "135", "--tolerance", "0.5")
 
     begun = ("--from", "quick-dwell.nc", "--periods", "12", "-o", "again")
@@ -179,6 +209,29 @@ def test_decay_is_measured_from_a_dwell_and_from_a_file(
     history = load(tmp_path / "again.nc").result
     assert isinstance(history, TimeHistory)
     np.testing.assert_array_equal(history.level, 0.0)
+
+
+@pytest.mark.parametrize("blocks", [0, 1])
+def test_a_decay_whose_longer_steps_fail_is_measured_all_the_same(
+    blocks: int, run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def failing(
+        problem: Problem, state: Checkpoint, march: March, **given: Any
+    ) -> Iterator[TimeHistory]:
+        first, *more = released(problem, state, march, **given)
+        if march.time_step > step:
+            yield from [first][:blocks]
+            raise IntegrationError("too long")
+        yield from [first, *more]
+
+    step = load_scene(str(quick_scene), []).march.time_step
+    monkeypatch.setattr("microslip.studies.decay.released", failing)
+
+    words = ("--frequency", "135", "--tolerance", "0.5", "--periods", "12")
+    status, output, _ = run("decay", str(quick_scene), *words)
+
+    assert status == 0
+    assert output.endswith("estimated error of time steps: not known: too long\n")
 
 
 @pytest.mark.parametrize("change", ["blade.elements=3", "friction.mu_dynamic=0.1"])

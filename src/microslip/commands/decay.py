@@ -5,12 +5,15 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, dwell
+from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
+    from microslip.experiments import March
     from microslip.scene_tables import Scene
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.ring_down import RingDown
@@ -85,6 +88,9 @@ def _run(options: argparse.Namespace) -> int:
     save_figure(picture, decay_figure(history, decay, probe, title))
     print("\n".join(_lines(decay, history.probes[probe])))
     print(f"decay in {data}, table in {table}, picture in {picture}")
+    if ending == "complete":
+        begin = (state, frequency)
+        ending = _tell_step_errors(options, scene, problem, begin, history, probe)
     return arguments.ended(ending)
 
 
@@ -153,6 +159,59 @@ def _released(
         ending = kept(watched(length, "decay")(march), keep)
         recording.end(ending)
     return joined(blocks, ending), ending
+
+
+def _tell_step_errors(
+    options: argparse.Namespace,
+    scene: Scene,
+    problem: Problem,
+    begin: tuple[Checkpoint, float],
+    history: TimeHistory,
+    probe: int,
+) -> str:
+    """Print what a march with steps twice as long changes; return how it ended."""
+    from microslip.studies.decay import step_errors
+
+    try:
+        coarse = _coarse(options, scene.march, problem, begin)
+        ending = coarse.ending
+    except MicroslipError as error:
+        ending = str(error)
+    if ending == "interrupted":
+        return ending
+    said = f"not known: {ending}"
+    if ending == "complete":
+        told, damping = step_errors(problem, history, coarse, probe)
+        said = f"frequency {told:.1e}, damping {damping:.1e}, of the largest"
+    print(f"estimated error of time steps: {said}")
+    return "complete"
+
+
+def _coarse(
+    options: argparse.Namespace,
+    march: March,
+    problem: Problem,
+    begin: tuple[Checkpoint, float],
+) -> TimeHistory:
+    """Return the decay with steps twice as long, or what there is of it."""
+    from microslip.commands.sweep import watched
+    from microslip.studies.decay import released
+    from microslip.studies.sweep import kept
+    from microslip_mechanics.time_history import joined
+
+    state, frequency = begin
+    twice = replace(
+        march,
+        time_step=2.0 * march.time_step,
+        store_every=max(1, march.store_every // 2),
+    )
+    blocks: list[TimeHistory] = []
+    length = math.tau / frequency * options.periods
+    marched = released(
+        problem, state, twice, frequency=frequency, periods=options.periods
+    )
+    ending = kept(watched(length, "step errors")(marched), blocks.append)
+    return joined(blocks, ending)
 
 
 def _lines(decay: RingDown, probe: str) -> list[str]:

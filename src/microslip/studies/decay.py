@@ -11,6 +11,7 @@ import numpy as np
 from microslip.experiments import March
 from microslip.quantity import SceneError
 from microslip.studies.march_size import demand_end
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.ring_down import RingDown, ring_down
@@ -19,6 +20,7 @@ from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start, at_end
+from timedomain.step_doubling import CAUTION
 
 ROWS = 60
 """per period at least, if the steps are not longer"""
@@ -92,6 +94,40 @@ def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:
     """
     seen, rest = history.displacement[:, probe], _rest(problem, history, probe)
     return ring_down(history.time, seen, history.velocity[:, probe], rest=rest)
+
+
+def step_errors(
+    problem: Problem, history: TimeHistory, coarse: TimeHistory, probe: int
+) -> tuple[float, float]:
+    """Return what time steps change in a decay, as a march with longer ones tells.
+
+    Parameters
+    ----------
+    problem, history, probe
+        The decay that is measured.
+    coarse
+        The same decay, marched with steps twice as long.
+
+    Returns
+    -------
+    frequency, damping
+        Largest of all swings that both have, over the largest natural frequency and
+        over the largest damping ratio; NaN if there are none.
+    """
+    fine, other = (measured(problem, each, probe) for each in (history, coarse))
+    count = min(fine.time.size, other.time.size)
+    if count == 0:
+        return math.nan, math.nan
+    return (
+        _apart(fine.frequency[:count], other.frequency[:count]),
+        _apart(fine.damping[:count], other.damping[:count]),
+    )
+
+
+def _apart(fine: Array, coarse: Array) -> float:
+    """Return the estimated error of the former, over its largest value."""
+    largest = float(np.abs(fine).max())
+    return CAUTION * float(np.abs(fine - coarse).max()) / (largest or 1.0)
 
 
 def unmeasured(problem: Problem, history: TimeHistory, probe: int) -> str:

@@ -14,7 +14,7 @@ from hbm.path import along_frequency
 from hbm.resolution import PathResolution
 from memory_problems import CONTACTS, masses
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import PointLaw
+from microslip_mechanics.contact.points import PointLaw
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 

@@ -88,6 +88,25 @@ def test_one_fold_ends_sweeps_upwards_and_the_other_those_downwards() -> None:
     assert second.begin.frequency > second.response.frequency
 
 
+@pytest.mark.parametrize("harmonics", [None, 31, 63])
+def test_folds_are_swept_whose_multipliers_pass_one_beside_them(
+    harmonics: int | None,
+) -> None:
+    problem, low, high = FOLDED["slider"]
+    curve = traced(problem, low, high, harmonics=harmonics)
+
+    up, down = folds_of(problem, curve, lead=0.008)
+
+    assert (up.upward, down.upward) == (True, False)
+    for fold in (up, down):
+        assert fold.begin.unstable == 0
+        # from afar, whatever lies beside the fold
+        away = abs(fold.begin.frequency / fold.response.frequency - 1.0)
+        assert away > 0.004
+    # the upper one is left on the branch of the larger motion
+    assert np.hypot(*up.begin.coefficients[1:3, 0]) > up.height
+
+
 def test_duffings_jumps_lie_on_the_folds_once_the_rate_is_taken_out() -> None:
     for jump in jumped():
         late = (jump.frequency - jump.fold.hertz) * (1.0 if jump.fold.upward else -1.0)

@@ -132,9 +132,8 @@ def test_no_sweep_begins_on_the_piece_behind_the_fold(traced: Traced) -> None:
 
     assert begun(traced, [before, fold, behind])[1] is before
     problem = cubic_oscillator(drive=0.3, damping=0.1)
-    for pieces in ([unstable, fold, behind], [behind, unstable, fold]):
-        cut = dataclasses.replace(traced, responses=(*pieces,))
-        assert folds_of(problem, cut, lead=0.5) == []
+    cut = dataclasses.replace(traced, responses=(unstable, fold, behind))
+    assert folds_of(problem, cut, lead=0.5) == []
 
 
 def begun(

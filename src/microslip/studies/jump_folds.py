@@ -16,6 +16,10 @@ from microslip_mechanics.response import PeriodicResponse
 BEYOND = 1e-4
 """of a fold's frequency, by which one looks behind it for where the motion lands"""
 
+NEAR = 1e-3
+"""of a fold's frequency, within which a motion before it may seem unstable: where a
+slider turns over, multipliers pass 1 beside the fold"""
+
 
 @dataclass(frozen=True, slots=True)
 class Fold:
@@ -85,18 +89,33 @@ def _begin(
     None if neither side of the fold is stable.
     """
     fold = responses[place].frequency
-    for side in _sides(responses, place):
-        begin = None
-        for each in side:
-            other = each.event not in ("", "peak", *MARKS)
-            if each.unstable != 0 or (other and begin is not None):
-                break
-            begin = each
-            if abs(begin.frequency - fold) >= lead * fold:
-                break
-        if begin is not None:
-            return begin
+    for near in (0.0, NEAR * fold):
+        for side in _sides(responses, place):
+            begin = _stable(side, fold, lead * fold, near)
+            if begin is not None:
+                return begin
     return None
+
+
+def _stable(
+    side: Sequence[PeriodicResponse], fold: float, lead: float, near: float
+) -> PeriodicResponse | None:
+    """Return the last stable motion on one side that a sweep to the fold passes.
+
+    Unstable ones nearer than ``near`` [rad/s] are left out.
+    """
+    begin = None
+    for each in side:
+        away = abs(each.frequency - fold)
+        if begin is None and each.unstable > 0 and each.event != "fold" and away < near:
+            continue
+        other = each.event not in ("", "peak", *MARKS)
+        if each.unstable != 0 or (other and begin is not None):
+            break
+        begin = each
+        if away >= lead:
+            break
+    return begin
 
 
 def _sides(

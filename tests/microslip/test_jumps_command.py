@@ -312,7 +312,7 @@ def test_sweeps_before_one_fails_are_kept(
     stops: BaseException,
     traced: Traced,
     run: Run,
-    quick_scene: Path,
+    tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     hertz = np.linspace(0.2, 0.3, 5)
@@ -328,14 +328,15 @@ def test_sweeps_before_one_fails_are_kept(
     monkeypatch.setattr("microslip.studies.jumps._swept", swept)
 
     rates = ("--rates", *(f"{rate:g}" for rate in RATES))
-    ended, output, error = run("jumps", str(quick_scene), *rates)
+    ended, output, error = run("jumps", "jenkins", *rates)
 
     assert ended == (130 if isinstance(stops, KeyboardInterrupt) else 1)
     assert error.endswith("; what was computed is kept\n")
     rows = re.findall(r"(up|down) +(\S+) +\S+ +\S+\n", output)
     assert [float(row[1]) for row in rows] == [8.0, 4.0, 2.0]
     assert "agree" not in output.lower()
-    assert (quick_scene.parent / "quick-jumps.png").is_file()
+    assert HELD not in output
+    assert (tmp_path / "jenkins-jumps.png").is_file()
 
 
 @pytest.mark.parametrize(("ending", "code"), [("interrupted", 130), ("lost", 1)])

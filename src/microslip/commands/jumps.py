@@ -84,7 +84,8 @@ def _run(options: argparse.Namespace) -> int:
     found, ending = _collected(jumps(problem, folds, options.rates), len(folds))
     _draw(options, traced, found, picture)
     print(f"picture in {picture}")
-    status, agree = arguments.ended(ending), all(_agrees(each) for each in found)
+    status = arguments.ended(ending)
+    agree = all(_agrees(each) for each in found if each.whole)
     if not agree and beyond_motion(problem.interface.points):
         print(HELD)
     return status or (0 if agree else 1)

@@ -80,6 +80,36 @@ def test_the_error_of_the_steps_is_what_a_finer_march_shows() -> None:
             assert away <= error < 10.0 * away
 
 
+def linear_decay(steps: int, stride: int, *, periods: int) -> TimeHistory:
+    """Return a decay of 2 ü + 0.5 u̇ + 300 u = 4, whose time steps are exact."""
+    start, natural = Start(np.array([0.05]), np.zeros(1)), np.sqrt(150.0)
+    march = March(2.0 * np.pi / natural / steps, stride)
+    blocks = released(
+        oscillator(preload=4.0), start, march, frequency=natural, periods=periods
+    )
+    return joined(list(blocks), "complete")
+
+
+def test_the_error_of_the_rows_bounds_the_true_one() -> None:
+    problem, history = oscillator(preload=4.0), linear_decay(600, 10, periods=10)
+    found = measured(problem, history, 0)
+
+    told = step_errors(problem, history, linear_decay(300, 5, periods=10), 0)
+
+    exact = (np.sqrt(150.0), 0.5 / (2.0 * np.sqrt(600.0)))
+    for error, seen, true in zip(
+        told, (found.frequency, found.damping), exact, strict=True
+    ):
+        away = np.abs(seen / true - 1.0).max()
+        assert away <= error < 10.0 * away
+
+
+def test_errors_beside_a_decay_without_swings_are_not_known() -> None:
+    history, short = (linear_decay(600, 10, periods=count) for count in (10, 1))
+
+    assert np.isnan(step_errors(oscillator(preload=4.0), history, short, 0)).all()
+
+
 def test_decay_against_friction_loses_as_much_in_each_cycle() -> None:
     # 0.6 N, which turn over within a velocity of 1e-5 of the motion's
     friction = {"load": 2.0, "threshold": 1e-5, "viscous": 0.0}
@@ -192,7 +222,9 @@ def test_decay_is_measured_from_a_dwell_and_from_a_file(
     status, output, _ = run("decay", scene, "--frequency", "135", *words)
     assert status == 0
     assert "damping ratio" in output
-    told = r"estimated error of time steps: frequency (\S+), damping (\S+), of the larg"
+    told = (
+        r"error of time steps and rows: frequency (\S+), damping (\S+), of the largest"
+    )
     assert all(0.0 < float(each) < 1e-2 for each in re.findall(told, output)[0])
     run("dwell", scene, "--frequency", "135", "--tolerance", "0.5")
 
@@ -231,7 +263,9 @@ def test_a_decay_whose_longer_steps_fail_is_measured_all_the_same(
     status, output, _ = run("decay", str(quick_scene), *words)
 
     assert status == 0
-    assert output.endswith("estimated error of time steps: not known: too long\n")
+    assert output.endswith(
+        "estimated error of time steps and rows: not known: too long\n"
+    )
 
 
 @pytest.mark.parametrize("change", ["blade.elements=3", "friction.mu_dynamic=0.1"])

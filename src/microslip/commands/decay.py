@@ -30,7 +30,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="free decay: frequency and damping by amplitude",
         description="Drive the scene at one frequency until it is steady, or take the "
         "state at the end of a file; let the drive go, and measure natural frequency "
-        "and damping ratio of each cycle of the decay; write SCENE-decay.csv, "
+        "and damping ratio of each cycle of the decay; tell what they err by, from a "
+        "second decay with steps twice as long; write SCENE-decay.csv, "
         "SCENE-decay.nc and SCENE-decay.png.",
         epilog="example: microslip decay two-blades --frequency 136.8",
     )
@@ -183,7 +184,9 @@ def _tell_step_errors(
     if ending == "complete":
         told, damping = step_errors(problem, history, coarse, probe)
         said = f"frequency {told:.1e}, damping {damping:.1e}, of the largest"
-    print(f"estimated error of time steps: {said}")
+        if math.isnan(told):
+            said = "not known: steps twice as long show no swings"
+    print(f"estimated error of time steps and rows: {said}")
     return "complete"
 
 

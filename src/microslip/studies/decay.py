@@ -86,20 +86,26 @@ def _let_go(problem: Problem, state: Checkpoint) -> Start:
         ) from None
 
 
-def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:
+def measured(
+    problem: Problem, history: TimeHistory, probe: int, *, every: int = 1
+) -> RingDown:
     """Return frequency and damping of a probe's decay about its place of rest.
 
     That is the static equilibrium or, where friction depends on the past and may hold
-    it anywhere, the middle of the last cycle of the march.
+    it anywhere, the middle of the last cycle of the march. Extremes are sought in
+    ``every`` so many rows.
     """
-    seen, rest = history.displacement[:, probe], _rest(problem, history, probe)
-    return ring_down(history.time, seen, history.velocity[:, probe], rest=rest)
+    time, rest = history.time[::every], _rest(problem, history, probe)
+    rows = (each[::every, probe] for each in (history.displacement, history.velocity))
+    return ring_down(time, *rows, rest=rest)
 
 
 def step_errors(
     problem: Problem, history: TimeHistory, coarse: TimeHistory, probe: int
 ) -> tuple[float, float]:
-    """Return what time steps change in a decay, as a march with longer ones tells.
+    """Return what steps and rows change in a decay, as longer ones tell.
+
+    Rows of the other decay are taken two by two: extremes lie between rows, by a cubic.
 
     Parameters
     ----------
@@ -114,7 +120,8 @@ def step_errors(
         Largest of all swings that both have, over the largest natural frequency and
         over the largest damping ratio; NaN if there are none.
     """
-    fine, other = (measured(problem, each, probe) for each in (history, coarse))
+    fine = measured(problem, history, probe)
+    other = measured(problem, coarse, probe, every=2)
     count = min(fine.time.size, other.time.size)
     if count == 0:
         return math.nan, math.nan

@@ -49,12 +49,12 @@ class FrictionMemory:
 
         ``moved`` are displacement and velocity of the points at all samples.
         """
-        none, waves = np.zeros((2, 3, 0, 0)), Waves(np.zeros((0, 0)), np.zeros((0, 0)))
+        none, terms = np.zeros((2, 3, 0, 0)), Waves(*np.zeros((2, 0, 0)))
         for point in np.flatnonzero(marched(points)).tolist():
             rows = slice(3 * point, 3 * point + 3)
             loop = sliding_loop if points.friction[point] == PUSHED else steady_loop
             made, by_frequency = loop(
-                points, point, moved[0][rows], moved[1][rows], waves, frequency,
+                points, point, moved[0][rows], moved[1][rows], terms, frequency,
                 self._axes(point), none,
             )  # fmt: skip
             force[3 * point + 1 : 3 * point + 3] += made
@@ -73,13 +73,13 @@ class FrictionMemory:
         ``places``, shape ``(2H + 1, rank)``, are the rows and columns of the
         coefficients; negative ones are left out.
         """
-        waves, analysis = self._series
-        gradient = np.empty((2, 3, *waves.value.shape))
+        terms, analysis = self._series
+        gradient = np.empty((2, 3, *terms.value.shape))
         for point in np.flatnonzero(marched(points)).tolist():
             rows, axes = slice(3 * point, 3 * point + 3), self._axes(point)
             loop = sliding_loop if points.friction[point] == PUSHED else steady_loop
             loop(
-                points, point, moved[0][rows], moved[1][rows], waves, frequency,
+                points, point, moved[0][rows], moved[1][rows], terms, frequency,
                 axes, gradient,
             )  # fmt: skip
             for row, column in itertools.product((1, 2), range(3)):

@@ -137,7 +137,7 @@ class Resolution(ABC):
         finest = replace(finer, samples=MORE * finer.samples)
         change = self.at(finest).residual(made.corrected) - made.rest
         change *= MORE / (MORE - 1.0)
-        return [made.corrected + made.slope.solve(normal, np.append(-change, 0.0))]
+        return [made.corrected - made.slope.solve(normal, np.append(change, 0.0))]
 
     def _smoothing(
         self, correction: Correction, fourier: FourierBasis, normal: Array

@@ -55,7 +55,7 @@ def sliding_loop(
     made, change = np.zeros((2, 2, samples))
     step = Step(np.zeros(2), np.zeros(2), np.zeros(4), np.zeros((4, 6)))
     start, steady = _begun(points, point, displacement, velocity, loss, step)
-    columns = np.zeros((2, 1 + gradient[0, :, 0].size))
+    columns = np.zeros((2, 1 + gradient.shape[1] * gradient.shape[3]))
     for repeated in range(2):
         step.old[:] = start
         for place in range(samples):

@@ -23,10 +23,10 @@ FREQUENCIES = np.linspace(5.0, 9.0, 41)
 COARSE, FINEST = FourierBasis(7, 64), 4096
 
 
-def errors(problem: Problem, *, marched: bool) -> tuple[Array, Array]:
+def errors(problem: Problem) -> tuple[Array, Array]:
     """Return estimated errors of points along a curve, and what marches err."""
     path = along_frequency(problem, static_equilibrium(problem), *FREQUENCIES[[0, -1]])
-    made = PathResolution(path, problem.probes.rows, marched=marched)
+    made = PathResolution(path, problem.probes.rows, marched=True)
     solved = COARSE.coefficients * path.rank
     point = np.zeros(COARSE.doubled.coefficients * path.rank + 1)
     upright = np.append(np.zeros(point.size - 1), 1.0)
@@ -49,7 +49,7 @@ def errors(problem: Problem, *, marched: bool) -> tuple[Array, Array]:
 def test_more_samples_tell_what_two_numbers_of_them_hide(
     law: PointLaw, seen: Array, drive: Array
 ) -> None:
-    estimated, true = errors(masses(law, seen, drive), marched=True)
+    estimated, true = errors(masses(law, seen, drive))
 
     # Doubled samples alone bound 41 to 93 % of these.
     assert np.mean(true <= estimated + 1e-12) >= 0.9

@@ -119,8 +119,8 @@ class Structure:
         light, heavy = int(diagonal.argmin()), int(diagonal.argmax())
         if 0.0 < diagonal[light] < LIGHTEST * diagonal[heavy]:
             raise ValueError(
-                f"mass of {self.names[light]} is {diagonal[light]:g} kg beside "
-                f"{diagonal[heavy]:g} kg of {self.names[heavy]}, which rounding takes "
+                f"mass of {self.names[light]} is {diagonal[light]:g} beside "
+                f"{diagonal[heavy]:g} of {self.names[heavy]}, which rounding takes "
                 "for nothing: lock it or give it more mass"
             )
 

@@ -59,8 +59,9 @@ class Quantity:
                 "reckoned with it overflows"
             )
         if 0.0 < abs(number) < 1.0 / LARGEST:
+            zero = "" if self.positive else "0 or "
             raise ValueError(
-                f"is out of range: give 0 or at least {1.0 / LARGEST:g} in size, or "
+                f"is out of range: give {zero}at least {1.0 / LARGEST:g} in size, or "
                 "what is reckoned with it vanishes"
             )
         inside = self.lowest <= number <= self.highest

@@ -135,3 +135,5 @@ def test_number_whose_square_vanishes_is_refused(value: float | str) -> None:
         kind.read(value)
     assert kind.read(0.0) == 0.0
     assert kind.read(1e-50) == 1e-50
+    with pytest.raises(ValueError, match=r"^is out of range: give at least 1e-50 "):
+        LENGTH.read(1e-60)

@@ -73,7 +73,8 @@ def folds_of(problem: Problem, traced: Traced, *, lead: float) -> list[Fold]:
         begin = _begin(traced.responses, place, lead)
         if begin is not None:
             upward = begin.frequency < response.frequency
-            landing = _landing(problem, traced, response, upward=upward)
+            way = _way(traced.responses, place, begin)
+            landing = _landing(problem, traced, response, way, upward=upward)
             if landing is not None:
                 share = 1.0 + (lead if upward else -lead)
                 end = share * response.frequency / (2.0 * np.pi)
@@ -128,20 +129,34 @@ def _sides(
     return responses[first:place][::-1], responses[place + 1 : last]
 
 
+def _way(
+    responses: Sequence[PeriodicResponse], place: int, begin: PeriodicResponse
+) -> range:
+    """Return the places from a stable motion to the fold that it comes to."""
+    begun = next(n for n, each in enumerate(responses) if each is begin)
+    return range(min(begun, place), max(begun, place))
+
+
 def _landing(
-    problem: Problem, traced: Traced, fold: PeriodicResponse, *, upward: bool
+    problem: Problem,
+    traced: Traced,
+    fold: PeriodicResponse,
+    way: range,
+    *,
+    upward: bool,
 ) -> tuple[float, bool] | None:
     """Return half way between the fold and the stable motion behind it [m].
 
-    And whether that one is smaller; None if there is none.
+    And whether that one is smaller; None if there is none. It does not lie on the
+    ``way`` to the fold, whose last points may be behind that by their errors.
     """
     behind = fold.frequency * (1.0 + (BEYOND if upward else -BEYOND))
     frequency, seen = traced.curve.frequency, traced.curve.amplitude[:, 0]
     here = float(np.hypot(*fold.seen(problem.probes.rows[:1])[1:3, 0]))
     landings = []
     for first in range(len(frequency) - 1):
-        if traced.curve.event[first + 1] in MARKS:
-            continue  # another piece begins there
+        if first in way or traced.curve.event[first + 1] in MARKS:
+            continue  # the latter begin another piece
         low, high = frequency[first : first + 2]
         stable = traced.curve.unstable[first : first + 2].max() <= 0
         if stable and (low - behind) * (high - behind) <= 0.0 and low != high:

@@ -88,7 +88,7 @@ def test_one_fold_ends_sweeps_upwards_and_the_other_those_downwards() -> None:
     assert second.begin.frequency > second.response.frequency
 
 
-@pytest.mark.parametrize("harmonics", [None, 31, 63])
+@pytest.mark.parametrize("harmonics", [None, 63])
 def test_folds_are_swept_whose_multipliers_pass_one_beside_them(
     harmonics: int | None,
 ) -> None:
@@ -186,7 +186,6 @@ FOLDED = {
         pytest.param("hardening", marks=pytest.mark.slow(seconds=10)),
         pytest.param("softening", marks=pytest.mark.slow(seconds=10)),
         pytest.param("rubbing", marks=pytest.mark.slow(seconds=10)),
-        pytest.param("slider", marks=pytest.mark.slow(seconds=30)),
     ],
 )
 def test_the_told_error_is_that_of_the_fit_and_of_the_time_steps(name: str) -> None:

@@ -183,9 +183,7 @@ FOLDED = {
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param("hardening", marks=pytest.mark.slow(seconds=10)),
         pytest.param("softening", marks=pytest.mark.slow(seconds=10)),
-        pytest.param("rubbing", marks=pytest.mark.slow(seconds=10)),
     ],
 )
 def test_the_told_error_is_that_of_the_fit_and_of_the_time_steps(name: str) -> None:

@@ -14,7 +14,7 @@ from microslip_mechanics.quantity import LARGEST
 
 MATRICES = ("mass", "damping", "stiffness")
 LIGHTEST = 1e-15
-"""mass over the largest one, below which sums of both have nothing of it"""
+"""mass over stiffness, over the largest one, below which rounding takes all of it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,13 +114,19 @@ class Structure:
             raise ValueError("damping is not symmetric: only symmetric is supported")
 
     def _check_light(self) -> None:
-        """Check that no mass is lost beside the others by rounding."""
-        diagonal = self.mass.diagonal()
-        light, heavy = int(diagonal.argmin()), int(diagonal.argmax())
-        if 0.0 < diagonal[light] < LIGHTEST * diagonal[heavy]:
+        """Check that no mass is lost beside the others by rounding.
+
+        Each is compared over its own stiffness, as some may be those of rotations.
+        """
+        mass, held = self.mass.diagonal(), self.stiffness.diagonal()
+        slow = np.divide(mass, held, out=np.full(mass.size, np.nan), where=held > 0.0)
+        if np.isnan(slow).all():
+            return
+        light, heavy = int(np.nanargmin(slow)), int(np.nanargmax(slow))
+        if 0.0 < slow[light] < LIGHTEST * slow[heavy]:
             raise ValueError(
-                f"mass of {self.names[light]} is {diagonal[light]:g} beside "
-                f"{diagonal[heavy]:g} of {self.names[heavy]}, which rounding takes "
+                f"mass of {self.names[light]} is {mass[light]:g} beside "
+                f"{mass[heavy]:g} of {self.names[heavy]}, which rounding takes "
                 "for nothing: lock it or give it more mass"
             )
 

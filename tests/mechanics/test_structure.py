@@ -88,6 +88,16 @@ def test_mass_that_rounding_takes_for_nothing_is_refused(*, sparse: bool) -> Non
         structure(**matrices)
 
 
+@pytest.mark.parametrize("held", [1e-12, 0.0, -1.0])
+def test_small_inertia_that_is_held_as_softly_or_not_at_all_is_none(
+    held: float,
+) -> None:
+    # of a rotation, in other units, or of what contacts alone hold
+    made = structure(mass=np.diag([3.0, 1e-16]), stiffness=np.diag([1.0, held]))
+
+    assert made.dofs == 2
+
+
 @pytest.mark.parametrize("name", MATRICES)
 def test_asymmetric_matrix_is_refused(name: str) -> None:
     matrix = np.array([[1.0, 2e-9], [0.0, 1.0]])

@@ -13,6 +13,8 @@ from microslip.commands import arguments, dwell
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from microslip.experiments import March
     from microslip.scene_tables import Scene
     from microslip_mechanics.problem import Problem
@@ -72,8 +74,9 @@ def _run(options: argparse.Namespace) -> int:
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     chosen = _chosen(options, problem)
-    state, frequency = _driven(options, scene, problem, data)
-    history, ending = _released(options, scene, problem, (state, frequency, data))
+    begin = _driven(options, scene, problem, data)
+    history = _released(options, scene, problem, begin, data)
+    ending = history.ending
     probe = liveliest(history) if chosen is None else chosen
     decay = measured(problem, history, probe)
     if not decay.time.size:
@@ -85,12 +88,11 @@ def _run(options: argparse.Namespace) -> int:
     hertz = decay.frequency / math.tau
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
     save_table(table, COLUMNS, zip(*columns, strict=True))
-    title = f"{arguments.title(options)}, let go at {frequency / math.tau:g} Hz"
+    title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:g} Hz"
     save_figure(picture, decay_figure(history, decay, probe, title))
     print("\n".join(_lines(decay, history.probes[probe])))
     print(f"decay in {data}, table in {table}, picture in {picture}")
     if ending == "complete":
-        begin = (state, frequency)
         ending = _tell_step_errors(options, scene, problem, begin, history, probe)
     return arguments.ended(ending)
 
@@ -135,31 +137,48 @@ def _released(
     options: argparse.Namespace,
     scene: Scene,
     problem: Problem,
-    begin: tuple[Checkpoint, float, Path],
-) -> tuple[TimeHistory, str]:
-    """March the decay into a file; return it, and how it ended."""
-    from microslip.commands.sweep import watched
+    begin: tuple[Checkpoint, float],
+    data: Path,
+) -> TimeHistory:
+    """March the decay into a file; return it, and in it how it ended."""
     from microslip.recording import Recording
+
+    with Recording(data, scene.text, options.command) as recording:
+        history = _marched(
+            options, scene.march, problem, begin, ("decay", recording.keep)
+        )
+        recording.end(history.ending)
+    return history
+
+
+def _marched(
+    options: argparse.Namespace,
+    march: March,
+    problem: Problem,
+    begin: tuple[Checkpoint, float],
+    shown: tuple[str, Callable[[TimeHistory], None]],
+) -> TimeHistory:
+    """Return a decay, or what there is of it, and in it how it ended.
+
+    ``shown`` is what its bar says, and what takes its blocks as they come.
+    """
+    from microslip.commands.sweep import watched
     from microslip.studies.decay import released
     from microslip.studies.sweep import kept
     from microslip_mechanics.time_history import joined
 
-    state, frequency, data = begin
-    recording = Recording(data, scene.text, options.command)
+    (state, frequency), (name, also) = begin, shown
     blocks: list[TimeHistory] = []
 
     def keep(block: TimeHistory) -> None:
-        recording.keep(block)
+        also(block)
         blocks.append(block)
 
-    march = released(
-        problem, state, scene.march, frequency=frequency, periods=options.periods
+    marching = released(
+        problem, state, march, frequency=frequency, periods=options.periods
     )
     length = math.tau / frequency * options.periods
-    with recording:
-        ending = kept(watched(length, "decay")(march), keep)
-        recording.end(ending)
-    return joined(blocks, ending), ending
+    return joined(blocks, kept(watched(length, name)(marching), keep))
 
 
 def _tell_step_errors(
@@ -173,8 +192,15 @@ def _tell_step_errors(
     """Print what a march with steps twice as long changes; return how it ended."""
     from microslip.studies.decay import step_errors
 
+    twice = replace(
+        scene.march,
+        time_step=2.0 * scene.march.time_step,
+        store_every=max(1, scene.march.store_every // 2),
+    )
     try:
-        coarse = _coarse(options, scene.march, problem, begin)
+        coarse = _marched(
+            options, twice, problem, begin, ("step errors", lambda _: None)
+        )
         ending = coarse.ending
     except MicroslipError as error:
         ending = str(error)
@@ -188,33 +214,6 @@ def _tell_step_errors(
             said = "not known: steps twice as long show no swings"
     print(f"estimated error of time steps and rows: {said}")
     return "complete"
-
-
-def _coarse(
-    options: argparse.Namespace,
-    march: March,
-    problem: Problem,
-    begin: tuple[Checkpoint, float],
-) -> TimeHistory:
-    """Return the decay with steps twice as long, or what there is of it."""
-    from microslip.commands.sweep import watched
-    from microslip.studies.decay import released
-    from microslip.studies.sweep import kept
-    from microslip_mechanics.time_history import joined
-
-    state, frequency = begin
-    twice = replace(
-        march,
-        time_step=2.0 * march.time_step,
-        store_every=max(1, march.store_every // 2),
-    )
-    blocks: list[TimeHistory] = []
-    length = math.tau / frequency * options.periods
-    marched = released(
-        problem, state, twice, frequency=frequency, periods=options.periods
-    )
-    ending = kept(watched(length, "step errors")(marched), blocks.append)
-    return joined(blocks, ending)
 
 
 def _lines(decay: RingDown, probe: str) -> list[str]:

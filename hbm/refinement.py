@@ -16,6 +16,8 @@ from microslip_mechanics.jit import bare_kernel
 
 GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
+_PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
+GRADED_PLACES, GRADED_WEIGHTS = 0.5 + 0.5 * _PLACES, 0.5 * _WEIGHTS
 BESIDE = 1e-9
 """of a cell's way: how far from the edge both sides of a jump are looked at"""
 
@@ -54,31 +56,44 @@ def refine(
     place: int,
     after: int,
     events: Array,
+    grade: int,
+    part: float,
     symmetry: Symmetry,
 ) -> None:
     """Replace the trapezoidal rule in one cell by Gauss rules between its events.
 
     What a node sees is shared out to the two samples as a linear function would be. A
-    force that jumps as the faces touch has a tangent there alone.
+    force that jumps as the faces touch has a tangent there alone. Nodes are
+    graded towards the edge by a root of order ``grade``; ``part`` is the part of the
+    rule that is replaced.
     """
-    if points.damping[point] != 0.0:
+    if points.damping[point] != 0.0 and grade == 1:
         _jump(
             points, point, displacement, velocity, work, made, first, last, place,
             after, symmetry,
         )  # fmt: skip
     wraps = place + 1 == made.forces.shape[1] // 2 and symmetry.signs.size > 0
     target = 0 if wraps else after
-    for piece in range(-2, 3 * (events.size - 1)):
+    touch, nodes = edge(points, point), 3 if grade == 1 else 4
+    before = displacement[3 * point, place] - touch
+    change = displacement[3 * point, after] - touch - before
+    for piece in range(-2, nodes * (events.size - 1)):
         if piece < 0:
             # what the trapezoidal rule has put there is taken back
             share = piece + 2.0
             near, far = -0.5 * (1.0 - share), -0.5 * share
             blur = 1.0 / 6.0
         else:
-            left, right = events[piece // 3], events[piece // 3 + 1]
-            share = left + (right - left) * GAUSS_PLACES[piece % 3]
-            weight = (right - left) * GAUSS_WEIGHTS[piece % 3]
+            left, right = events[piece // nodes], events[piece // nodes + 1]
+            if grade == 1:
+                share = left + (right - left) * GAUSS_PLACES[piece % 3]
+                weight = (right - left) * GAUSS_WEIGHTS[piece % 3]
+            else:
+                share, weight = _graded_node(
+                    left, right, -before / change, grade, piece % nodes
+                )
             near, far, blur = weight * (1.0 - share), weight * share, 0.0
+        near, far, blur = part * near, part * far, part * blur
         for axis in range(3):
             row = 3 * point + axis
             work.moved[axis] = (1.0 - share) * displacement[row, place] + (
@@ -99,6 +114,23 @@ def refine(
             point, work, made, first, last, target, far,
             far - blur * (1.0 - 2.0 * share), wraps, symmetry,
         )  # fmt: skip
+
+
+@bare_kernel
+def _graded_node(
+    left: float, right: float, touch: float, grade: int, node: int
+) -> tuple[float, float]:
+    """Return the share and the weight of a Gauss node between two events.
+
+    Gauss's rule is that of the root, of order ``grade``, of the distance to where the
+    faces ``touch``, in or beside the cell.
+    """
+    power = 1.0 / grade
+    near, far = abs(left - touch) ** power, abs(right - touch) ** power
+    root = near + (far - near) * GRADED_PLACES[node]
+    way = 1.0 if left + right > 2.0 * touch else -1.0
+    weight = way * (far - near) * GRADED_WEIGHTS[node] * grade * root ** (grade - 1)
+    return touch + way * root**grade, weight
 
 
 @bare_kernel

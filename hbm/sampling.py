@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hbm.refinement import Samples, Work, refine
 from hbm.symmetry import Symmetry
-from hbm.transitions import EVENTS, faded, locate, passes
+from hbm.transitions import EVENTS, faded, graded, locate, passes, steepness
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, edge, rubs
 from microslip_mechanics.contact.points import ContactPoints
@@ -85,9 +85,14 @@ def sample(
         row, threshold = 3 * point, points.threshold[point]
         wide = faded(points, point)
         touch, slides = edge(points, point), rubs(points, point)
+        steep, near = steepness(points, point), 0.0
         for place in range(seen):
             after = place + 1 if place + 1 < displacement.shape[1] else 0
-            if not passes(
+            if steep > 1:
+                near = graded(
+                    displacement[row, place] - touch, displacement[row, after] - touch
+                )
+            if near == 0.0 and not passes(
                 displacement,
                 velocity,
                 row,
@@ -100,10 +105,11 @@ def sample(
             ):
                 continue
             found = locate(points, point, displacement, velocity, place, after, events)
-            if found > 0:
+            if found > 0 or near > 0.0:
                 refine(
                     points, point, displacement, velocity, work, made, bounds[point],
-                    bounds[point + 1], place, after, events[: found + 2], symmetry,
+                    bounds[point + 1], place, after, events[: found + 2],
+                    steep if near > 0.0 else 1, 1.0 if found > 0 else near, symmetry,
                 )  # fmt: skip
 
 

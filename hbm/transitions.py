@@ -11,13 +11,21 @@ import math
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import edge, rubs
-from microslip_mechanics.contact.points import GENERAL_KINETIC, ContactPoints
+from microslip_mechanics.contact.points import (
+    GENERAL_KINETIC,
+    ONE_SIDED,
+    ContactPoints,
+)
 from microslip_mechanics.jit import bare_kernel, kernel
 
 EVENTS = 10
 """most within a cell: two crossings of each of four speeds, one turn, one touch"""
 FADING = 3.0
 """Stribeck speeds past the threshold at which an event is placed as well"""
+STEEPEST = 4
+"""order of the root, at the most, by which nodes are graded towards a steep edge"""
+BESIDE = 2.0
+"""cells beside a steep edge that are graded; the half that is farther away fades out"""
 
 
 @bare_kernel
@@ -27,6 +35,31 @@ def faded(points: ContactPoints, point: int) -> float:
     if points.friction[point] == GENERAL_KINETIC:
         speed += FADING * points.stribeck[point]
     return speed
+
+
+@bare_kernel
+def steepness(points: ContactPoints, point: int) -> int:
+    """Return the order of a root that is about as steep as damping at the edge is.
+
+    It is 1 unless damping grows with a power of penetration below 1.
+    """
+    power = points.damping_exponent[point]
+    steep = points.normal[point] == ONE_SIDED and points.damping[point] != 0.0
+    if not (steep and 0.0 < power < 1.0):
+        return 1
+    return int(min(math.ceil(1.0 / power), STEEPEST))
+
+
+@bare_kernel
+def graded(before: float, behind: float) -> float:
+    """Return how far a cell with a steep edge, or beside it, is graded, from 0 to 1.
+
+    ``before`` and ``behind`` are the penetrations at its ends.
+    """
+    nearest, way = min(before, behind), BESIDE * abs(behind - before)
+    if nearest >= way or max(before, behind) <= 0.0:
+        return 0.0
+    return float(min(1.0, 2.0 - 2.0 * nearest / way))
 
 
 @bare_kernel
@@ -81,8 +114,7 @@ def locate(
     place, after
         The samples at the cell's ends.
     events
-        Written: 0, the events in rising order, and 1; shape ``(EVENTS + 2,)``. Nothing
-        is written where there are none.
+        Written: 0, the events in rising order, and 1; shape ``(EVENTS + 2,)``.
     """
     row = 3 * point
     touch = edge(points, point)
@@ -97,8 +129,8 @@ def locate(
     if (before > 0.0) != (behind > 0.0):
         found += 1
         events[found] = before / (before - behind)
-    if found > 0:
-        events[0], events[found + 1] = 0.0, 1.0
+    events[0], events[found + 1] = 0.0, 1.0
+    if found > 1:
         events[1 : found + 1].sort()
     return found
 

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 from hbm import iterated, linearisation
 from hbm.bordered import Bordered
 from hbm.continuation import correct_at
+from hbm.effort import Effort
 from hbm.fourier import FourierBasis, to_complex, to_real
+from hbm.homotopy import approaches
 from hbm.linearisation import Linearisation
 from hbm.path import along_frequency
 from hbm.residual import HarmonicBalance
@@ -25,6 +27,7 @@ from rigs import rig_problem
 FREQUENCY = 2.0 * np.pi * 134.9
 """near the peak: normal forces of jammed faces change by half"""
 FEW, FOURIER = FourierBasis(7, 128), FourierBasis(127, 1024)
+CONTROL = StepControl(tolerance=1e-6)
 
 
 class Case(NamedTuple):
@@ -47,8 +50,8 @@ def case(*, symmetry: bool) -> Case:
     few, balance = path.balance(FEW), path.balance(FOURIER)
     assert isinstance(few, HarmonicBalance)
     assert isinstance(balance, HarmonicBalance)
-    guess = few.point(path.problem.rest[None], FREQUENCY)
-    found = correct_at(few, guess, StepControl(tolerance=1e-6))
+    coarse = next(approaches(path, FREQUENCY, CONTROL, Effort(), np.ones_like))
+    found = correct_at(few, few.point(coarse, FREQUENCY), CONTROL)
     solved, _ = few.split(found.point)
     motion = np.zeros((FOURIER.coefficients, balance.rank))
     motion[: len(solved)] = solved

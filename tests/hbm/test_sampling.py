@@ -9,7 +9,12 @@ from contact_tables import contact_points
 from convergence import observed_order
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis, derivative, to_complex
-from hbm.refinement import GAUSS_PLACES, GAUSS_WEIGHTS
+from hbm.refinement import (
+    GAUSS_PLACES,
+    GAUSS_WEIGHTS,
+    GRADED_PLACES,
+    GRADED_WEIGHTS,
+)
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import FRICTIONLESS, ContactPoints
@@ -38,6 +43,13 @@ RATIOS = [1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9]
 @pytest.mark.parametrize("power", range(6))
 def test_the_rule_between_events_is_exact_up_to_the_fifth_power(power: int) -> None:
     found = GAUSS_WEIGHTS @ GAUSS_PLACES**power
+
+    assert found == pytest.approx(1.0 / (power + 1.0), rel=1e-14)
+
+
+@pytest.mark.parametrize("power", range(8))
+def test_the_graded_rule_is_exact_up_to_the_seventh_power(power: int) -> None:
+    found = GRADED_WEIGHTS @ GRADED_PLACES**power
 
     assert found == pytest.approx(1.0 / (power + 1.0), rel=1e-14)
 

@@ -6,7 +6,7 @@ Each is located on the curve, and settled as accurately as its points (theory §
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -14,9 +14,9 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
-from hbm.crossings import BRANCH, Crossings
+from hbm.crossings import Crossings
 from hbm.event_error import fold_error, peak_error
-from hbm.fourier import FourierBasis
+from hbm.found import Found, in_order, lost
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome
 from hbm.resolution import PathResolution
@@ -26,11 +26,6 @@ from hbm.step_control import StepControl
 
 STRICT, SHARP = 0.1, ("fold", "peak")
 """share of the error of a point that these events may have: they mark a frequency"""
-UPRIGHT = 5e-3
-"""part of the parameter in a unit tangent below which a multiplier +1 is that of a fold
-beside the segment"""
-NEAR = 0.4
-"""share of a step within which a multiplier +1 is that of a fold in the same step"""
 FLAT = 1e-13
 """change of an amplitude, relative, that may be rounding"""
 ASIDE = 3e-3
@@ -44,19 +39,6 @@ class Event(NamedTuple):
     name: str
     error: float
     """of the parameter where it lies; NaN if nothing is known of it"""
-
-
-class Found(NamedTuple):
-    """Where something happens between two points."""
-
-    place: float
-    """along the segment"""
-    name: str
-    point: Correction
-    fourier: FourierBasis
-    """the resolution with which it was located"""
-    bend: float = math.nan
-    """of a peak or a fold: change, along the segment, of what is zero there"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,14 +66,14 @@ class Events:
             *self._peaks(before, after, metric),
             *self._changes(segment, before, after),
         ]
-        for each in _told(found, segment, owed=before.owes):
+        for each in in_order(found, segment, owed=before.owes):
             self.system.fourier = each.fourier
             settled = self._settled(each, segment, metric)
             if settled is None:
                 continue
             error = self._error(each, settled, segment, metric)
             if error is not None:
-                yield Event(settled, each.name, error)
+                yield Event(settled, each.name, error + each.aside)
         self.system.fourier = fourier
 
     def directed(self, settled: Settled, metric: Metric) -> Settled:
@@ -159,11 +141,15 @@ class Events:
         else:
             self.system.fourier = max(before.fourier, after.fourier, key=by_harmonics)
         segment = self._segment(*ends, metric)
-        located = segment.locate(self.growth, growth)
+        located, length = segment.locate(self.growth, growth), segment.length
+        bend = (growth[0] - growth[1]) / (length or 1.0)
         if located is not None:
             place = segment.place(located.point)
-            bend = (growth[0] - growth[1]) / segment.length
             yield Found(place, "peak", located, self.system.fourier, bend)
+        elif length > 0.0:
+            sizes = self.resolution.amplitudes([each.point for each in ends])
+            end = ends[int(sizes.max(axis=1).argmax())]
+            yield lost("peak", segment, end, self.system.fourier, bend)
         self.system.fourier = solved
 
     def _folded(self, segment: Segment) -> Iterator[Found]:
@@ -172,11 +158,16 @@ class Events:
             yield Found(0.0, "fold", segment.before, self.system.fourier)
             return
         located = segment.locate(folds, leaps=True)
+        slopes = folds(segment.before), folds(segment.after)
+        length = segment.length
+        bend = abs(slopes[1] - slopes[0]) / (length or 1.0)
         if located is not None:
             place = segment.place(located.point)
-            turned = abs(folds(segment.after) - folds(segment.before))
-            bend = turned / segment.length
             yield Found(place, "fold", located, self.system.fourier, bend)
+        elif slopes[0] * slopes[1] < 0.0 < length:
+            ends = segment.before, segment.after
+            end = max(ends, key=lambda each: slopes[0] * each.point[-1])
+            yield lost("fold", segment, end, self.system.fourier, bend)
 
     def _error(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric
@@ -219,28 +210,6 @@ class Events:
         change = float(sizes[1][place] - sizes[0][place])
         rounding = FLAT * float(sizes[0][place])
         return 2.0 * change / (on - back) if abs(change) > rounding else 0.0
-
-
-def _told(found: Sequence[Found], segment: Segment, *, owed: bool) -> list[Found]:
-    """Return the events in their order, without the branch points that are folds.
-
-    At a fold, where the curve turns, a multiplier is +1 as well. Those of orbits that
-    are resolved more finely than the curve may cross in the step behind it: one is
-    ``owed`` then.
-    """
-    told = sorted(found, key=lambda each: each.place)
-    branching = [each for each in told if each.name == BRANCH]
-    if owed and branching:
-        told.remove(branching[0])
-    for turn in [each.place for each in told if each.name == "fold"]:
-        branching = [each for each in told if each.name == BRANCH]
-        nearest = min(branching, key=lambda each: abs(each.place - turn), default=None)
-        if nearest is not None and abs(nearest.place - turn) < NEAR * segment.length:
-            told = [each for each in told if each is not nearest]
-    least = UPRIGHT * segment.scale[-1]
-    return [
-        each for each in told if each.name != BRANCH or abs(folds(each.point)) > least
-    ]
 
 
 def _zero(growth: tuple[float, float]) -> float:

@@ -82,6 +82,21 @@ def test_errors_with_fixed_harmonics_bound_the_true_ones(harmonics: int) -> None
         assert 0.0 < true <= each.parameter_error
 
 
+def test_what_lies_between_points_that_do_not_converge_is_told_as_roughly(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    finest = marked("gap", error=FINEST)
+    monkeypatch.setattr(Segment, "locate", lambda *_, **__: None)
+
+    rough = marked("gap", error=1e-3)
+
+    assert [each.event for each in rough] == [each.event for each in finest]
+    for each, true in zip(rough, finest, strict=True):
+        away = abs(each.frequency - true.frequency)
+        assert 1e-6 * true.frequency < away <= each.parameter_error
+        assert each.parameter_error < 0.1 * true.frequency
+
+
 def test_other_points_have_no_such_error() -> None:
     scene = load_scene("gap")
     problem = problem_of(scene)

@@ -102,7 +102,7 @@ def test_lsoda_comes_close_before_it_chatters_at_kinks(
 ) -> None:
     monkeypatch.setattr(precision, "QUICK", 30.0)  # however busy the machine is
 
-    rough, _ = chosen(*jenkins(), "scipy LSODA")
+    rough = next(chosen(*jenkins(), "scipy LSODA"))
 
     assert rough.ending == "complete"
     assert max(rough.errors) < 2e-3

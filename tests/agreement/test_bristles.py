@@ -63,7 +63,9 @@ def first_harmonic(problem: Problem, harmonics: int, samples: int) -> Array:
     return found
 
 
-@pytest.mark.parametrize("make", [lugre, pressed_dahl])
+@pytest.mark.parametrize(
+    "make", [pytest.param(lugre, marks=pytest.mark.long), pressed_dahl]
+)
 def test_the_error_by_samples_falls_with_their_square(
     make: Callable[[], Problem],
 ) -> None:

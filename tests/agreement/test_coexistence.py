@@ -69,6 +69,7 @@ def loud() -> Start:
     return Start(*(part[0] for part in family()[-1].at(np.zeros(1))))
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_under_one_newton_large_motions_die_down_to_the_only_one() -> None:
     (only,) = passed(1.0)
@@ -77,6 +78,7 @@ def test_under_one_newton_large_motions_die_down_to_the_only_one() -> None:
     assert marched(1.0, loud()) == pytest.approx(only, rel=0.02)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_under_1_9_newtons_the_history_decides_between_two_of_three() -> None:
     low, middle, high = sorted(passed(1.9))

@@ -37,7 +37,9 @@ def seen(history: Array, frequency: float, time: Array) -> tuple[complex, comple
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("wanted", "periods"), [(0.8e-3, 8), (2e-3, 30)])
+@pytest.mark.parametrize(
+    ("wanted", "periods"), [pytest.param(0.8e-3, 8, marks=pytest.mark.long), (2e-3, 30)]
+)
 def test_the_decay_of_a_sliding_rig_follows_its_mode(
     wanted: float, periods: int
 ) -> None:

@@ -87,7 +87,7 @@ def test_one_fold_ends_sweeps_upwards_and_the_other_those_downwards() -> None:
     assert second.begin.frequency > second.response.frequency
 
 
-@pytest.mark.parametrize("harmonics", [None, 63])
+@pytest.mark.parametrize("harmonics", [pytest.param(None, marks=pytest.mark.long), 63])
 def test_folds_are_swept_whose_multipliers_pass_one_beside_them(
     harmonics: int | None,
 ) -> None:
@@ -140,6 +140,7 @@ def test_sweeps_from_far_away_jump_where_those_from_near_do() -> None:
     assert far_jump.envelopes[-1][0][-1] < 0.7 * far.end
 
 
+@pytest.mark.long
 def test_rates_follow_the_square_of_a_folds_frequency_unless_they_are_given() -> None:
     problem, _ = duffing()
     (_, fold) = folds_of(problem, traced(problem, 0.8, 2.4), lead=0.005)
@@ -173,6 +174,7 @@ FOLDED = {
 """problem, and where its curve has two folds [rad/s]"""
 
 
+@pytest.mark.long
 @pytest.mark.slow(seconds=10)
 def test_the_told_error_is_that_of_the_fit_and_of_the_time_steps() -> None:
     problem, low, high = FOLDED["softening"]
@@ -208,6 +210,7 @@ def test_too_few_rates_are_refused() -> None:
         list(jumps(problem, folds, [1e-4, 1e-4, 1e-4, 5e-5]))
 
 
+@pytest.mark.long
 @pytest.mark.slow(seconds=25)
 def test_the_rig_with_falling_friction_jumps_on_its_upper_fold() -> None:
     # Under 1.9 N the excited blade leaves 1 mm for 0.26 mm at 137.17 Hz.

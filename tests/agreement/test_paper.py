@@ -112,6 +112,7 @@ def test_normal_forces_of_macroslip_stay_what_they_are_at_rest() -> None:
     np.testing.assert_allclose(driven, [[2.924, 2.747]] * len(driven), rtol=1e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("rig", "law"), [("A", "coulomb"), ("soft", "gkf")])
 def test_half_the_time_step_changes_the_energy_by_less_than_half_a_per_cent(
     rig: str, law: str

@@ -13,6 +13,7 @@ from small_problems import marched
 from timedomain.integrate import MarchOptions
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_slower_sweeps_dissipate_what_the_curve_predicts() -> None:
     problem = rig_problem(model="A")

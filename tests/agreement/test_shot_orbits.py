@@ -28,6 +28,8 @@ RIGS: dict[str, dict[str, object]] = {
     "stiff, GKF": GKF,
     "soft, GKF": {"contact__sigma": 3e-7, **GKF},
 }
+SHORT = ("A", "A, GKF", "stiff")
+"""rigs that every run of the tests compares"""
 FIXED = 31
 """harmonics of the soft rig, on which a tolerance of 1e-3 asks for 511"""
 
@@ -54,7 +56,7 @@ def near(name: str, *hertz: float) -> list[PeriodicResponse]:
 @pytest.mark.parametrize(
     "name",
     [
-        name if name[0] in "AB" else pytest.param(name, marks=pytest.mark.slow)
+        name if name in SHORT else pytest.param(name, marks=pytest.mark.long)
         for name in RIGS
     ],
 )
@@ -122,6 +124,7 @@ def test_an_element_that_nothing_holds_moves_as_harmonic_balance_says(
     assert compared(problem, response).difference < orbit.error + 5e-4
 
 
+@pytest.mark.long
 def test_harmonic_balance_comes_closer_to_the_orbit_with_more_harmonics() -> None:
     problem, _ = curve("A")
     (response,) = near("A", 135.0)

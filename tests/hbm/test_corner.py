@@ -128,6 +128,7 @@ def test_the_way_back_is_no_corner_even_if_the_last_tangent_is_off() -> None:
     assert round_corner(straight, way, unit, 1e-12) is None
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_chain_of_sliders_and_a_stop_is_traced_from_end_to_end() -> None:
     """NLvib's example 07: three masses, two sliders, two cubic springs, a stop."""
@@ -195,6 +196,7 @@ def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back(
     assert {each.event for each in points} == {"", "peak"}
 
 
+@pytest.mark.long
 def test_a_beam_with_more_corners_has_its_whole_curve() -> None:
     """Fewer harmonics behind short steps threw it back, and it did not go on there."""
     scene = load_scene("friction-beam", ["element.friction.load=5"])
@@ -214,7 +216,7 @@ def test_a_beam_with_more_corners_has_its_whole_curve() -> None:
 @pytest.mark.parametrize(
     ("name", "number"),
     # the beam's curve goes to and fro within the tolerance, which is no fold
-    [("chain", 4), ("friction-beam", 0)],
+    [pytest.param("chain", 4, marks=pytest.mark.long), ("friction-beam", 0)],
 )
 def test_folds_at_corners_are_told(name: str, number: int) -> None:
     scene = load_scene(name)

@@ -132,6 +132,7 @@ def test_the_stated_error_covers_what_more_harmonics_change() -> None:
     assert 0.4 * point.frequency_error < change < point.frequency_error
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_folds_of_whole_curves_lie_on_the_tracked_folds_of_the_rig() -> None:
     def problem_at(force: float) -> Problem:

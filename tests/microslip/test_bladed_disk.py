@@ -96,6 +96,7 @@ def test_mistuning_has_its_deviation_and_comes_back_with_its_seed() -> None:
     assert abs(np.mean(one / tuned - 1.0)) < 0.03 * 3.0 / np.sqrt(200.0)
 
 
+@pytest.mark.long
 def test_mistuned_blades_differ() -> None:
     scene = scene_of(*FIXED, WHOLE, "mistuning.deviation=0.02")
     amplitude = trace_curve(problem_of(scene), scene.curve).curve.amplitude

@@ -127,6 +127,7 @@ def test_decay_against_friction_loses_as_much_in_each_cycle() -> None:
     np.testing.assert_allclose(decay.damping, expected, rtol=2e-3)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_decay_of_a_sliding_rig_is_that_of_its_mode() -> None:
     problem = rig_problem(model="A")
@@ -323,6 +324,7 @@ def test_what_is_over_before_it_swings_is_not_measured_in_its_last_digits() -> N
     assert not decay.time.size
 
 
+@pytest.mark.long
 def test_motions_that_beat_are_told(run: Run) -> None:
     words = ("--frequency", "0.16", "--tolerance", "0.5", "--periods", "60")
 

@@ -36,6 +36,7 @@ def cut(points: int, end: BaseException) -> Callable[..., Iterator[FoldPoint]]:
     return followed
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_two_folds_that_meet_are_followed_once() -> None:
     fine = (*SHORT[:-2], "curve.harmonics=31", "curve.samples=1024")
@@ -54,6 +55,7 @@ def test_two_folds_that_meet_are_followed_once() -> None:
     assert fold.points[smallest].parameter_error < 0.02
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_folds_that_do_not_meet_are_followed_one_by_one() -> None:
     changed = parameter("two-blades", SHORT, "excitation.force", "1.8", "1.75 N")

@@ -249,7 +249,7 @@ def test_csv_without_a_place_is_refused_before_the_work(
 @pytest.mark.parametrize(
     ("variant", "low", "high"),
     [
-        (PAPER[0], 0.5, 1.5),
+        pytest.param(PAPER[0], 0.5, 1.5, marks=pytest.mark.long),
         (PAPER[2], 0.9885, 1.0115),  # 1.7 mJ, as in tests/agreement/test_paper.py
         (PAPER[3], 0.9885, 1.0115),
     ],

@@ -288,6 +288,7 @@ def test_verification_of_what_cannot_be_compared_ends_with_a_result_or_one_line(
         assert len(error.splitlines()) == 1
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_sweeps_approach_the_curve_of_the_built_in_scene(run: Run) -> None:
     few = ("--frequencies", "3", "--periods", "60", "--slower", "1", "4")

@@ -16,7 +16,7 @@ from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
 from hbm.crossings import Crossings
 from hbm.event_error import fold_error, peak_error
-from hbm.found import Found, in_order, lost
+from hbm.found import Found, in_order, unlocated
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome
 from hbm.resolution import PathResolution
@@ -149,7 +149,7 @@ class Events:
         elif length > 0.0:
             sizes = self.resolution.amplitudes([each.point for each in ends])
             end = ends[int(sizes.max(axis=1).argmax())]
-            yield lost("peak", segment, end, self.system.fourier, bend)
+            yield unlocated("peak", segment, end, self.system.fourier, bend)
         self.system.fourier = solved
 
     def _folded(self, segment: Segment) -> Iterator[Found]:
@@ -167,7 +167,7 @@ class Events:
         elif slopes[0] * slopes[1] < 0.0 < length:
             ends = segment.before, segment.after
             end = max(ends, key=lambda each: slopes[0] * each.point[-1])
-            yield lost("fold", segment, end, self.system.fourier, bend)
+            yield unlocated("fold", segment, end, self.system.fourier, bend)
 
     def _error(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric

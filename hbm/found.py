@@ -34,7 +34,7 @@ class Found(NamedTuple):
     nearer end then"""
 
 
-def lost(
+def unlocated(
     name: str, segment: Segment, end: Correction, fourier: FourierBasis, bend: float
 ) -> Found:
     """Return what lies between two points, though those between do not converge.

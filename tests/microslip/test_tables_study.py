@@ -250,7 +250,8 @@ def test_csv_without_a_place_is_refused_before_the_work(
     ("variant", "low", "high"),
     [
         pytest.param(PAPER[0], 0.5, 1.5, marks=pytest.mark.long),
-        (PAPER[2], 0.9885, 1.0115),  # 1.7 mJ, as in tests/agreement/test_paper.py
+        # 1.7 mJ, as in tests/agreement/test_paper.py
+        pytest.param(PAPER[2], 0.9885, 1.0115, marks=pytest.mark.long),
         (PAPER[3], 0.9885, 1.0115),
     ],
     ids=["full", "B", "A"],

@@ -181,7 +181,7 @@ def test_a_linear_touch_that_passes_a_sample_does_not_make_the_force_jump() -> N
     assert steps_of(points, 64, mean=0.003, across=0.02).max() < 1e-7
 
 
-@pytest.mark.parametrize("power", [0.2, 0.25, 0.5, 0.75])
+@pytest.mark.parametrize("power", [0.2, 0.5])
 def test_steep_damping_that_passes_a_sample_changes_the_force_smoothly(
     power: float,
 ) -> None:

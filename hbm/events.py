@@ -141,15 +141,10 @@ class Events:
         else:
             self.system.fourier = max(before.fourier, after.fourier, key=by_harmonics)
         segment = self._segment(*ends, metric)
-        located, length = segment.locate(self.growth, growth), segment.length
-        bend = (growth[0] - growth[1]) / (length or 1.0)
-        if located is not None:
-            place = segment.place(located.point)
-            yield Found(place, "peak", located, self.system.fourier, bend)
-        elif length > 0.0:
-            sizes = self.resolution.amplitudes([each.point for each in ends])
-            end = ends[int(sizes.max(axis=1).argmax())]
-            yield unlocated("peak", segment, end, self.system.fourier, bend)
+        located = segment.locate(self.growth, growth)
+        sizes = self.resolution.amplitudes([each.point for each in ends])
+        nearer = ends[int(sizes.max(axis=1).argmax())]
+        yield from self._found("peak", segment, located, nearer, growth)
         self.system.fourier = solved
 
     def _folded(self, segment: Segment) -> Iterator[Found]:
@@ -157,17 +152,34 @@ class Events:
         if segment.after.turns:
             yield Found(0.0, "fold", segment.before, self.system.fourier)
             return
-        located = segment.locate(folds, leaps=True)
         slopes = folds(segment.before), folds(segment.after)
-        length = segment.length
-        bend = abs(slopes[1] - slopes[0]) / (length or 1.0)
-        if located is not None:
-            place = segment.place(located.point)
-            yield Found(place, "fold", located, self.system.fourier, bend)
-        elif slopes[0] * slopes[1] < 0.0 < length:
-            ends = segment.before, segment.after
-            end = max(ends, key=lambda each: slopes[0] * each.point[-1])
-            yield unlocated("fold", segment, end, self.system.fourier, bend)
+        if not slopes[0] * slopes[1] < 0.0:
+            return
+        located = segment.locate(folds, leaps=True)
+        ends = segment.before, segment.after
+        nearer = max(ends, key=lambda each: slopes[0] * each.point[-1])
+        yield from self._found("fold", segment, located, nearer, slopes)
+
+    def _found(
+        self,
+        name: str,
+        segment: Segment,
+        located: Correction | None,
+        nearer: Correction,
+        values: tuple[float, float],
+    ) -> Iterator[Found]:
+        """Yield a peak or a fold, at the ``nearer`` end if it is not located.
+
+        ``values``, at both ends, are those of what is zero there.
+        """
+        length, fourier = segment.length, self.system.fourier
+        if length <= 0.0:
+            return
+        bend = abs(values[1] - values[0]) / length
+        if located is None:
+            yield unlocated(name, segment, nearer, fourier, bend)
+        else:
+            yield Found(segment.place(located.point), name, located, fourier, bend)
 
     def _error(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric

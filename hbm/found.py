@@ -40,7 +40,8 @@ def unlocated(
     """Return what lies between two points, though those between do not converge.
 
     It is taken for the point at one ``end``. From there the parameter changes by no
-    more than it does along the segment with its steepest slope.
+    more than it does along the segment with the steepest slope of both ends, if those
+    between are not steeper.
     """
     steepest = max(abs(folds(each)) for each in (segment.before, segment.after))
     length = segment.length

@@ -26,15 +26,15 @@ def test_slower_sweeps_dissipate_what_the_curve_predicts() -> None:
     taken = np.array([each.friction_energy for each in curve])
     predicted = np.trapezoid(taken, hertz) / rate
 
-    slower, errors = [1.0, 2.0, 4.0], []
+    slower, errors = [1.0, 2.0, 4.0, 8.0], []
     for factor in slower:
         end = 2.0 + 6.0 * factor
         sweep = SweptSine(1.0, 2.0, end, end, 125.0, 145.0)
         history = marched(problem, sweep, MarchOptions(5e-5), block=1.0)
         errors.append(history.of("friction")[-1] / factor / predicted - 1.0)
 
-    # Measured 46 %, 26 %, 13 % more: the transients' share falls with duration.
+    # Measured 46 %, 26 %, 13 %, 7 % more: the transients' share falls with duration.
     assert np.all(np.diff(errors) < 0.0)
     order = observed_order([1.0 / factor for factor in slower], errors)
     assert order == pytest.approx(0.9, abs=0.2)
-    assert 0.0 < errors[-1] < 0.2
+    assert 0.0 < errors[-1] < 0.1

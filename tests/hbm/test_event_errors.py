@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from hbm.event_error import fold_error
+from hbm.fourier import FourierBasis
+from hbm.found import unlocated
 from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.segment import Segment, folds
@@ -156,6 +158,20 @@ def test_a_fold_that_is_not_yet_upright_may_be_as_far_aside_as_the_curve_goes_on
     # the fold lies at p = 1, the point at 1 − away²: twice as much is told
     assert error is not None
     assert error - graph.aside == pytest.approx(2.0 * away**2, rel=0.05)
+
+
+@pytest.mark.parametrize(("before", "after"), [(-0.1, 0.1), (-0.2, 0.05)])
+def test_what_is_not_located_is_aside_by_no_more_than_is_told(
+    before: float, after: float
+) -> None:
+    graph = Graph(lambda x: 1.0 - x**2, lambda x: -2.0 * x)
+    segment = graph.segment(before, graph.at(after))
+
+    found = unlocated("fold", segment, segment.after, FourierBasis(1, 8), 1.0)
+
+    # the fold lies at p = 1, that far beyond the point
+    assert after**2 <= found.aside < 0.15
+    assert found.place == pytest.approx(segment.length)
 
 
 @pytest.mark.parametrize("away", [0.1, 0.01])

@@ -290,10 +290,11 @@ def test_verification_of_what_cannot_be_compared_ends_with_a_result_or_one_line(
 
 @pytest.mark.long
 @pytest.mark.slow
-def test_sweeps_approach_the_curve_of_the_built_in_scene(run: Run) -> None:
+@pytest.mark.parametrize("model", ["A", "B"])
+def test_sweeps_approach_the_curve_of_the_built_in_scene(model: str, run: Run) -> None:
     few = ("--frequencies", "3", "--periods", "60", "--slower", "1", "4")
 
-    status, output, error = run("verify", "two-blades", "--set=model=A", *few)
+    status, output, error = run("verify", "two-blades", f"--set=model={model}", *few)
 
     assert (status, error) == (0, "")
     assert "DISAGREE" not in output

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from hbm.event_error import fold_error
-from hbm.fourier import FourierBasis
 from hbm.found import unlocated
+from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.segment import Segment, folds

@@ -172,6 +172,7 @@ class AlternatingFrequencyTime:
             self._points,
             *self._moved,
             self._tangents.entries,
+            self._tangents.bounds,
             self._symmetry,
             traces.regular,
             traces.extra,

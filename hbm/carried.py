@@ -63,7 +63,6 @@ class Step(NamedTuple):
     """what acts on s is that times s, without the contacts, shape (rank, rank)"""
 
 
-@kernel
 def carried(
     structure: Structure,
     elastic: Array,
@@ -78,12 +77,45 @@ def carried(
     x + 2 Re a (hA − ρ)⁻¹ x, or, where a contact begins to stick, (1, 2),
     2 Re a (hA − ρ)⁻¹ x, which lets no speed through.
     """
-    rank, count = structure.mass.shape
-    modal = 2 * (count - rank)
-    inner, outer = _begun(structure.coupling, 2 * count)
-    free = _free(structure)
-    work, loads = np.zeros((modal + 2 * rank, 2 * count)), np.zeros_like(inner)
-    stage, share = np.zeros_like(inner), np.zeros_like(outer)
+    coupling, (rank, count) = structure.coupling, structure.mass.shape
+    inner, outer = (
+        np.zeros((2 * rank, 2 * count)),
+        np.zeros((2 * (count - rank), 2 * count)),
+    )
+    inner[:rank, :rank] = inner[rank:, count : count + rank] = np.eye(rank)
+    outer[: count - rank, rank:count] = np.eye(count - rank)
+    outer[count - rank :, count + rank :] = np.eye(count - rank)
+    outer[count - rank :, count : count + rank] = coupling
+    _carry(structure, _free(structure), elastic, viscous, lengths, sticks, inner, outer)
+    speeds = outer[count - rank :] - coupling @ inner[rank:]
+    return np.concatenate((inner[:rank], outer[: count - rank], inner[rank:], speeds))
+
+
+def _free(structure: Structure) -> Array:
+    """Return the mass of y while the modes keep their momentum."""
+    rank = len(structure.mass)
+    free: Array = (
+        structure.mass[:, :rank] - structure.mass[:, rank:] @ structure.coupling
+    )
+    return free
+
+
+@kernel
+def _carry(
+    structure: Structure,
+    free: Array,
+    elastic: Array,
+    viscous: Array,
+    lengths: Array,
+    sticks: NDArray[np.bool_],
+    inner: Array,
+    outer: Array,
+) -> None:
+    """Bring (y, ẏ) and (q, w) to the end of all steps."""
+    rank, columns = structure.mass.shape[0], inner.shape[1]
+    modal = outer.shape[0]
+    work, loads = np.zeros((modal + 2 * rank, columns)), np.zeros(inner.shape)
+    stage, share = np.zeros(inner.shape), np.zeros(outer.shape)
     alone, back = np.empty((work.shape[0], modal)), np.empty((modal, 2 * rank))
     step = _step(structure, lengths[0], sticks[0], alone, back)
     for place in range(lengths.size):
@@ -99,38 +131,6 @@ def carried(
         np.dot(step.back, stage, share)
         _advance(step.length, step.root, step.factor, step.kept, inner, stage)
         _add(work, share, outer)
-    return _ordered(structure.coupling, inner, outer)
-
-
-@kernel
-def _begun(coupling: Array, columns: int) -> tuple[Array, Array]:
-    """Return (y, ẏ) and (q, w) for each displacement and velocity alone."""
-    modes, rank = coupling.shape
-    inner, outer = np.zeros((2 * rank, columns)), np.zeros((2 * modes, columns))
-    half = columns // 2
-    for row in range(rank):
-        inner[row, row] = inner[rank + row, half + row] = 1.0
-    for mode in range(modes):
-        outer[mode, rank + mode] = outer[modes + mode, half + rank + mode] = 1.0
-        outer[modes + mode, half : half + rank] = coupling[mode]
-    return inner, outer
-
-
-@kernel
-def _ordered(coupling: Array, inner: Array, outer: Array) -> Array:
-    """Return displacements and velocities, y before q, of (y, ẏ) and (q, w)."""
-    modes, rank = coupling.shape
-    speeds = outer[modes:] - np.dot(coupling, inner[rank:])
-    return np.concatenate((inner[:rank], outer[:modes], inner[rank:], speeds))
-
-
-@kernel
-def _free(structure: Structure) -> Array:
-    """Return the mass of y while the modes keep their momentum."""
-    rank = structure.mass.shape[0]
-    outer = np.ascontiguousarray(structure.mass[:, rank:])
-    free: Array = structure.mass[:, :rank] - np.dot(outer, structure.coupling)
-    return free
 
 
 @kernel

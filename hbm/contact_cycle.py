@@ -64,17 +64,19 @@ def _seen(
     count = points.load.size
     smallest, largest = np.full(count, np.inf), np.full(count, -np.inf)
     powers, unused = np.zeros(2), np.zeros((2, 3, 3))
-    force = np.zeros(3)
+    moved, moving, force = np.zeros(3), np.zeros(3), np.zeros(3)
     for point in range(count):
-        place = slice(3 * point, 3 * point + 3)
         for moment in range(seen):
-            moved, moving = displacement[place, moment], velocity[place, moment]
+            for axis in range(3):
+                moved[axis] = displacement[3 * point + axis, moment]
+                moving[axis] = velocity[3 * point + axis, moment]
             contact_force(points, point, moved, moving, force, unused[0], unused[1])
             smallest[point] = min(smallest[point], force[0])
             largest[point] = max(largest[point], force[0])
-            force[1:] = forces[place, moment][1:]
-            if points.friction[point] == PUSHED:
-                force[1:] = 0.0  # its displacement is a push
+            # the displacement of what is pushed is a push
+            works = points.friction[point] != PUSHED
+            for axis in range(1, 3):
+                force[axis] = forces[3 * point + axis, moment] if works else 0.0
             slid, damped = contact_power(points, point, moved, moving, force)
             powers[0] += slid / seen
             powers[1] += damped / seen

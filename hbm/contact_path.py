@@ -80,7 +80,7 @@ def events(points: ContactPoints, path: Path) -> Array:
     cells = path.displacement.shape[1] - 1
     found = np.empty(7 * points.load.size * cells)
     work = np.zeros((2, 3))
-    count = 0
+    count = int(0.0)  # kernels are compiled anew for a literal
     for point in range(points.load.size):
         before = _regime(points, point, path, 0.0, work)
         for cell in range(cells):
@@ -112,7 +112,7 @@ def _regime(
     points: ContactPoints, point: int, path: Path, at: float, work: Array
 ) -> int:
     """Return which branch of its law a point is on."""
-    moved, moving = work
+    moved, moving = work[0], work[1]
     place(path, point, at, moved, moving)
     regime = 0
     if moved[0] > edge(points, point):
@@ -137,7 +137,7 @@ def _slowest(path: Path, point: int, cell: int, work: Array) -> float:
     # where the velocity has no part along its change
     along, across = next_one - one, next_two - two
     low, high = 0.0, 1.0
-    moved, moving = work
+    moved, moving = work[0], work[1]
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         place(path, point, cell + middle, moved, moving)

@@ -106,14 +106,13 @@ def refine(
             points, point, work.moved, work.moving, work.force,
             work.by_displacement, work.by_velocity,
         )  # fmt: skip
-        _deposit(
-            point, work, made, first, last, place, near,
-            near + blur * (1.0 - 2.0 * share), False, symmetry,
-        )  # fmt: skip
-        _deposit(
-            point, work, made, first, last, target, far,
-            far - blur * (1.0 - 2.0 * share), wraps, symmetry,
-        )  # fmt: skip
+        for side in range(2):
+            weight, end = (near, place) if side == 0 else (far, target)
+            tilt = (1.0 - 2.0 * side) * blur * (1.0 - 2.0 * share)
+            _deposit(
+                point, work, made, first, last, end, weight, weight + tilt,
+                wraps and side == 1, symmetry,
+            )  # fmt: skip
 
 
 @bare_kernel
@@ -181,13 +180,13 @@ def _jump(
     work.by_displacement[1, 0] = (work.force[1] - one) / way
     work.by_displacement[2, 0] = (work.force[2] - two) / way
     wraps = place + 1 == made.forces.shape[1] // 2 and symmetry.signs.size > 0
-    _deposit(
-        point, work, made, first, last, place, 1.0 - share, 0.0, False, symmetry,
-    )  # fmt: skip
-    _deposit(
-        point, work, made, first, last, 0 if wraps else after, share, 0.0, wraps,
-        symmetry,
-    )  # fmt: skip
+    for side in range(2):
+        weight, end = (1.0 - share, place) if side == 0 else (share, after)
+        wraps_there = wraps and side == 1
+        _deposit(
+            point, work, made, first, last, 0 if wraps_there else end, weight, 0.0,
+            wraps_there, symmetry,
+        )  # fmt: skip
 
 
 @bare_kernel

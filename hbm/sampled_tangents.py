@@ -38,6 +38,7 @@ class SampledTangents:
             Per period.
         """
         self.entries = entries
+        self.bounds = np.searchsorted(entries[:, 0], np.arange(0, len(basis) + 1, 3))
         self._symmetry, self._signs, self._rank = symmetry, signs, basis.shape[1]
         self._half = samples // 2 if signs.size else samples
         self._mixing = mixing(basis, entries)

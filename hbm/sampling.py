@@ -37,6 +37,7 @@ def sample(
     displacement: Array,
     velocity: Array,
     entries: NDArray[np.int64],
+    bounds: NDArray[np.int64],
     symmetry: Symmetry,
     regular: Forces,
     extra: Forces,
@@ -55,6 +56,8 @@ def sample(
         the first half of the period and one more sample is enough.
     entries
         (row, column, by velocity) of each tangent, ordered by points.
+    bounds
+        The first tangent of each point, and their number; shape ``(points + 1,)``.
     symmetry
         Of half a period.
     regular
@@ -66,9 +69,6 @@ def sample(
     """
     samples = tangents.shape[1]
     seen = samples // 2 if symmetry.signs.size else samples
-    bounds = np.searchsorted(
-        entries[:, 0], 3 * np.arange(points.load.size + 1, dtype=np.int64)
-    )
     work = Work(
         np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
     )

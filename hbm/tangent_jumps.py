@@ -41,8 +41,12 @@ def add_jump(
         ):
             continue
         found = True
-        rows = basis[3 * point : 3 * point + 3]
-        elastic[count] += np.outer(np.dot(rows.T, jump / length), rows[0])
+        for row in range(basis.shape[1]):
+            push = 0.0
+            for axis in range(3):
+                push += basis[3 * point + axis, row] * jump[axis] / length
+            for column in range(basis.shape[1]):
+                elastic[count, row, column] += push * basis[3 * point, column]
     lengths[count] = length if found else lengths[count]
     return count + (1 if found else 0)
 

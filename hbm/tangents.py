@@ -109,7 +109,7 @@ def _integrated(
     allowed: float,
 ) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
     """Return what :class:`StepTangents` has."""
-    rank, count = basis.shape[1], 0
+    rank, count = basis.shape[1], int(0.0)  # kernels are compiled anew for a literal
     room = 8 * edges.size + 64
     lengths, sticks = np.empty(room), np.zeros(room, dtype=np.bool_)
     elastic: Array = np.zeros((room, rank, rank))
@@ -166,7 +166,8 @@ def _taken(
     before = held.copy()
     begins = caught(moments, inertia, brief * sample, held)
     if begins and length > 1.5 * brief:
-        held[:] = before
+        for row in range(held.size):
+            held[row] = before[row]
         return brief, False
     return length, begins
 
@@ -175,5 +176,8 @@ def _taken(
 def _longer(steps: Array) -> Array:
     """Return the same with as much room again."""
     result: Array = np.zeros((2 * steps.shape[0], steps.shape[1], steps.shape[2]))
-    result[: steps.shape[0]] = steps
+    for step in range(steps.shape[0]):
+        for row in range(steps.shape[1]):
+            for column in range(steps.shape[2]):
+                result[step, row, column] = steps[step, row, column]
     return result

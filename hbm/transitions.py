@@ -130,9 +130,19 @@ def locate(
         found += 1
         events[found] = before / (before - behind)
     events[0], events[found + 1] = 0.0, 1.0
-    if found > 1:
-        events[1 : found + 1].sort()
+    _rise(events, found)
     return found
+
+
+@bare_kernel
+def _rise(events: Array, found: int) -> None:
+    """Bring the few events after the first place into rising order."""
+    for last in range(2, found + 1):
+        event, place = events[last], last
+        while place > 1 and events[place - 1] > event:
+            events[place] = events[place - 1]
+            place -= 1
+        events[place] = event
 
 
 @bare_kernel
@@ -150,7 +160,8 @@ def _slow(
     ``one`` and ``two`` are the sliding velocity at the first sample, ``by_one`` and
     ``by_two`` what the second has more.
     """
-    found = _crossings(one, two, by_one, by_two, threshold, events, 0)
+    found = int(0.0)  # kernels are compiled anew for a literal
+    found = _crossings(one, two, by_one, by_two, threshold, events, found)
     if wide > threshold:
         found = _crossings(one, two, by_one, by_two, wide, events, found)
     square = by_one * by_one + by_two * by_two

@@ -77,18 +77,25 @@ def carried(
     x + 2 Re a (hA − ρ)⁻¹ x, or, where a contact begins to stick, (1, 2),
     2 Re a (hA − ρ)⁻¹ x, which lets no speed through.
     """
-    coupling, (rank, count) = structure.coupling, structure.mass.shape
-    inner, outer = (
-        np.zeros((2 * rank, 2 * count)),
-        np.zeros((2 * (count - rank), 2 * count)),
+    rank, count = structure.mass.shape
+    modes, start = count - rank, np.eye(2 * count)
+    inner = start[np.r_[:rank, count : count + rank]]
+    outer = start[np.r_[rank:count, count + rank : 2 * count]]
+    outer[modes:, count : count + rank] = structure.coupling
+    held = structure.stiffness + elastic
+    _carry(
+        structure,
+        _free(structure),
+        held,
+        elastic,
+        viscous,
+        lengths,
+        sticks,
+        inner,
+        outer,
     )
-    inner[:rank, :rank] = inner[rank:, count : count + rank] = np.eye(rank)
-    outer[: count - rank, rank:count] = np.eye(count - rank)
-    outer[count - rank :, count + rank :] = np.eye(count - rank)
-    outer[count - rank :, count : count + rank] = coupling
-    _carry(structure, _free(structure), elastic, viscous, lengths, sticks, inner, outer)
-    speeds = outer[count - rank :] - coupling @ inner[rank:]
-    return np.concatenate((inner[:rank], outer[: count - rank], inner[rank:], speeds))
+    speeds = outer[modes:] - structure.coupling @ inner[rank:]
+    return np.concatenate((inner[:rank], outer[:modes], inner[rank:], speeds))
 
 
 def _free(structure: Structure) -> Array:
@@ -104,6 +111,7 @@ def _free(structure: Structure) -> Array:
 def _carry(
     structure: Structure,
     free: Array,
+    held: Array,
     elastic: Array,
     viscous: Array,
     lengths: Array,
@@ -111,26 +119,32 @@ def _carry(
     inner: Array,
     outer: Array,
 ) -> None:
-    """Bring (y, ẏ) and (q, w) to the end of all steps."""
+    """Bring (y, ẏ) and (q, w) to the end of all steps; ``held`` is the stiffness."""
     rank, columns = structure.mass.shape[0], inner.shape[1]
     modal = outer.shape[0]
     work, loads = np.zeros((modal + 2 * rank, columns)), np.zeros(inner.shape)
     stage, share = np.zeros(inner.shape), np.zeros(outer.shape)
     alone, back = np.empty((work.shape[0], modal)), np.empty((modal, 2 * rank))
-    step = _step(structure, lengths[0], sticks[0], alone, back)
-    for place in range(lengths.size):
-        # lengths of equal intervals differ by rounding
-        apart = abs(step.length - lengths[place]) > EQUAL * step.length
-        if apart or (step.kept == 0.0) != sticks[place]:
-            step = _step(structure, lengths[place], sticks[place], alone, back)
-        np.dot(structure.stiffness + elastic[place], inner[:rank], loads[:rank])
-        np.dot(free, inner[rank:], loads[rank:])
-        np.dot(step.alone, outer, work)
-        _load(step.length / step.root, loads, work[modal:])
-        np.dot(_freed(step, elastic[place], viscous[place]), work[modal:], stage)
-        np.dot(step.back, stage, share)
-        _advance(step.length, step.root, step.factor, step.kept, inner, stage)
-        _add(work, share, outer)
+    place = 0
+    while place < lengths.size:
+        step = _step(structure, lengths[place], sticks[place], alone, back)
+        while place < lengths.size and _serves(step, lengths[place], sticks[place]):
+            np.dot(held[place], inner[:rank], loads[:rank])
+            np.dot(free, inner[rank:], loads[rank:])
+            np.dot(step.alone, outer, work)
+            _load(step.length / step.root, loads, work[modal:])
+            np.dot(_freed(step, elastic[place], viscous[place]), work[modal:], stage)
+            np.dot(step.back, stage, share)
+            _advance(step.length, step.root, step.factor, step.kept, inner, stage)
+            _add(work, share, outer)
+            place += 1
+
+
+@bare_kernel
+def _serves(step: Step, length: float, sticks: bool) -> bool:
+    """Return whether a step has a given kind; equal lengths differ by rounding."""
+    apart = abs(step.length - length) > EQUAL * step.length
+    return not apart and (step.kept == 0.0) == sticks
 
 
 @kernel

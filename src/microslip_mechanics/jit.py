@@ -54,6 +54,7 @@ def _compiled(function: Function, *, counted: bool) -> Function:
     if options["DISABLE_JIT"]:
         return function
     choices: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": counted}
+    choices["no_cfunc_wrapper"] = True  # nobody takes the address of a kernel
     dispatcher = numba.njit(**choices)(function)
     folder = _cache_folder(Path(function.__code__.co_filename).parent)
     if folder is None:

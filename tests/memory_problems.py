@@ -34,6 +34,7 @@ CONTACTS = (
         np.eye(3)[:, [1, 2, 0]],
         np.array([0.3, 0.1, 0.9]),
         id="lifting shoe, two tangents",
+        marks=pytest.mark.long,
     ),
 )
 """law, what the contact sees of the masses, and the drive [N]"""

@@ -87,7 +87,8 @@ def test_one_fold_ends_sweeps_upwards_and_the_other_those_downwards() -> None:
     assert second.begin.frequency > second.response.frequency
 
 
-@pytest.mark.parametrize("harmonics", [pytest.param(None, marks=pytest.mark.long), 63])
+@pytest.mark.long
+@pytest.mark.parametrize("harmonics", [None, 63])
 def test_folds_are_swept_whose_multipliers_pass_one_beside_them(
     harmonics: int | None,
 ) -> None:

@@ -117,7 +117,7 @@ def test_eight_harmonics_predict_both_blades_of_the_soft_rig_to_one_per_cent() -
 
 
 @pytest.mark.parametrize(
-    "rig", ["B, GKF", pytest.param("stiff, GKF", marks=pytest.mark.slow)]
+    "rig", ["B, GKF", pytest.param("stiff, GKF", marks=pytest.mark.long)]
 )
 def test_falling_friction_is_predicted_to_one_per_cent_with_31_harmonics(
     rig: str,

@@ -59,9 +59,9 @@ def peaks(rig: str, law: str) -> np.ndarray:
         # rig for our march, and its own estimated error of 0.2 mJ
         ("A", "coulomb", 0.149, 1.7e-3),
         ("B", "coulomb", 0.148, 1.7e-3),
-        ("soft", "gkf", 0.102, 1.7e-3),
+        pytest.param("soft", "gkf", 0.102, 1.7e-3, marks=pytest.mark.long),
         # differences that the paper does not explain: 4.2 mJ, and 7.4 mJ
-        ("soft", "coulomb", 0.143, 5e-3),
+        pytest.param("soft", "coulomb", 0.143, 5e-3, marks=pytest.mark.long),
         ("A", "gkf", 0.099, 8e-3),
         ("B", "gkf", 0.099, 8e-3),
     ],
@@ -79,6 +79,7 @@ def test_the_jammed_rig_dissipates_what_the_paper_prints() -> None:
     assert 0.875 * 0.0085 < dissipated("stiff", "coulomb") < 0.0095
 
 
+@pytest.mark.long
 def test_jammed_with_falling_friction_half_as_much_is_dissipated() -> None:
     # The paper prints 0.014, more than with Coulomb. Here sticking friction is a
     # dashpot µN / V_lim, twice as strong with µs as with µd: creep takes half.
@@ -87,6 +88,7 @@ def test_jammed_with_falling_friction_half_as_much_is_dissipated() -> None:
     assert ratio == pytest.approx(0.5, abs=0.05)
 
 
+@pytest.mark.long
 def test_parallel_blades_do_not_jam() -> None:
     assert dissipated("parallel", "coulomb") == pytest.approx(0.09, rel=0.05)
 

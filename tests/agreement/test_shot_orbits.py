@@ -28,7 +28,7 @@ RIGS: dict[str, dict[str, object]] = {
     "stiff, GKF": GKF,
     "soft, GKF": {"contact__sigma": 3e-7, **GKF},
 }
-SHORT = ("A", "A, GKF", "stiff")
+SHORT = ("A",)
 """rigs that every run of the tests compares"""
 FIXED = 31
 """harmonics of the soft rig, on which a tolerance of 1e-3 asks for 511"""

@@ -14,6 +14,7 @@ def comparisons(name: str) -> list[Comparison]:
     return [compared(problem, point) for point in chosen(curve, 4)]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_leading_multipliers_of_both_routes_agree() -> None:
     for row in comparisons("A, gkf"):

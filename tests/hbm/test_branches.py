@@ -103,6 +103,7 @@ def test_orbits_on_the_branch_are_lopsided_and_kept_by_a_march() -> None:
         assert away(response, marched(response, 30, aside=1e-3)) < 1e-4
 
 
+@pytest.mark.long
 def test_the_symmetric_orbit_between_the_branch_points_is_left_by_a_march() -> None:
     curve, _ = curves()
     unstable = [each for each in curve if abs(each.multipliers[0]) > 1.2]

@@ -138,6 +138,7 @@ def test_a_search_without_the_effort_for_it_says_how_far_it_came() -> None:
     assert all("40 evaluations, is spent" in each.cause for each in places)
 
 
+@pytest.mark.long
 def test_a_curve_that_takes_more_than_the_effort_is_followed_in_part(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -189,6 +189,7 @@ def missed(problem: Problem, response: PeriodicResponse, order: int) -> float:
     return float(np.abs(motion - exact).max() / np.abs(exact).max())
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_twenty_thousand_degrees_of_freedom() -> None:
     problem = net(141, 142)

@@ -72,7 +72,7 @@ def test_sticking_contacts_have_the_multipliers_of_their_linear_system(
 
 
 @pytest.mark.parametrize("law", ["coulomb", "gkf"])
-@pytest.mark.parametrize("model", ["A", "B"])
+@pytest.mark.parametrize("model", ["A", pytest.param("B", marks=pytest.mark.long)])
 def test_largest_multipliers_are_those_of_the_time_domain(model: str, law: str) -> None:
     problem = rig_problem(model=model, friction__law=law)
     points = curve(problem, 134.0, 136.0)

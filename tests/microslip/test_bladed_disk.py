@@ -40,7 +40,10 @@ def highest(scene: Scene) -> tuple[float, float]:
     return float(curve.frequency[place]), float(curve.amplitude[place, 0])
 
 
-@pytest.mark.parametrize(("law", "limit"), [("jenkins", "1 N"), ("coulomb", "0.1 N")])
+@pytest.mark.parametrize(
+    ("law", "limit"),
+    [pytest.param("jenkins", "1 N", marks=pytest.mark.long), ("coulomb", "0.1 N")],
+)
 def test_sector_and_disk_have_the_same_curve(law: str, limit: str) -> None:
     middle = ("curve.lowest=150", "curve.highest=165")
     friction = (f"friction.law={law}", f"friction.limit={limit}", *middle)

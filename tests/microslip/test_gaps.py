@@ -74,6 +74,7 @@ def test_gaps_along_frequency_are_told_in_hertz(small_curve: ResponseCurve) -> N
     assert lines(curve) == ["no curve is found between 2 and 3.1830989 Hz"]
 
 
+@pytest.mark.long
 def test_a_curve_without_its_peak_is_not_whole(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

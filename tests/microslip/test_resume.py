@@ -52,7 +52,7 @@ def check_equal(part: object, whole: object) -> None:
 
 
 @pytest.mark.parametrize("kind", [(), ("--envelope",)], ids=["rows", "envelope"])
-@pytest.mark.parametrize("blocks", [1, 5])
+@pytest.mark.parametrize("blocks", [pytest.param(1, marks=pytest.mark.long), 5])
 def test_two_parts_are_the_whole(
     blocks: int,
     kind: tuple[str, ...],
@@ -93,7 +93,9 @@ def whole_and_part(
     return words
 
 
-@pytest.mark.parametrize("torn", [0, 3, 997])
+@pytest.mark.parametrize(
+    "torn", [0, *(pytest.param(torn, marks=pytest.mark.long) for torn in (3, 997))]
+)
 def test_what_a_kill_left_half_written_is_marched_again(
     torn: int,
     run: Run,

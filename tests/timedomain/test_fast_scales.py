@@ -66,7 +66,9 @@ def test_a_preload_elsewhere_makes_no_step_less_accurate(ramp: float) -> None:
 
 
 @pytest.mark.usefixtures("no_hang")
-@pytest.mark.parametrize("law", ["coulomb", "gkf"])
+@pytest.mark.parametrize(
+    "law", [pytest.param("coulomb", marks=pytest.mark.long), "gkf"]
+)
 def test_contacts_that_jam_are_marched_and_their_error_is_told(law: str) -> None:
     problem = rig_problem(friction__law=law, friction__mu_dynamic=1e10)
     history = SweptSine(5e-3, 5e-3, 1e-2, 1e-2, 130.0, 130.2)

@@ -83,6 +83,7 @@ def by_multistep(problem: Problem, dwell: Dwell, template: TimeHistory) -> TimeH
     )
 
 
+@pytest.mark.long
 def test_the_energy_balance_does_not_close_on_a_loose_multistep_march() -> None:
     problem, frequency = light_beam()
     dwell = Dwell(frequency, 0.5)

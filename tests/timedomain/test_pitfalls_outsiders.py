@@ -150,6 +150,7 @@ def test_a_dissipative_method_errs_less_at_a_loose_tolerance() -> None:
     assert closing < CLOSES
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_explicit_steps_above_the_friction_limit_are_wrong_but_do_not_blow_up() -> None:
     form, state = rig("full")

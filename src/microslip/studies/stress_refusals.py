@@ -15,9 +15,12 @@ from microslip.studies.curve import trace_curve
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_clock import OutOfTimeError, limited
 from microslip.studies.stress_finding import EXPECTED, Finding, Outcome, line
+from microslip_mechanics.problem import Problem
 
+LARGE = "1e308"
+"""the bad value that is a number, which may be computed to a finite end"""
 SECONDS = 1.0
-"""of processor time for the curve of a value that is a number"""
+"""of processor time for the curve of it"""
 
 
 def refusals(scene: str, overrides: tuple[str, ...], case: Case) -> Iterator[Finding]:
@@ -26,25 +29,26 @@ def refusals(scene: str, overrides: tuple[str, ...], case: Case) -> Iterator[Fin
     for each in case.refusals:
         try:
             loaded = load_scene(scene, (*overrides, *each))
-            finite = _finite(loaded)
+            problem = problem_of(loaded)
+            finite = case.parameter == LARGE and _finite(problem, loaded)
         except (*EXPECTED, OutOfTimeError) as error:
-            named = isinstance(error, SceneError) or case.parameter == "1e308"
+            named = isinstance(error, SceneError) or case.parameter == LARGE
             if named and len(str(error).splitlines()) <= 1:
                 refused += 1
             else:
                 wrong.append(f"{each[0]}: {line(error)}")
         else:
             computed += finite
-            if not finite or case.parameter != "1e308":
+            if not finite:
                 wrong.append(f"{each[0]}: taken as it is")
         outcome = Outcome.DISAGREES if wrong else Outcome.REFUSED
         counts = f"{refused} refused" + (f", {computed} computed" if computed else "")
         yield Finding(outcome, "; ".join((counts, *wrong)), compared=refused + computed)
 
 
-def _finite(loaded: Scene) -> bool:
+def _finite(problem: Problem, loaded: Scene) -> bool:
     """Return whether the curve of a scene is finite as far as it goes."""
     curve = replace(loaded.curve, harmonics=3, samples=64)
     with limited(SECONDS):
-        traced = trace_curve(problem_of(loaded), curve)
+        traced = trace_curve(problem, curve)
     return bool(np.isfinite(traced.curve.amplitude).all())

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import inner_kernel, kernel
 
 ROOT = 3.0 + 1j * np.sqrt(3.0)
 FACTOR = 12.0 * ROOT / (2j * ROOT.imag)
@@ -140,7 +140,7 @@ def _carry(
             place += 1
 
 
-@bare_kernel
+@inner_kernel
 def _serves(step: Step, length: float, sticks: bool) -> bool:
     """Return whether a step has a given kind; equal lengths differ by rounding."""
     apart = abs(step.length - length) > EQUAL * step.length
@@ -174,7 +174,7 @@ def _step(
     return Step(length, root, factor, kept, alone, back, block)
 
 
-@bare_kernel
+@inner_kernel
 def _dynamic(
     structure: Structure, length: float, root: complex, dynamic: ComplexArray
 ) -> None:
@@ -196,7 +196,7 @@ def _dynamic(
             dynamic[row, column] += root * structure.coupling[mode, column]
 
 
-@bare_kernel
+@inner_kernel
 def _write_alone(
     structure: Structure,
     inverse: ComplexArray,
@@ -222,7 +222,7 @@ def _write_alone(
         alone[modes + row, modes + row] += rest[1]
 
 
-@bare_kernel
+@inner_kernel
 def _write_raised(
     structure: Structure, raised: ComplexArray, share: complex, acting: Array
 ) -> None:
@@ -240,7 +240,7 @@ def _write_raised(
             acting[rank + row, modes + column] = value.imag
 
 
-@bare_kernel
+@inner_kernel
 def _write_back(
     coupling: Array,
     lowered: ComplexArray,
@@ -276,7 +276,7 @@ def _freed(step: Step, elastic: Array, viscous: Array) -> Array:
     return freed
 
 
-@bare_kernel
+@inner_kernel
 def _load(factor: complex, loads: Array, acting: Array) -> None:
     """Add (h/ρ) K y − M ẏ, both given, to what acts on s."""
     rank = loads.shape[0] // 2
@@ -287,7 +287,7 @@ def _load(factor: complex, loads: Array, acting: Array) -> None:
             acting[rank + row, column] += factor.imag * elastic
 
 
-@bare_kernel
+@inner_kernel
 def _advance(
     length: float,
     root: complex,
@@ -308,7 +308,7 @@ def _advance(
             inner[rank + row, column] = kept * inner[rank + row, column] + change
 
 
-@bare_kernel
+@inner_kernel
 def _add(alone: Array, share: Array, outer: Array) -> None:
     """Bring (q, w) to the end of a step."""
     for row in range(outer.shape[0]):

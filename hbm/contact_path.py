@@ -15,7 +15,7 @@ from hbm.symmetry import mirror
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import edge, normal_response, rubs
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
 
 HALVINGS = 40
 """of a cell between two samples in which an event lies"""
@@ -107,7 +107,7 @@ def events(points: ContactPoints, path: Path) -> Array:
     return found[:count]
 
 
-@bare_kernel
+@inner_kernel
 def _regime(
     points: ContactPoints, point: int, path: Path, at: float, work: Array
 ) -> int:
@@ -126,7 +126,7 @@ def _regime(
     return regime
 
 
-@bare_kernel
+@inner_kernel
 def _slowest(path: Path, point: int, cell: int, work: Array) -> float:
     """Return the share of a cell at which sliding turns, 0 if it does not."""
     velocity, row = path.velocity, 3 * point
@@ -148,7 +148,7 @@ def _slowest(path: Path, point: int, cell: int, work: Array) -> float:
     return high
 
 
-@bare_kernel
+@inner_kernel
 def _changes(
     points: ContactPoints,
     point: int,

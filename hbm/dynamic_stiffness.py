@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import inner_kernel, kernel
 
 
 @kernel
@@ -125,7 +125,7 @@ def returned_load(
     return load, change
 
 
-@bare_kernel
+@inner_kernel
 def _sum(
     first: ComplexArray, row: np.int_ | int, second: ComplexArray, other: np.int_ | int
 ) -> complex:
@@ -136,7 +136,7 @@ def _sum(
     return total
 
 
-@bare_kernel
+@inner_kernel
 def _inverse(value: complex) -> complex:
     """Return 1/value by one division: numba's guards against overflow with branches."""
     share = 1.0 / (value.real**2 + value.imag**2)

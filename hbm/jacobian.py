@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import inner_kernel, kernel
 
 
 class Terms(NamedTuple):
@@ -111,7 +111,7 @@ def _linked(stiffness: Array, damping: Array) -> NDArray[np.bool_]:
     return linked
 
 
-@bare_kernel
+@inner_kernel
 def _product(series: Array, j: int, k: int) -> tuple[float, float, float, float]:
     """Return how order j of k(θ) y(θ) follows from order k of y (theory, eq. 19).
 

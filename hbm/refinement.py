@@ -12,7 +12,7 @@ from hbm.symmetry import Symmetry
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, edge
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 
 GAUSS_PLACES = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
@@ -115,7 +115,7 @@ def refine(
             )  # fmt: skip
 
 
-@bare_kernel
+@inner_kernel
 def _graded_node(
     left: float, right: float, touch: float, grade: int, node: int
 ) -> tuple[float, float]:
@@ -132,7 +132,7 @@ def _graded_node(
     return touch + way * root**grade, weight
 
 
-@bare_kernel
+@inner_kernel
 def _jump(
     points: ContactPoints,
     point: int,
@@ -189,7 +189,7 @@ def _jump(
         )  # fmt: skip
 
 
-@bare_kernel
+@inner_kernel
 def _deposit(
     point: int,
     work: Work,

@@ -19,7 +19,7 @@ from hbm.transitions import EVENTS, faded, graded, locate, passes, steepness
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, edge, rubs
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import inner_kernel, kernel
 
 
 class Forces(NamedTuple):
@@ -125,7 +125,7 @@ def hat(harmonics: int, samples: int) -> Array:
     return factor
 
 
-@bare_kernel
+@inner_kernel
 def _regular(
     points: ContactPoints,
     point: int,

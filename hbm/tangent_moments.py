@@ -13,7 +13,7 @@ from hbm.contact_path import Path, place
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
 
 STIFF = 1.0
 """damping of a point that sticks, times the time that it is given, over its inertia"""
@@ -106,7 +106,7 @@ def add_steps(
             _add(viscous[step + part], rows, mean[1], tilt[1], factor * sign)
 
 
-@bare_kernel
+@inner_kernel
 def _factor(mean: Array, tilt: Array) -> float:
     """Return the factor of the tilt: 4, or less where damping would be negative."""
     factor = 4.0
@@ -117,7 +117,7 @@ def _factor(mean: Array, tilt: Array) -> float:
     return factor
 
 
-@bare_kernel
+@inner_kernel
 def _add(result: Array, rows: Array, mean: Array, tilt: Array, factor: float) -> None:
     """Add rowsᵀ (mean + factor tilt) rows."""
     for row in range(3):

@@ -16,7 +16,7 @@ from microslip_mechanics.contact.points import (
     ONE_SIDED,
     ContactPoints,
 )
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
 
 EVENTS = 10
 """most within a cell: two crossings of each of four speeds, one turn, one touch"""
@@ -134,7 +134,7 @@ def locate(
     return found
 
 
-@bare_kernel
+@inner_kernel
 def _rise(events: Array, found: int) -> None:
     """Bring the few events after the first place into rising order."""
     for last in range(2, found + 1):
@@ -145,7 +145,7 @@ def _rise(events: Array, found: int) -> None:
         events[place] = event
 
 
-@bare_kernel
+@inner_kernel
 def _slow(
     one: float,
     two: float,
@@ -178,7 +178,7 @@ def _slow(
     return found
 
 
-@bare_kernel
+@inner_kernel
 def _crossings(
     one: float,
     two: float,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 from timedomain.coordinates import Contacts
 from timedomain.coupling import accept_coupling
 from timedomain.dense import copy, copy_rows
@@ -59,7 +59,7 @@ def settle(control: Control, motion: Motion) -> None:
     motion.numbers[LARGEST_DRIFT] = 0.0
 
 
-@bare_kernel
+@inner_kernel
 def _renew_relative(
     tables: Tables, motion: Motion, trial: Trial, level: int, length: float
 ) -> None:
@@ -78,7 +78,7 @@ def _renew_relative(
             motion.relative[1, i] -= tables.swing[level, j, i] * local.reaction[j]
 
 
-@bare_kernel
+@inner_kernel
 def _other_work(
     contacts: Contacts, tables: Tables, motion: Motion, trial: Trial, length: float
 ) -> float:
@@ -104,7 +104,7 @@ def _other_work(
     return work
 
 
-@bare_kernel
+@inner_kernel
 def _renew_forces(tables: Tables, motion: Motion, trial: Trial, length: float) -> None:
     """Write forces and their rates."""
     local = trial.local
@@ -123,7 +123,7 @@ def _renew_forces(tables: Tables, motion: Motion, trial: Trial, length: float) -
         motion.reaction[0, i] = force
 
 
-@bare_kernel
+@inner_kernel
 def _renew_energies(
     tables: Tables, motion: Motion, trial: Trial, length: float
 ) -> None:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 from timedomain.coordinates import Contacts
 from timedomain.dense import copy_rows, eliminate
 from timedomain.point_law import linearise
@@ -121,7 +121,7 @@ def solve_contact(
     return -1
 
 
-@bare_kernel
+@inner_kernel
 def _begin(
     contacts: Contacts,
     answer: Answer,
@@ -150,7 +150,7 @@ def _begin(
     _read(contacts, local)
 
 
-@bare_kernel
+@inner_kernel
 def _displace(answer: Answer, local: Local) -> None:
     """Move the relative displacement by what belongs to a change of velocity."""
     rank = local.velocity.size
@@ -164,7 +164,7 @@ def _displace(answer: Answer, local: Local) -> None:
             local.displacement[i] += answer.slope[i, j] * change[j]
 
 
-@bare_kernel
+@inner_kernel
 def _read(contacts: Contacts, local: Local) -> None:
     """Write displacement and velocity of the points."""
     for point in range(contacts.first.size):
@@ -178,7 +178,7 @@ def _read(contacts: Contacts, local: Local) -> None:
             local.gaps[point, axis], local.slips[point, axis] = gap, slip
 
 
-@bare_kernel
+@inner_kernel
 def _assemble(
     contacts: Contacts, answer: Answer, local: Local, careful: bool
 ) -> tuple[float, float]:
@@ -221,7 +221,7 @@ def _assemble(
     return size, scale
 
 
-@bare_kernel
+@inner_kernel
 def _scatter(contacts: Contacts, local: Local, point: int) -> None:
     """Add one point to Newton's matrix and right side."""
     first, width = contacts.first[point], contacts.width[point]
@@ -243,7 +243,7 @@ def _scatter(contacts: Contacts, local: Local, point: int) -> None:
             )
 
 
-@bare_kernel
+@inner_kernel
 def _scatter_displacement(
     contacts: Contacts, answer: Answer, local: Local, point: int
 ) -> None:
@@ -261,7 +261,7 @@ def _scatter_displacement(
             local.matrix[first + i, j] += left * gap[j]
 
 
-@bare_kernel
+@inner_kernel
 def _update(contacts: Contacts, answer: Answer, local: Local) -> None:
     """Apply a change of velocity to motion, reaction and linearised forces."""
     rank = local.velocity.size
@@ -274,7 +274,7 @@ def _update(contacts: Contacts, answer: Answer, local: Local) -> None:
     _follow(contacts, answer, local)
 
 
-@bare_kernel
+@inner_kernel
 def _follow(contacts: Contacts, answer: Answer, local: Local) -> None:
     """Write the points' motion, and their forces along the tangents."""
     gaps, slips, forces, slopes = local.gaps, local.slips, local.forces, local.by_slip

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import bare_kernel, kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
 
 
 @kernel
@@ -55,7 +55,7 @@ def eliminate(matrix: Array, right: Array) -> bool:
     return True
 
 
-@bare_kernel
+@inner_kernel
 def _pivoted(matrix: Array, right: Array, k: int) -> bool:
     """Bring the largest entry of a column to its diagonal; return if it has one."""
     size = right.size

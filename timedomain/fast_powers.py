@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_power
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 from timedomain.coordinates import Contacts, Modes
 from timedomain.coupling import coupled_force
 from timedomain.motion import Motion, Trial
@@ -66,7 +66,7 @@ def pull(modes: Modes, trial: Trial, mode: int) -> float:
     return force
 
 
-@bare_kernel
+@inner_kernel
 def _input_power(modes: Modes, trial: Trial, velocity: Array, stage: int) -> None:
     power = 0.0
     for j in range(velocity.size):
@@ -74,7 +74,7 @@ def _input_power(modes: Modes, trial: Trial, velocity: Array, stage: int) -> Non
     trial.powers[stage, 0] = power
 
 
-@bare_kernel
+@inner_kernel
 def _mean_input(modes: Modes, motion: Motion, trial: Trial, length: float) -> None:
     """Write the mean power of loads that are linear over the step but for their mean.
 

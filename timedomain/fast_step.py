@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 from microslip_mechanics.segments import Segments, load_factors
 from timedomain.contact_newton import Answer, solve_contact
 from timedomain.coordinates import Contacts, Modes
@@ -62,7 +62,7 @@ def attempt(
     return 0
 
 
-@bare_kernel
+@inner_kernel
 def _stages(
     control: Control,
     modes: Modes,
@@ -110,7 +110,7 @@ def _stages(
     return iterations
 
 
-@bare_kernel
+@inner_kernel
 def _begin(
     modes: Modes,
     tables: Tables,
@@ -132,7 +132,7 @@ def _begin(
         trial.load[j] = pull(modes, trial, j)
 
 
-@bare_kernel
+@inner_kernel
 def _guess(motion: Motion, trial: Trial, ahead: float) -> None:
     """Extrapolate the forces of the points; keep those of the stage before."""
     for point in range(motion.forces.shape[0]):
@@ -143,7 +143,7 @@ def _guess(motion: Motion, trial: Trial, ahead: float) -> None:
             )
 
 
-@bare_kernel
+@inner_kernel
 def _answer(tables: Tables, trial: Trial, level: int, stage: int) -> Answer:
     """Return what Newton's method needs of a stage."""
     return Answer(
@@ -156,7 +156,7 @@ def _answer(tables: Tables, trial: Trial, level: int, stage: int) -> Answer:
     )
 
 
-@bare_kernel
+@inner_kernel
 def _floor(control: Control, modes: Modes, answer: Answer, motion: Motion) -> float:
     """Return the unbalanced force [N] that rounding leaves in a short step.
 
@@ -174,7 +174,7 @@ def _floor(control: Control, modes: Modes, answer: Answer, motion: Motion) -> fl
     return floor
 
 
-@bare_kernel
+@inner_kernel
 def _stiffness(tables: Tables, trial: Trial, level: int) -> float:
     """Return contact stiffness times compliance, summed over the points."""
     stage, stiff = tables.times.size - 2, 0.0
@@ -183,7 +183,7 @@ def _stiffness(tables: Tables, trial: Trial, level: int) -> float:
     return stiff
 
 
-@bare_kernel
+@inner_kernel
 def _load(
     modes: Modes,
     tables: Tables,
@@ -201,7 +201,7 @@ def _load(
         force[j] -= coupled_force(trial, j, tables.times[stage], tables.mean > 0.0)
 
 
-@bare_kernel
+@inner_kernel
 def _middle(
     modes: Modes, segments: Segments, motion: Motion, trial: Trial, time: float
 ) -> None:
@@ -211,7 +211,7 @@ def _middle(
         trial.bulge[j] = pull(modes, trial, j)
 
 
-@bare_kernel
+@inner_kernel
 def _bulge(modes: Modes, trial: Trial) -> None:
     """Add to both ends what the mean load, by Simpson's rule, exceeds their mean by."""
     for j in range(trial.bulge.size):
@@ -221,7 +221,7 @@ def _bulge(modes: Modes, trial: Trial) -> None:
         trial.force[1, j] += trial.bulge[j]
 
 
-@bare_kernel
+@inner_kernel
 def _predict(
     modes: Modes, tables: Tables, motion: Motion, trial: Trial, level: int, stage: int
 ) -> None:
@@ -243,7 +243,7 @@ def _predict(
         )
 
 
-@bare_kernel
+@inner_kernel
 def _seen(row: Array, moved: Array, moving: Array) -> tuple[float, float]:
     """Return two inner products, each in four sums that do not wait for each other."""
     q0 = q1 = q2 = q3 = v0 = v1 = v2 = v3 = 0.0
@@ -263,7 +263,7 @@ def _seen(row: Array, moved: Array, moving: Array) -> tuple[float, float]:
     return q0 + q1 + q2 + q3, v0 + v1 + v2 + v3
 
 
-@bare_kernel
+@inner_kernel
 def _average(contacts: Contacts, motion: Motion, trial: Trial, length: float) -> None:
     """Make means over the step of the relative motion at its end."""
     for point in range(contacts.first.size):
@@ -278,7 +278,7 @@ def _average(contacts: Contacts, motion: Motion, trial: Trial, length: float) ->
         trial.relative[1, i] = (end - begin) / length
 
 
-@bare_kernel
+@inner_kernel
 def _contact_force(modes: Modes, trial: Trial) -> None:
     """Write the modal contact force."""
     trial.contact[:] = 0.0
@@ -288,7 +288,7 @@ def _contact_force(modes: Modes, trial: Trial) -> None:
             trial.contact[j] += modes.selection[i, j] * force
 
 
-@bare_kernel
+@inner_kernel
 def _complete(
     modes: Modes, tables: Tables, trial: Trial, level: int, stage: int
 ) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_energy, normal_response
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 from microslip_mechanics.segments import Segments, segment_of
 from timedomain.accept import accept, settle, tell_error
 from timedomain.coordinates import Contacts, Modes
@@ -75,7 +75,7 @@ def climb(
     return rows.shape[0], DONE
 
 
-@bare_kernel
+@inner_kernel
 def _step(
     control: Control,
     modes: Modes,
@@ -121,7 +121,7 @@ def _step(
     return DONE
 
 
-@bare_kernel
+@inner_kernel
 def _grow(control: Control, motion: Motion, level: int, error: float) -> None:
     """Let the next step be twice as long if none was rough for long enough."""
     counts = motion.counts
@@ -138,7 +138,7 @@ def _grow(control: Control, motion: Motion, level: int, error: float) -> None:
         counts[ROUGH] = counts[TICK]
 
 
-@bare_kernel
+@inner_kernel
 def _level(control: Control, segments: Segments, motion: Motion) -> int:
     """Return the level of the next step: on the ladder's grid, not across a kink."""
     counts = motion.counts
@@ -154,12 +154,12 @@ def _level(control: Control, segments: Segments, motion: Motion) -> int:
     return int(level)
 
 
-@bare_kernel
+@inner_kernel
 def _time(control: Control, tick: int) -> float:
     return float(control.longest * (tick / TICKS))
 
 
-@bare_kernel
+@inner_kernel
 def _store(modes: Modes, contacts: Contacts, motion: Motion, row: Array) -> None:
     """Write a row like :func:`timedomain.record.store`, and what errors there are."""
     probes, count = modes.probes.shape[0], contacts.first.size

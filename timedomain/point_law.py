@@ -26,7 +26,7 @@ from microslip_mechanics.contact.points import (
     TANH,
     ContactPoints,
 )
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 
 
 @bare_kernel
@@ -122,7 +122,7 @@ def between(
     return (first + last - 2.0 * middle) / 6.0, (rise - rises) / 3.0
 
 
-@bare_kernel
+@inner_kernel
 def _smooth_level(
     coefficient: float, share: float, threshold: float
 ) -> tuple[float, float]:
@@ -163,7 +163,7 @@ def friction_level(
     return level, (slope * threshold - level) / speed
 
 
-@bare_kernel
+@inner_kernel
 def _friction(
     points: ContactPoints,
     point: int,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 from timedomain.motion import (
     FIRST,
     HOPELESS,
@@ -51,7 +51,7 @@ def tried_enough(control: Control, motion: Motion, level: int, error: float) -> 
     return bool(counts[HOPELESS] <= HOPE)
 
 
-@bare_kernel
+@inner_kernel
 def _in_vain(motion: Motion, level: int) -> bool:
     """Return whether halving a step has not helped at this place."""
     return bool(motion.numbers[WORST] > 0.0 and level >= motion.counts[FIRST] + IN_VAIN)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 from timedomain.coordinates import Modes
 from timedomain.coupling import coupling_error
 from timedomain.motion import LENGTH, REFERENCE, Control, Motion, Trial
@@ -47,7 +47,7 @@ def step_error(
     return float(np.sqrt(energy / accepted))
 
 
-@bare_kernel
+@inner_kernel
 def _rounding(modes: Modes, motion: Motion, length: float) -> float:
     """Return twice the energy [J] of what rounding may do to a step.
 
@@ -63,7 +63,7 @@ def _rounding(modes: Modes, motion: Motion, length: float) -> float:
     return energy
 
 
-@bare_kernel
+@inner_kernel
 def _embedded(
     modes: Modes, tables: Tables, motion: Motion, trial: Trial, level: int
 ) -> float:
@@ -83,7 +83,7 @@ def _embedded(
     return energy
 
 
-@bare_kernel
+@inner_kernel
 def _curvature(modes: Modes, motion: Motion, trial: Trial, length: float) -> float:
     """Return twice the energy of what a linear contact force leaves out.
 

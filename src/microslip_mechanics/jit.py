@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numba
 from numba.core import config
+from numba.core.registry import CPUDispatcher
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,6 +39,32 @@ def bare_kernel(function: Function) -> Function:
     return _compiled(function, counted=False)
 
 
+def inner_kernel(function: Function) -> Function:
+    """Compile like :func:`bare_kernel` what kernels alone call, never Python.
+
+    The way in from Python, which unpacks each array of each argument, is a quarter of
+    what there is to compile where arguments are tables of arrays.
+    """
+    kept = _compiled(function, counted=False, no_cpython_wrapper=True)
+    if not config.__dict__["DISABLE_JIT"]:
+        cast("Any", kept).__class__ = _Inner
+    return kept
+
+
+class _Inner(CPUDispatcher):
+    """A compiled function without a way in from Python: numba would crash there."""
+
+    def __call__(self, *_: object) -> None:
+        """Refuse.
+
+        Raises
+        ------
+        TypeError
+            Always.
+        """
+        raise TypeError(f"{self.py_func.__name__} is called by other kernels only")
+
+
 def closure(function: Function) -> Function:
     """Compile a function with all that it closes over as constants; not kept on disk.
 
@@ -48,12 +75,13 @@ def closure(function: Function) -> Function:
     return cast("Function", numba.njit(error_model="numpy", nogil=True)(function))
 
 
-def _compiled(function: Function, *, counted: bool) -> Function:
-    """Return the kernel with its disk cache."""
+def _compiled(function: Function, *, counted: bool, **others: bool) -> Function:
+    """Return the kernel with its disk cache; ``others`` are numba's options."""
     options = config.__dict__
     if options["DISABLE_JIT"]:
         return function
     choices: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": counted}
+    choices |= others
     choices["no_cfunc_wrapper"] = True  # nobody takes the address of a kernel
     dispatcher = numba.njit(**choices)(function)
     folder = _cache_folder(Path(function.__code__.co_filename).parent)

@@ -31,7 +31,7 @@ from microslip_mechanics.contact.power_spring import (
     power_force,
 )
 from microslip_mechanics.contact.tanh_coulomb import tanh_coefficients
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 
 
 @bare_kernel
@@ -187,7 +187,7 @@ def normal_law(points: ContactPoints, point: int) -> HuntCrossley:
     )
 
 
-@bare_kernel
+@inner_kernel
 def _friction(
     points: ContactPoints, point: int, first: float, second: float
 ) -> tuple[float, float, float, float, float]:

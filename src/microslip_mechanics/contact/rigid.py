@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 
 
 @bare_kernel
@@ -115,7 +115,7 @@ def slide(
             )
 
 
-@bare_kernel
+@inner_kernel
 def _share(
     push: Array, limit: float, loss: float, old: Array
 ) -> tuple[float, float, float]:
@@ -132,7 +132,7 @@ def _share(
     return speed / slowing, slowing, speed
 
 
-@bare_kernel
+@inner_kernel
 def _turn(
     push: Array,
     loss: float,
@@ -158,7 +158,7 @@ def _turn(
     return (own - share * (loss * own - side)) / slowing
 
 
-@bare_kernel
+@inner_kernel
 def _seed(column: int, axis: int, by_push: float, by_momentum: float) -> float:
     """Return the direct part of a trial's derivative."""
     if column == axis:
@@ -166,7 +166,7 @@ def _seed(column: int, axis: int, by_push: float, by_momentum: float) -> float:
     return by_momentum if column == axis + 3 else 0.0
 
 
-@bare_kernel
+@inner_kernel
 def _varied(
     nearest: tuple[float, float, float, float, float, float, float],
     trial: tuple[float, float],

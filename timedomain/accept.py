@@ -45,13 +45,13 @@ def accept(
     accept_coupling(motion, trial, length)
 
 
-@bare_kernel
+@inner_kernel
 def tell_error(motion: Motion, trial: Trial) -> None:
     """Count the error of a step that cannot keep the tolerance, whatever its sign."""
     motion.numbers[UNKEPT] += abs(trial.numbers[1]) + 0.5 * trial.numbers[3]
 
 
-@bare_kernel
+@inner_kernel
 def settle(control: Control, motion: Motion) -> None:
     """Forget how fast the preload grew: what it moved says nothing of later motion."""
     motion.numbers[REFERENCE] = control.least

@@ -8,7 +8,7 @@ more is shared out evenly, or as a parabola in a step of several stages.
 
 from __future__ import annotations
 
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 from timedomain.coordinates import Modes
 from timedomain.motion import Motion, Trial
 
@@ -18,7 +18,7 @@ SMOOTHEST = 60.0
 cubic part of p, h³ p‴ (x³ - x/4)/6, has the first moment h⁵ p‴/720"""
 
 
-@bare_kernel
+@inner_kernel
 def extrapolate_coupling(motion: Motion, trial: Trial, length: float) -> None:
     """Guess the coupling forces of a step from those of the last one."""
     coupled = trial.coupled
@@ -28,7 +28,7 @@ def extrapolate_coupling(motion: Motion, trial: Trial, length: float) -> None:
         coupled[BULGE, j] = length**2 * motion.coupled[2, j]
 
 
-@bare_kernel
+@inner_kernel
 def renew_coupling(modes: Modes, motion: Motion, trial: Trial, length: float) -> float:
     """Write the coupling forces that the step's end asks for.
 
@@ -69,7 +69,7 @@ def coupled_force(trial: Trial, mode: int, place: float, mean: bool) -> float:
     )
 
 
-@bare_kernel
+@inner_kernel
 def coupling_error(modes: Modes, motion: Motion, trial: Trial, length: float) -> float:
     """Return twice the energy of what a step leaves out of the coupling forces.
 
@@ -89,7 +89,7 @@ def coupling_error(modes: Modes, motion: Motion, trial: Trial, length: float) ->
     return energy
 
 
-@bare_kernel
+@inner_kernel
 def accept_coupling(motion: Motion, trial: Trial, length: float) -> None:
     """Keep the forces at the end of a step that is taken over, and their rates."""
     for j in range(trial.coupled.shape[1]):

@@ -137,7 +137,7 @@ def _smooth_level(
     return coefficient * level, coefficient * (steep - level) / share / threshold
 
 
-@bare_kernel
+@inner_kernel
 def friction_level(
     points: ContactPoints, point: int, speed: float
 ) -> tuple[float, float]:

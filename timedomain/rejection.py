@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from microslip_mechanics.jit import bare_kernel, inner_kernel
+from microslip_mechanics.jit import inner_kernel
 from timedomain.motion import (
     FIRST,
     HOPELESS,
@@ -31,7 +31,7 @@ WELL = 12
 """level of a step that shows that it is"""
 
 
-@bare_kernel
+@inner_kernel
 def tried_enough(control: Control, motion: Motion, level: int, error: float) -> bool:
     """Return whether a step of known error is taken though that is too large.
 
@@ -57,7 +57,7 @@ def _in_vain(motion: Motion, level: int) -> bool:
     return bool(motion.numbers[WORST] > 0.0 and level >= motion.counts[FIRST] + IN_VAIN)
 
 
-@bare_kernel
+@inner_kernel
 def reject(control: Control, motion: Motion, level: int, nearly: bool) -> bool:
     """Choose half the step, or a dissipative one; return whether there is one."""
     counts = motion.counts

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numba
 from numba.core import config
-from numba.core.registry import CPUDispatcher
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,24 +44,7 @@ def inner_kernel(function: Function) -> Function:
     The way in from Python, which unpacks each array of each argument, is a quarter of
     what there is to compile where arguments are tables of arrays.
     """
-    kept = _compiled(function, counted=False, no_cpython_wrapper=True)
-    if not config.__dict__["DISABLE_JIT"]:
-        cast("Any", kept).__class__ = _Inner
-    return kept
-
-
-class _Inner(CPUDispatcher):
-    """A compiled function without a way in from Python: numba would crash there."""
-
-    def __call__(self, *_: object) -> None:
-        """Refuse.
-
-        Raises
-        ------
-        TypeError
-            Always.
-        """
-        raise TypeError(f"{self.py_func.__name__} is called by other kernels only")
+    return _compiled(function, counted=False, inline="always")
 
 
 def closure(function: Function) -> Function:
@@ -75,7 +57,7 @@ def closure(function: Function) -> Function:
     return cast("Function", numba.njit(error_model="numpy", nogil=True)(function))
 
 
-def _compiled(function: Function, *, counted: bool, **others: bool) -> Function:
+def _compiled(function: Function, *, counted: bool, **others: Any) -> Function:
     """Return the kernel with its disk cache; ``others`` are numba's options."""
     options = config.__dict__
     if options["DISABLE_JIT"]:

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.carried import Structure, carried
+from hbm.carried import carried
+from hbm.carried_step import Structure
 from hbm.recalled import recalled_multipliers
 from hbm.stuck_poles import split
 from hbm.tangents import StepTangents, step_tangents

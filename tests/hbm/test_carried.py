@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from hbm.carried import (
+from hbm.carried import carried
+from hbm.carried_step import (
     FACTOR,
     ROOT,
     STICKING_FACTOR,
     STICKING_ROOT,
     Structure,
-    carried,
 )
 from microslip_mechanics.arrays import Array
 

@@ -177,9 +177,9 @@ def _advance(
     impulse = 2.0 * np.dot(sliders.rows.T, made.traction)
     free -= np.dot(operators.contact, smooth + impulse)
     later = np.dot(sliders.release, impulse)
-    state.reaction[:] = smooth + impulse
     state.past[:] = state.fresh
     for i in range(dofs):
+        state.reaction[i] = smooth[i] + impulse[i]
         state.displacement[i] = predicted[i] + half**2 * free[i]
         state.velocity[i] = predicted[dofs + i] + half * free[i]
         state.acceleration[i] = free[i] + later[i]

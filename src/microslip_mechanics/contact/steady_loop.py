@@ -133,9 +133,10 @@ def _load(
         points, point, displacement[0, last], velocity[0, last]
     )
     if known <= 0.0:
-        known, by[1] = 0.0, 0.0
-    by[0] *= share
-    by[1] *= 1.0 - share
+        known = by[1, 0] = by[1, 1] = 0.0
+    for column in range(2):
+        by[0, column] *= share
+        by[1, column] *= 1.0 - share
     return share * load + (1.0 - share) * known, by
 
 

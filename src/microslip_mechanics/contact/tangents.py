@@ -44,17 +44,18 @@ def _tangents(
     damping: Array,
 ) -> None:
     force, stiff, viscous = np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
+    moved, moving, rank = np.zeros(3), np.zeros(3), basis.shape[1]
     for phase in range(displacement.shape[0]):
         for point in range(displacement.shape[1]):
-            contact_force(
-                points,
-                point,
-                displacement[phase, point],
-                velocity[phase, point],
-                force,
-                stiff,
-                viscous,
-            )
-            rows = basis[3 * point : 3 * point + 3]
-            stiffness[phase] += np.dot(rows.T, np.dot(stiff, rows))
-            damping[phase] += np.dot(rows.T, np.dot(viscous, rows))
+            for axis in range(3):
+                moved[axis] = displacement[phase, point, axis]
+                moving[axis] = velocity[phase, point, axis]
+            contact_force(points, point, moved, moving, force, stiff, viscous)
+            for entry in range(9):
+                one, two = 3 * point + entry // 3, 3 * point + entry % 3
+                for i in range(rank):
+                    by = basis[one, i]
+                    for j in range(rank):
+                        seen = by * basis[two, j]
+                        stiffness[phase, i, j] += stiff[entry // 3, entry % 3] * seen
+                        damping[phase, i, j] += viscous[entry // 3, entry % 3] * seen

@@ -93,7 +93,9 @@ def test_parallel_blades_do_not_jam() -> None:
     assert dissipated("parallel", "coulomb") == pytest.approx(0.09, rel=0.05)
 
 
-@pytest.mark.parametrize("law", ["coulomb", "gkf"])
+@pytest.mark.parametrize(
+    "law", ["coulomb", pytest.param("gkf", marks=pytest.mark.long)]
+)
 def test_normal_forces_of_the_jammed_rig_grow_to_many_times_the_static_ones(
     law: str,
 ) -> None:
@@ -127,7 +129,9 @@ def test_half_the_time_step_changes_the_energy_by_less_than_half_a_per_cent(
 
 
 @pytest.mark.parametrize("law", ["coulomb", "gkf"])
-@pytest.mark.parametrize("rig", ["A", "B", "soft", "stiff"])
+@pytest.mark.parametrize(
+    "rig", ["A", "B", pytest.param("soft", marks=pytest.mark.long), "stiff"]
+)
 def test_the_energy_of_a_sweep_balances_to_a_ten_thousandth(rig: str, law: str) -> None:
     history = swept(rig, law)
 

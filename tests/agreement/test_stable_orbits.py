@@ -23,6 +23,7 @@ def test_leading_multipliers_of_both_routes_agree() -> None:
         assert row.others <= 1e-3
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_march_leaves_what_is_unstable_and_keeps_the_rest() -> None:
     rows = comparisons("A, gkf")

@@ -55,6 +55,7 @@ def test_a_superharmonic_resonance_narrower_than_a_step_is_seen() -> None:
     assert place == pytest.approx(natural / 3.0, rel=1e-3)
 
 
+@pytest.mark.long
 def test_a_dip_of_a_beam_that_rubs_is_that_of_a_curve_with_short_steps() -> None:
     scene = load_scene("friction-beam")
     problem = problem_of(scene)

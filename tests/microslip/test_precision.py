@@ -84,7 +84,12 @@ def chosen(case: Case, exact: Reference, method: str) -> Iterator[Run]:
 
 
 @pytest.mark.parametrize(
-    "method", ["harmonic balance", "reference march", "scipy Radau"]
+    "method",
+    [
+        "harmonic balance",
+        "reference march",
+        pytest.param("scipy Radau", marks=pytest.mark.long),
+    ],
 )
 def test_every_method_comes_to_the_same_orbit(
     method: str, monkeypatch: pytest.MonkeyPatch

@@ -99,7 +99,7 @@ def _carry(
 @inner_kernel
 def _serves(step: Step, length: float, sticks: bool) -> bool:
     """Return whether a step has a given kind; equal lengths differ by rounding."""
-    apart = abs(step.length - length) > EQUAL * step.length
+    apart = abs(step.length - length) > EQUAL * abs(step.length)
     return not apart and (step.kept == 0.0) == sticks
 
 

@@ -94,14 +94,7 @@ def refine(
                 )
             near, far, blur = weight * (1.0 - share), weight * share, 0.0
         near, far, blur = part * near, part * far, part * blur
-        for axis in range(3):
-            row = 3 * point + axis
-            work.moved[axis] = (1.0 - share) * displacement[row, place] + (
-                share * displacement[row, after]
-            )
-            work.moving[axis] = (1.0 - share) * velocity[row, place] + (
-                share * velocity[row, after]
-            )
+        _write_motion(point, displacement, velocity, place, after, share, work)
         contact_force(
             points, point, work.moved, work.moving, work.force,
             work.by_displacement, work.by_velocity,
@@ -113,6 +106,27 @@ def refine(
                 point, work, made, first, last, end, weight, weight + tilt,
                 wraps and side == 1, symmetry,
             )  # fmt: skip
+
+
+@inner_kernel
+def _write_motion(
+    point: int,
+    displacement: Array,
+    velocity: Array,
+    place: int,
+    after: int,
+    share: float,
+    work: Work,
+) -> None:
+    """Write the motion of a point between two samples, linear between them."""
+    for axis in range(3):
+        row = 3 * point + axis
+        work.moved[axis] = (1.0 - share) * displacement[row, place] + (
+            share * displacement[row, after]
+        )
+        work.moving[axis] = (1.0 - share) * velocity[row, place] + (
+            share * velocity[row, after]
+        )
 
 
 @inner_kernel
@@ -156,13 +170,7 @@ def _jump(
     if (before > 0.0) == (behind > 0.0):
         return
     share, way = before / (before - behind), abs(behind - before)
-    for axis in range(3):
-        work.moved[axis] = (1.0 - share) * displacement[row + axis, place] + (
-            share * displacement[row + axis, after]
-        )
-        work.moving[axis] = (1.0 - share) * velocity[row + axis, place] + (
-            share * velocity[row + axis, after]
-        )
+    _write_motion(point, displacement, velocity, place, after, share, work)
     work.moved[0] = touch - BESIDE * way
     contact_force(
         points, point, work.moved, work.moving, work.force,

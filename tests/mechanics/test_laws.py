@@ -31,9 +31,11 @@ def force(points: ContactPoints, point: int, motion: Array) -> tuple[Array, Arra
 
 
 def pulled(points: ContactPoints, point: int, state: Array) -> tuple[Array, Array]:
-    """Return the traction of (slide, velocity, load, old) and its derivatives."""
-    new, by = np.empty(2), np.empty((2, 7))
-    traction(points, point, state[:2], state[2:4], state[4], state[5:], new, by)
+    """Return the traction of (slide, velocity, loads, old) and its derivatives."""
+    new, by = np.empty(2), np.empty((2, 8))
+    traction(
+        points, point, state[:2], state[2:4], state[4], state[5], state[6:], new, by
+    )
     return new, by
 
 
@@ -73,16 +75,19 @@ def test_tangents_are_central_differences_of_the_force(case: str) -> None:
 def test_tangents_of_what_remembers_are_central_differences(case: str) -> None:
     points, random = points_of(case), np.random.default_rng(4)
     for point in range(points.load.size):
-        limit = points.dynamic[point] * max(points.load[point], 1.0)
+        constant = bool(points.constant_load[point])
+        load, change = (points.load[point], 0.0) if constant else (1.0, 0.2)
+        limit = points.dynamic[point] * load
         reach = limit / points.tangential[point]
-        scale = np.array([reach, reach, 1.0, 1.0, 0.0, limit, limit])
-        for draw in random.uniform(-0.7, 0.7, (40, 7)):
+        # what was before stays within its limit
+        scale = np.array([reach, reach, 1.0, 1.0, change, change, *[0.8 * limit] * 2])
+        for draw in random.uniform(-0.7, 0.7, (40, 8)):
             state = scale * draw
-            state[4] = points.load[point] if points.constant_load[point] else 1.0
+            state[4:6] += load
             _, exact = pulled(points, point, state)
-            for column in range(7):
-                push = np.zeros(7)
-                push[column] = 1e-6 * (scale[column] or 1.0)
+            for column in range(8):
+                push = np.zeros(8)
+                push[column] = 1e-6 * (scale[column] or load)
                 high, _ = pulled(points, point, state + push)
                 low, _ = pulled(points, point, state - push)
                 slope = (high - low) / (2.0 * push[column])

@@ -36,6 +36,7 @@ def bristle_traction(
     slide: Array,
     velocity: Array,
     load: float,
+    past_load: float,
     old: Array,
     new: Array,
     by: Array,
@@ -43,13 +44,15 @@ def bristle_traction(
     """Write the traction of the bristles after a small slide, and its derivatives.
 
     Arguments are those of :func:`~microslip_mechanics.contact.elastic.elastic_traction`
-    and the sliding velocity [m/s], shape ``(2,)``.
+    and the sliding velocity [m/s], shape ``(2,)``, the mean of both ends. The sliding
+    force is that of the mean load.
     """
     by[:] = 0.0
     if load <= 0.0:
         new[:] = 0.0
         return
     coefficient, fall = _coefficient(law, math.hypot(velocity[0], velocity[1]))
+    load = 0.5 * (load + max(past_load, 0.0))
     limit = load * coefficient
     length = math.hypot(slide[0], slide[1])
     if limit <= 0.0:
@@ -64,14 +67,14 @@ def bristle_traction(
         pull = law.stiffness * slide[row]
         new[row] = keeps * old[row] + mean * pull
         by[row, row] = mean * law.stiffness
-        by[row, 5 + row] = keeps
+        by[row, 6 + row] = keeps
         by_bend = turn * pull - keeps * old[row]
         if length > 0.0:
             for column in range(2):
                 change = law.stiffness / limit * slide[column] / length
                 by[row, column] += by_bend * change
         by_limit = -by_bend * bend / limit
-        by[row, 4] = by_limit * coefficient
+        by[row, 4] = by[row, 5] = 0.5 * by_limit * coefficient
         by[row, 2] = by_limit * load * fall * velocity[0]
         by[row, 3] = by_limit * load * fall * velocity[1]
 

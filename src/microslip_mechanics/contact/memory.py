@@ -37,30 +37,33 @@ def traction(
     slide: Array,
     velocity: Array,
     load: float,
+    past_load: float,
     old: Array,
     new: Array,
     by: Array,
 ) -> None:
     """Write the traction of one point after a small slide, and its derivatives.
 
+    The error of a motion that is cut into slides falls with the square of their length.
+
     Parameters
     ----------
     points, point
         The table and the row in it.
     slide, velocity
-        Increment of the sliding displacement [m], and velocity [m/s], each of shape
-        ``(2,)``.
-    load
-        Normal load [N]. Bristles take the means of both ends, see :func:`end_share`.
+        Increment of the sliding displacement [m], and the mean of the velocities at
+        both ends [m/s], each of shape ``(2,)``.
+    load, past_load
+        Normal loads [N] at the end and the beginning; zero or less out of contact.
     old, new
         Traction before, and written: after it [N], each of shape ``(2,)``.
     by
-        Written: derivatives of both components by slide (2), velocity (2), load (1) and
-        old traction (2), shape ``(2, 7)``.
+        Written: derivatives of both components by slide (2), velocity (2), load (1),
+        load before (1) and old traction (2), shape ``(2, 8)``.
     """
     if points.friction[point] == ELASTIC:
         elastic = ElasticFriction(points.tangential[point], points.dynamic[point])
-        elastic_traction(elastic, slide, load, old, new, by)
+        elastic_traction(elastic, slide, load, past_load, old, new, by)
         return
     bristles = Bristles(
         points.tangential[point],
@@ -69,17 +72,7 @@ def traction(
         points.stribeck[point],
         points.stribeck_exponent[point],
     )
-    bristle_traction(bristles, slide, velocity, load, old, new, by)
-
-
-@kernel
-def end_share(points: ContactPoints, point: int) -> float:
-    """Return the share that the end of a small slide has in velocity and load.
-
-    Bristles slip all along it: means make the error fall with the square of the slide.
-    A slider slips in the end.
-    """
-    return 0.5 if points.friction[point] == BRISTLE else 1.0
+    bristle_traction(bristles, slide, velocity, load, past_load, old, new, by)
 
 
 @kernel
@@ -124,8 +117,7 @@ def add_traction(
     force, by_displacement, by_velocity
         As :func:`~microslip_mechanics.contact.law.contact_force` wrote them; added to.
     """
-    slide, speed, by = np.empty(2), np.empty(2), np.empty((2, 7))
-    share = end_share(points, point)
+    slide, speed, by = np.empty(2), np.empty(2), np.empty((2, 8))
     load, by_depth, by_approach = friction_load(
         points, point, displacement[0], velocity[0]
     )
@@ -134,14 +126,12 @@ def add_traction(
         fresh[0, axis] = displacement[axis + 1]
         fresh[2, axis] = velocity[axis + 1]
         slide[axis] = displacement[axis + 1] - past[0, axis]
-        speed[axis] = share * fresh[2, axis] + (1.0 - share) * past[2, axis]
-    if load > 0.0:
-        load = share * load + (1.0 - share) * max(past[3, 0], 0.0)
-    traction(points, point, slide, speed, load, past[1], fresh[1], by)
+        speed[axis] = 0.5 * (fresh[2, axis] + past[2, axis])
+    traction(points, point, slide, speed, load, past[3, 0], past[1], fresh[1], by)
     for row in range(2):
         force[row + 1] += fresh[1, row]
-        by_displacement[row + 1, 0] += share * by[row, 4] * by_depth
-        by_velocity[row + 1, 0] += share * by[row, 4] * by_approach
+        by_displacement[row + 1, 0] += by[row, 4] * by_depth
+        by_velocity[row + 1, 0] += by[row, 4] * by_approach
         for column in range(2):
             by_displacement[row + 1, column + 1] += by[row, column]
-            by_velocity[row + 1, column + 1] += share * by[row, column + 2]
+            by_velocity[row + 1, column + 1] += 0.5 * by[row, column + 2]

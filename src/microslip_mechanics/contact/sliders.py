@@ -2,10 +2,10 @@
 
 The traction T of friction that remembers goes from one step to the next,
 
-    T₁ = T(w₁ − w₀, ẇ, N, T₀) ,   δT₁ = F δ(y, ẏ/ω)₁ − G δ(y, ẏ/ω)₀ + H δT₀ ,
+    T₁ = T(w₁ − w₀, ẇ, N₁, N₀, T₀) ,   δT₁ = F δ(y, ẏ/ω)₁ − G δ(y, ẏ/ω)₀ + H δT₀ ,
 
-so that it is part of the state. Velocity ẇ and load N are those of the end, or for
-bristles the means of both ends. A slider that never slips keeps T − k_t w: H = 1.
+so that it is part of the state. Velocity ẇ is the mean of both ends, and N the loads at
+both. A slider that never slips keeps T − k_t w: H = 1.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import (
-    end_share,
     friction_load,
     remembers,
     traction,
@@ -120,7 +119,7 @@ class Sliders:
         """
         times, count = len(moved), len(self.points.load)
         tractions, limits = np.zeros((times, count, 2)), np.zeros((times, count))
-        by, load = np.zeros((times, count, 2, 7)), np.zeros((times, count, 2))
+        by, load = np.zeros((times, count, 2, 8)), np.zeros((times, count, 2))
         tractions[0] = self.spread(first)
         if self.count:
             recalling = np.flatnonzero(remembers(self.points))
@@ -177,20 +176,19 @@ class Sliders:
         tangents = basis[3 * point[:, None] + np.arange(1, 3)]
         slid = np.einsum("tsa,sar->tsr", own[:, :, :2], tangents)
         drag = np.einsum("tsa,sar->tsr", own[:, :, 2:4], tangents)
-        shares = np.array([end_share(self.points, each) for each in point])[:, None]
 
-        def seen(load: Array, share: Array) -> tuple[Array, Array]:
-            pressed = own[:, :, 4:5] * load[:, point]
-            moved = share * pressed[:, :, :1] * normal
-            return moved, share * frequency * (drag + pressed[:, :, 1:] * normal)
+        def seen(column: int, load: Array) -> tuple[Array, Array]:
+            pressed = own[:, :, column, None] * load[:, point]
+            moved = pressed[:, :, :1] * normal
+            return moved, frequency * (0.5 * drag + pressed[:, :, 1:] * normal)
 
-        depth, speed = seen(load, shares)
+        depth, speed = seen(4, load)
         motion = np.concatenate([slid + depth, speed], axis=2)
-        depth, speed = seen(np.roll(load, 1, axis=0), 1.0 - shares)
+        depth, speed = seen(5, np.roll(load, 1, axis=0))
         past = np.concatenate([slid - depth, -speed], axis=2)
         kept = np.zeros((len(by), self.count, self.count))
         for row, column in np.argwhere(point[:, None] == point):
-            kept[:, row, column] = own[:, row, 5 + self.axis[column]]
+            kept[:, row, column] = own[:, row, 6 + self.axis[column]]
         return motion, past, kept
 
 
@@ -225,7 +223,7 @@ def _follow(
     The derivatives of the ``load`` are written at the first as well.
     """
     for point in recalling:
-        share, before = end_share(points, point), 0.0
+        before = 0.0
         for place in range(moved.shape[0]):
             now, rate = moved[place, point], moving[place, point]
             force, by_depth, by_approach = friction_load(points, point, now[0], rate[0])
@@ -234,11 +232,10 @@ def _follow(
             if place > 0:
                 last = place - 1
                 limits[place, point] = points.dynamic[point] * max(force, 0.0)
-                speed = share * rate[1:] + (1.0 - share) * moving[last, point, 1:]
-                mean = share * force + (1.0 - share) * before if force > 0.0 else force
+                speed = 0.5 * (rate[1:] + moving[last, point, 1:])
                 traction(
-                    points, point, now[1:] - moved[last, point, 1:], speed, mean,
-                    tractions[last, point], tractions[place, point],
+                    points, point, now[1:] - moved[last, point, 1:], speed, force,
+                    before, tractions[last, point], tractions[place, point],
                     by[place, point],
                 )  # fmt: skip
             before = max(force, 0.0)

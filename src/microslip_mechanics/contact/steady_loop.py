@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.memory import end_share, friction_load, traction
+from microslip_mechanics.contact.memory import friction_load, traction
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 
@@ -82,62 +82,52 @@ def _period(
 ) -> None:
     """March one period from ``state``: traction and its change; the first from rest."""
     samples = displacement.shape[1]
-    by, slide, new = np.zeros((2, 7)), np.zeros(2), np.zeros(2)
+    by, slide, new = np.zeros((2, 8)), np.zeros(2), np.zeros(2)
     for place in range(samples):
         begins = first and place == 0
         before = place - 1 if place > 0 else samples - 1
         last = place if begins else before
         for axis in range(1, 3):
             slide[axis - 1] = displacement[axis, place] - displacement[axis, last]
-        load, by_load = _load(points, point, displacement, velocity, place, last)
-        share = end_share(points, point)
-        speed = share * velocity[1:, place] + (1.0 - share) * velocity[1:, last]
-        pressing = by_load[0, 1] * velocity[0, place]
-        pressing += by_load[1, 1] * velocity[0, last]
-        traction(points, point, slide, speed, load, state[0], new, by)
+        load, by_load = _loads(points, point, displacement, velocity, place, last)
+        speed = 0.5 * (velocity[1:, place] + velocity[1:, last])
+        traction(points, point, slide, speed, load[0], load[1], state[0], new, by)
         one, two = state[1]
         for axis in range(2):
             state[0, axis] = made[axis, place] = new[axis]
             state[1, axis] = change[axis, place] = (
                 by[axis, 2] * speed[0] + by[axis, 3] * speed[1]
-                + by[axis, 4] * pressing
-                + by[axis, 5] * one + by[axis, 6] * two
+                + by[axis, 4] * by_load[0, 1] * velocity[0, place]
+                + by[axis, 5] * by_load[1, 1] * velocity[0, last]
+                + by[axis, 6] * one + by[axis, 7] * two
             )  # fmt: skip
         if gradient.size > 0:
             _carry(
-                gradient, waves, frequency, axes, by, by_load, share, place, before,
-                begins,
+                gradient, waves, frequency, axes, by, by_load, place, before, begins
             )  # fmt: skip
 
 
 @kernel
-def _load(
+def _loads(
     points: ContactPoints,
     point: int,
     displacement: Array,
     velocity: Array,
     place: int,
     last: int,
-) -> tuple[float, Array]:
-    """Return the load over a slide, and its derivatives.
+) -> tuple[Array, Array]:
+    """Return the loads after and before a slide, (2,), and each one's derivatives.
 
-    They are those by depth and approach after it, and before it, shape ``(2, 2)``.
+    They are those by depth and approach, shape ``(2, 2)``; zero out of contact.
     """
-    share, by = end_share(points, point), np.zeros((2, 2))
-    load, by[0, 0], by[0, 1] = friction_load(
-        points, point, displacement[0, place], velocity[0, place]
-    )
-    if share == 1.0 or load <= 0.0:
-        return load, by
-    known, by[1, 0], by[1, 1] = friction_load(
-        points, point, displacement[0, last], velocity[0, last]
-    )
-    if known <= 0.0:
-        known = by[1, 0] = by[1, 1] = 0.0
-    for column in range(2):
-        by[0, column] *= share
-        by[1, column] *= 1.0 - share
-    return share * load + (1.0 - share) * known, by
+    load, by = np.zeros(2), np.zeros((2, 2))
+    for end, moment in enumerate((place, last)):
+        pressed, by_depth, by_approach = friction_load(
+            points, point, displacement[0, moment], velocity[0, moment]
+        )
+        if pressed > 0.0:
+            load[end], by[end, 0], by[end, 1] = pressed, by_depth, by_approach
+    return load, by
 
 
 @kernel
@@ -148,7 +138,6 @@ def _carry(
     axes: NDArray[np.bool_],
     by: Array,
     by_load: Array,
-    share: float,
     place: int,
     before: int,
     begins: bool,
@@ -163,14 +152,14 @@ def _carry(
             wave, rate = value[place, term], frequency * slope[place, term]
             known, turned = value[last, term], frequency * slope[last, term]
             load = by_load[0, 0] * wave + by_load[0, 1] * rate
-            load += by_load[1, 0] * known + by_load[1, 1] * turned
-            slid, rate = wave - known, share * rate + (1.0 - share) * turned
+            past_load = by_load[1, 0] * known + by_load[1, 1] * turned
+            slid, rate = wave - known, 0.5 * (rate + turned)
             one = gradient[0, column, before, term]
             two = gradient[1, column, before, term]
             for row in range(2):
-                change = by[row, 5] * one + by[row, 6] * two
+                change = by[row, 6] * one + by[row, 7] * two
                 if column == 0:
-                    change += by[row, 4] * load
+                    change += by[row, 4] * load + by[row, 5] * past_load
                 else:
                     change += by[row, column - 1] * slid + by[row, column + 1] * rate
                 gradient[row, column, place, term] = change

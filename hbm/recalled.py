@@ -25,8 +25,7 @@ from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.tangents import contact_tangents
 
 STEPS = 256
-"""of a period, without those that events add; twice as many where a point slips along
-a curve in two tangents, which the law follows to first order"""
+"""of a period, without those that events add"""
 LEAST = 0.05
 """share of the period in which a slider is taken to stick in the mean, at least"""
 SKEW = 1e8
@@ -63,8 +62,7 @@ def recalled_multipliers(
         return np.empty(0, complex)
     sliders = Sliders.of(points, basis)
     orbit = SampledOrbit.of(contact, frequency)
-    twice = sliders.count > np.unique(sliders.point).size
-    slid = slid_orbit(sliders, orbit, 2 * STEPS if twice else STEPS)
+    slid = slid_orbit(sliders, orbit, STEPS)
     middle = 0.5 * (slid.phase[1:] + slid.phase[:-1])
     elastic, viscous = contact_tangents(points, basis, *orbit.at(middle))
     share = np.diff(slid.phase) / (2.0 * np.pi)

@@ -14,7 +14,8 @@ from microslip_mechanics.quantity import quantity
 class ElasticFriction(NormalLoad):
     """dT = k_t dw_t while |T| < µN, else T = µN along the sliding; T = 0 in separation.
 
-    Two tangents slide together (Yang and Menq, 1998; theory, eq. 10a).
+    Two tangents slide together (Yang and Menq, 1998), to second order in a step where
+    their direction turns (theory, eq. 10a).
     """
 
     stiffness: float = quantity("N/m", positive=True)

@@ -44,7 +44,8 @@ def traction(
 ) -> None:
     """Write the traction of one point after a small slide, and its derivatives.
 
-    The error of a motion that is cut into slides falls with the square of their length.
+    The error of a motion that is cut into slides falls with the square of their length
+    while its point stays in contact; one that touches within a slide slides all of it.
 
     Parameters
     ----------

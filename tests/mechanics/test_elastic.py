@@ -52,7 +52,7 @@ def test_along_a_circle_the_traction_lags_by_a_constant_angle() -> None:
         for steps in (50, 100, 200)
     ]
     assert errors[0] < 0.005 * 0.5
-    assert [a / b for a, b in pairwise(errors)] == (pytest.approx([4.0, 4.0], rel=0.05))
+    assert [a / b for a, b in pairwise(errors)] == (pytest.approx([4.0, 4.0], rel=0.01))
 
 
 def test_of_second_order_under_a_load_that_varies() -> None:
@@ -71,7 +71,7 @@ def test_of_second_order_under_a_load_that_varies() -> None:
         for n in steps
     ]
     ratios = [a / b for a, b in pairwise(errors)]
-    assert ratios == pytest.approx([4.0, 4.0], rel=0.2)
+    assert ratios == pytest.approx([4.0, 4.0], rel=0.02)
 
 
 @pytest.mark.parametrize("loads", [(1.0, 1.0), (1.0, 1.3), (1.0, 0.4), (0.0, 1.0)])
@@ -108,3 +108,16 @@ def test_where_a_point_touches_the_slide_alone_gives_the_direction() -> None:
     assert by[:, :2] == pytest.approx(
         0.5 / 5.0 * np.array([[0.64, -0.48], [-0.48, 0.36]])
     )
+
+
+@pytest.mark.parametrize("slide", [[0.0, 0.0], [3.0, 4.0]])
+def test_without_friction_there_is_no_traction(slide: list[float]) -> None:
+    # whatever traction a period is begun with
+    smooth = contact_table(
+        [PointLaw(stiffness=1.0, friction=ELASTIC, dynamic=0.0, tangential=2.0)]
+    )
+    new, by = np.empty(2), np.empty((2, 8))
+    old = np.array([2.0, 1.0])
+    traction(smooth, 0, np.array(slide), np.zeros(2), 1.0, 1.0, old, new, by)
+    assert (new == 0.0).all()
+    assert (by == 0.0).all()

@@ -58,10 +58,10 @@ def elastic_traction(
         load before (1) and old traction (2), shape ``(2, 8)``.
     """
     by[:] = 0.0
-    if load <= 0.0:
+    first, last = law.coefficient * max(past_load, 0.0), law.coefficient * load
+    if last <= 0.0:
         new[:] = 0.0
         return
-    first, last = law.coefficient * max(past_load, 0.0), law.coefficient * load
     pull_one, pull_two = law.stiffness * slide[0], law.stiffness * slide[1]
     one, two = old[0] + pull_one, old[1] + pull_two
     if math.hypot(one, two) <= last:
@@ -129,11 +129,12 @@ def _turned(
     if size == 0.0:
         ahead_one, ahead_two = pull_one / pull, pull_two / pull
         return ahead_one, ahead_two, 0.0, 0.0, -ahead_two / pull, ahead_one / pull, 0.0
-    ahead_one, ahead_two = one / size, two / size
+    one, two = one / size, two / size
+    ahead_one, ahead_two = one, two
     if pull > 0.0:
         ahead_one, ahead_two = pull_one / pull, pull_two / pull
-    along = (one * ahead_one + two * ahead_two) / size
-    across = (two * ahead_one - one * ahead_two) / size
+    along = one * ahead_one + two * ahead_two
+    across = two * ahead_one - one * ahead_two
     mean = 0.5 * (first + last)
     bend = pull / mean
     left, lost = math.exp(-bend), 1.0
@@ -142,7 +143,7 @@ def _turned(
     whole = (1.0 + along) + left**2 * (1.0 - along)
     cosine = ((1.0 + along) - left**2 * (1.0 - along)) / whole
     sine = 2.0 * left * across / whole
-    keeps = 2.0 * left / whole / size**2
+    keeps = 2.0 * left / whole / size
     turns = lost * ((1.0 - left) + along * (1.0 + left)) / whole / mean
     return (
         cosine * ahead_one - sine * ahead_two,

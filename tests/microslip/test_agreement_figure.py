@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from figure_checks import UNIT, check_lines, legend, unmarked
-from microslip.figures import curve as curves
+from microslip.figures.abscissa import abscissa
 from microslip.figures.agreement import agreement_figure
 from microslip.figures.track import track_figure
 from microslip_mechanics.response import ResponseCurve
@@ -39,7 +39,7 @@ def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     check_lines(dots[1:], [133.0], [[0.2]])
     assert legend(deviations) == ["admitted", "difference", "too much"]
     check_lines(envelopes.lines[:2], swept, [0.1 * swept, 0.2 * swept])
-    hertz = curves.abscissa(small_curve)
+    hertz = abscissa(small_curve)
     check_lines(envelopes.lines[2:], hertz, [1e3 * small_curve.peak[:, 0]])
     assert legend(envelopes) == ["1 x as long", "4 x as long", "curve"]
     check_lines(energies.lines, slower, [[40.0, 10.0, 5.0]])

@@ -294,10 +294,13 @@ def test_the_picture_shows_curve_envelopes_and_delays(
 
     figure.draw_without_rendering()
     left, right = figure.axes
-    curve, *envelopes, fold = left.lines
+    stable, unstable, *envelopes, fold = left.lines
     assert left.get_xlim() == pytest.approx((130.6, 133.4))
-    shown = np.asarray(curve.get_ydata(), dtype=float)
-    np.testing.assert_allclose(shown, 1e3 * small_curve.peak[:, 0])
+    shown = np.array([each.get_ydata() for each in (stable, unstable)], dtype=float)
+    peak = 1e3 * small_curve.peak[:, 0]
+    np.testing.assert_allclose(shown[0], [*peak[:2], np.nan, np.nan])
+    np.testing.assert_allclose(shown[1], [np.nan, *peak[1:]])
+    assert stable.get_linestyle() != unstable.get_linestyle()
     for each in envelopes:
         np.testing.assert_allclose(np.asarray(each.get_ydata()), 1e-2 * hertz)
     assert len(envelopes) == 4

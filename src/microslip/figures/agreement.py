@@ -9,12 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.curve import (
-    FREQUENCY,
-    abscissa,
-    frequency_response,
-    parted,
-)
+from microslip.figures.abscissa import FREQUENCY, abscissa, parted
+from microslip.figures.amplitude import frequency_response
 from microslip.figures.style import (
     COLOURS,
     WIDTH,

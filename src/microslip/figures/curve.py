@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
+import math
+from collections.abc import Iterator
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from microslip.figures.abscissa import abscissa, abscissa_name, parted
+from microslip.figures.amplitude import (
+    close_up,
+    crowd,
+    frequency_response,
+    greatest,
+    some,
+)
 from microslip.figures.style import (
     COLOURS,
     STYLES,
@@ -18,127 +27,66 @@ from microslip.figures.style import (
     framed,
     headline,
     legend_above,
-    literal,
     readable,
     relative,
 )
 from microslip_mechanics.response import ResponseCurve
 
-MARKERS = {
-    "peak": "^",
-    "fold": "s",
-    "branch point": "o",
-    "Neimark-Sacker": "*",
-    "period doubling": "D",
-    "branch": "P",
-    "detached": "p",
-    "restart": "x",
-}
-"""for each event of a curve"""
-FREQUENCY = "excitation frequency [Hz]"
-LAYOUTS = {
-    2: ((2, 1, 1), (2, 1, 2)),
-    3: ((2, 1, 1), (2, 2, 3), (2, 2, 4)),
-    4: ((2, 2, 1), (2, 2, 2), (2, 2, 3), (2, 2, 4)),
-}
-"""for each number of panels their rows, columns and places"""
-BEGINNINGS = ("branch", "detached", "restart")
-"""events at which a line does not go on from the point before"""
+ROWS = {2: (1, 1), 3: (1, 2), 4: (2, 2), 5: (2, 3), 6: (3, 3)}
+"""for each number of panels how many the upper row has, and the lower one"""
+WIDE = 4
+"""panels up to which a picture has the usual width"""
+SMALL = 1e-6
+"""of the largest error, below which errors are not worth a look"""
+STEADY = 1e-3
+"""of the largest force, by which normal forces vary at least, if they are drawn"""
 
 
 def curve_figure(curve: ResponseCurve, title: str) -> Figure:
-    """Draw amplitude, sliding velocity, dissipated energy and normal forces.
+    """Draw amplitude, sliding velocity, energy, normal forces and estimated error.
 
-    Where one of the last two is nothing, the estimated error takes its place; without
-    any of them the amplitude has all of the width.
+    What is located too closely together to be told apart has a close-up; what is
+    nothing, or does not change, has no panel.
     """
     curve = parted(curve)
     drawn = [frequency_response, sliding_velocity]
+    if crowd(curve):
+        drawn.insert(1, close_up)
     if (largest(curve.friction_energy), largest(curve.damping_energy)) != (0.0, 0.0):
         drawn.append(dissipated_energy)
-    if largest(curve.normal_largest) > 0.0:
+    if _varies(curve):
         drawn.append(normal_forces)
-    if len(drawn) < max(LAYOUTS) and largest(curve.error) > 0.0:
+    if largest(curve.error) > 0.0:
         drawn.append(estimated_error)
-    figure = Figure(figsize=(10.0, 7.0), layout="constrained")
-    for draw, place in zip(drawn, LAYOUTS[len(drawn)], strict=True):
-        draw(figure.add_subplot(*place), curve)
+    width = 10.0 if len(drawn) <= WIDE else 14.0
+    figure = Figure(figsize=(width, 7.0), layout="constrained")
+    for draw, axes in zip(drawn, _panels(figure, ROWS[len(drawn)]), strict=True):
+        draw(axes, curve)
     headline(figure, title)
     return figure
+
+
+def _panels(figure: Figure, rows: tuple[int, ...]) -> Iterator[Axes]:
+    """Yield the panels of rows that share the width, each of its own number."""
+    grid = figure.add_gridspec(len(rows), math.lcm(*rows))
+    for row, count in enumerate(rows):
+        width = grid.ncols // count
+        for place in range(count):
+            yield figure.add_subplot(grid[row, place * width : (place + 1) * width])
+
+
+def _varies(curve: ResponseCurve) -> bool:
+    """Return whether normal forces differ in time or from point to point."""
+    if largest(curve.normal_largest) == 0.0:
+        return False
+    low = np.nanmin(curve.normal_smallest, axis=0)
+    high = np.nanmax(curve.normal_largest, axis=0)
+    return float((high - low).max()) > STEADY * largest(curve.normal_largest)
 
 
 def largest(values: np.ndarray) -> float:
     """Return the largest finite size of values, zero if there is none."""
     return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
-
-
-def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
-    """Draw the first-harmonic amplitude of each absolute motion."""
-    watched = absolute(curve.probes)
-    shown = greatest(watched, curve.amplitude, len(STYLES))
-    for colour, style, place in zip(COLOURS, STYLES, shown, strict=False):
-        axes.plot(
-            abscissa(curve),
-            1e3 * curve.amplitude[:, place],
-            style,
-            color=colour,
-            linewidth=WIDTH * 2.0,
-            label=readable(curve.probes[place]),
-        )
-    if len(shown) < len(watched):
-        highest = 1e3 * curve.amplitude[:, watched].max(axis=1)
-        axes.plot(
-            abscissa(curve), highest, color="0.6", linewidth=WIDTH, label="largest"
-        )
-    framed(
-        axes,
-        x=abscissa_name(curve),
-        y="amplitude [mm]",
-        title=f"First harmonic{some(shown, watched)}",
-    )
-    _events(axes, curve)
-    axes.set_ylim(bottom=0.0)
-    axes.legend(frameon=False)
-
-
-def greatest(places: list[int], values: np.ndarray, count: int) -> list[int]:
-    """Return the columns of ``values`` that come highest, in their order."""
-    highest = np.nanmax(values, axis=0, initial=0.0)
-    return sorted(sorted(places, key=lambda place: -highest[place])[:count])
-
-
-def some(shown: list[int], watched: list[int]) -> str:
-    """Return what a title adds where not all motions are shown."""
-    few = len(shown) < len(watched)
-    return f": the greatest {len(shown)} of {len(watched)}" if few else ""
-
-
-def _events(axes: Axes, curve: ResponseCurve) -> None:
-    """Mark unstable stretches and what was located on the curve."""
-    watched = absolute(curve.probes)
-    largest = 1e3 * curve.amplitude[:, watched].max(axis=1, initial=0.0)
-    unstable = np.where(curve.unstable > 0, largest, np.nan)
-    if (curve.unstable > 0).any():
-        axes.plot(
-            abscissa(curve),
-            unstable,
-            color="0.15",
-            linewidth=WIDTH * 0.8,
-            label="unstable",
-        )
-    events = np.array(curve.event)
-    for kind, marker in MARKERS.items():
-        places = events == kind
-        if places.any():
-            axes.plot(
-                abscissa(curve)[places],
-                largest[places],
-                marker,
-                color="0.15",
-                markersize=6.0,
-                fillstyle="none",
-                label=kind,
-            )
 
 
 def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
@@ -201,6 +149,8 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
         y="error [%]",
         title="Estimated error of amplitude",
     )
+    if np.nanmin(known) < SMALL * np.nanmax(known):
+        axes.set_ylim(bottom=100.0 * SMALL * np.nanmax(known))
 
 
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
@@ -229,29 +179,3 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     axes.set_ylim(1.05 * lowest, 1.05 * highest if highest > 0.0 else None)
     if curve.contacts:
         axes.legend(frameon=False, ncols=2)
-
-
-def abscissa(curve: ResponseCurve) -> np.ndarray:
-    """Return the excitation frequency [Hz], or the parameter that is followed."""
-    return curve.parameter if curve.along else curve.frequency / (2.0 * np.pi)
-
-
-def abscissa_name(curve: ResponseCurve) -> str:
-    """Return what stands below the axis."""
-    return literal(curve.along) if curve.along else FREQUENCY
-
-
-def parted(curve: ResponseCurve) -> ResponseCurve:
-    """Return a curve with an empty point before each at which a line begins anew."""
-    places = [i for i, name in enumerate(curve.event) if i and name in BEGINNINGS]
-    if not places:
-        return curve
-    changed: dict[str, object] = {}
-    for field in dataclasses.fields(curve):
-        value = getattr(curve, field.name)
-        if isinstance(value, np.ndarray):
-            changed[field.name] = np.insert(value, places, np.nan, axis=0)
-    for name in ("event", "outcome"):
-        texts = np.insert(np.array(getattr(curve, name), dtype=object), places, "")
-        changed[name] = tuple(texts)
-    return dataclasses.replace(curve, **changed)  # type: ignore[arg-type]

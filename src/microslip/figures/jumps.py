@@ -9,9 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.curve import FREQUENCY, abscissa, parted
+from microslip.figures.abscissa import FREQUENCY, abscissa, parted
+from microslip.figures.amplitude import stretches
 from microslip.figures.style import (
     COLOURS,
+    STYLES,
     WIDTH,
     framed,
     headline,
@@ -65,13 +67,19 @@ def jumps_figure(curve: ResponseCurve, jumps: Sequence[JumpLine], title: str) ->
 
 def _envelopes(axes: Axes, curve: ResponseCurve, jumps: Sequence[JumpLine]) -> None:
     whole = parted(curve)
-    axes.plot(abscissa(whole), 1e3 * whole.peak[:, 0], "k", lw=2 * WIDTH)
+    at, peak = abscissa(whole), 1e3 * whole.peak[:, 0]
+    for shown, style, name in zip(
+        stretches(whole), STYLES, ("stable", "unstable"), strict=False
+    ):
+        line = np.where(shown, peak, np.nan)
+        axes.plot(at, line, style, color="k", lw=2 * WIDTH, label=name)
     for colour, jump in zip(COLOURS, jumps, strict=False):
         for hertz, envelope in jump.envelopes:
             axes.plot(hertz, 1e3 * envelope, color=colour, lw=WIDTH)
         axes.axvline(jump.fold, color=colour, ls=":", lw=WIDTH)
     title = f"Curve, and envelopes of the sweeps, {readable(curve.probes[0])}"
     framed(axes, x=FREQUENCY, y="peak [mm]", title=title)
+    axes.legend(frameon=False)
     swept = [hertz for jump in jumps for hertz, _ in jump.envelopes]
     if swept:
         low, high = np.min(np.concatenate(swept)), np.max(np.concatenate(swept))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.curve import MARKERS
+from microslip.figures.amplitude import MARKERS
 from microslip.figures.style import (
     COLOURS,
     WIDTH,

@@ -1,0 +1,40 @@
+"""What a curve is drawn against, and where its line begins anew."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from microslip.figures.style import literal
+from microslip_mechanics.response import ResponseCurve
+
+FREQUENCY = "excitation frequency [Hz]"
+BEGINNINGS = ("branch", "detached", "restart")
+"""events at which a line does not go on from the point before"""
+
+
+def abscissa(curve: ResponseCurve) -> np.ndarray:
+    """Return the excitation frequency [Hz], or the parameter that is followed."""
+    return curve.parameter if curve.along else curve.frequency / (2.0 * np.pi)
+
+
+def abscissa_name(curve: ResponseCurve) -> str:
+    """Return what stands below the axis."""
+    return literal(curve.along) if curve.along else FREQUENCY
+
+
+def parted(curve: ResponseCurve) -> ResponseCurve:
+    """Return a curve with an empty point before each at which a line begins anew."""
+    places = [i for i, name in enumerate(curve.event) if i and name in BEGINNINGS]
+    if not places:
+        return curve
+    changed: dict[str, object] = {}
+    for field in dataclasses.fields(curve):
+        value = getattr(curve, field.name)
+        if isinstance(value, np.ndarray):
+            changed[field.name] = np.insert(value, places, np.nan, axis=0)
+    for name in ("event", "outcome"):
+        texts = np.insert(np.array(getattr(curve, name), dtype=object), places, "")
+        changed[name] = tuple(texts)
+    return dataclasses.replace(curve, **changed)  # type: ignore[arg-type]

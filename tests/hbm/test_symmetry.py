@@ -26,8 +26,6 @@ from sliding import (
 )
 from small_problems import cubic_oscillator
 
-pytestmark = pytest.mark.kernels
-
 
 def rig(
     **overrides: object,
@@ -44,7 +42,9 @@ def rig(
 
 @pytest.mark.parametrize("samples", [64, 65, 66, 256])
 @pytest.mark.parametrize("law", ["coulomb", "gkf"])
-@pytest.mark.parametrize("model", ["A", "B", "full"])
+@pytest.mark.parametrize(
+    "model", [pytest.param("A", marks=pytest.mark.kernels), "B", "full"]
+)
 def test_half_a_period_says_all_of_the_rig(model: str, law: str, samples: int) -> None:
     half, whole, active = rig(model=model, friction__law=law)
     fourier, draw = FourierBasis(HARMONICS, samples), np.random.default_rng(7)
@@ -75,6 +75,7 @@ def test_half_a_period_says_all_of_the_rig(model: str, law: str, samples: int) -
             np.testing.assert_allclose(found, exact, rtol=0.0, atol=1e-9 * unit)
 
 
+@pytest.mark.kernels
 @pytest.mark.parametrize("share", [-0.9, -0.5, -0.1, 0.1, 0.5])
 def test_a_turn_in_the_last_cell_of_half_a_period_is_shared_with_its_first(
     share: float,
@@ -94,6 +95,7 @@ def test_a_turn_in_the_last_cell_of_half_a_period_is_shared_with_its_first(
     np.testing.assert_allclose(tangents[0], tangents[1], rtol=0.0, atol=1e-13 * unit)
 
 
+@pytest.mark.kernels
 def test_a_normal_force_is_never_the_mirror_image_of_its_own() -> None:
     problem = cubic_oscillator()
     whole = relative_problem(problem, static_equilibrium(problem))
@@ -125,6 +127,7 @@ def sliders(*friction: float) -> RelativeProblem:
     return whole.restricted(kept, odd)
 
 
+@pytest.mark.kernels
 @pytest.mark.parametrize("friction", [(0.1, 0.4), (0.4, 0.1)])
 def test_a_point_of_another_law_is_no_mirror_image(
     friction: tuple[float, float],
@@ -145,6 +148,7 @@ def test_a_point_of_another_law_is_no_mirror_image(
         np.testing.assert_allclose(force, forces[-1], rtol=0.0, atol=1e-12 * unit)
 
 
+@pytest.mark.kernels
 def test_a_mirror_image_that_becomes_another_is_one_no_more() -> None:
     half, _, active = rig(model="full")
     fourier, draw = FourierBasis(HARMONICS, 64), np.random.default_rng(3)

@@ -30,8 +30,6 @@ from sliding import (
     turned,
 )
 
-pytestmark = pytest.mark.kernels
-
 
 def by_quadrature(
     points: ContactPoints, moved: Array, kinks: list[float]
@@ -78,6 +76,7 @@ def turns(threshold: float, phase: float, wide: float = 0.0) -> list[float]:
     ]
 
 
+@pytest.mark.kernels
 @pytest.mark.parametrize(("threshold", "stribeck"), [(1e-3, 0.05), (1e-6, 0.01)])
 def test_falling_friction_is_that_of_quadrature(
     threshold: float, stribeck: float
@@ -96,6 +95,7 @@ def test_falling_friction_is_that_of_quadrature(
     assert errors[2] < errors[0] / 10.0
 
 
+@pytest.mark.kernels
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
 @pytest.mark.parametrize("law", [FRICTIONLESS, COULOMB])
 def test_faces_that_separate_are_those_of_quadrature(law: int, exponent: float) -> None:
@@ -175,6 +175,7 @@ def test_kinks_that_pass_a_sample_make_small_jumps(
     assert observed_order([1.0, 0.5, 0.25], jumps) == pytest.approx(order, abs=0.3)
 
 
+@pytest.mark.kernels
 def test_a_linear_touch_that_passes_a_sample_does_not_make_the_force_jump() -> None:
     points = contact_points(friction=FRICTIONLESS, exponent=1.0, damping=0.0)
 
@@ -200,6 +201,7 @@ def test_steep_damping_that_passes_a_sample_changes_the_force_smoothly(
     assert observed_order([1.0, 0.5, 0.25], steps) > 1.3
 
 
+@pytest.mark.kernels
 @pytest.mark.parametrize("power", [0.25, 0.5, 0.75])
 def test_steep_damping_is_that_of_quadrature(power: float) -> None:
     points = contact_points(
@@ -217,6 +219,7 @@ def test_steep_damping_is_that_of_quadrature(power: float) -> None:
     assert order > 1.6
 
 
+@pytest.mark.kernels
 @pytest.mark.parametrize("power", [0.25, 0.35, 0.5])
 def test_tangents_of_steep_damping_are_those_of_its_force(power: float) -> None:
     samples, step = 128, 1e-8

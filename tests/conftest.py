@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from microslip.cli import main
 from microslip.scene_file import built_in_text
 from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.record import FLOWS, STORES
 

@@ -14,7 +14,7 @@ from microslip.table import read_table
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.response import ResponseCurve
+    from microslip_mechanics.response_curve import ResponseCurve
     from microslip_mechanics.time_history import TimeHistory
 
 

@@ -15,7 +15,7 @@ from microslip.schema import CURVE, GROWS, SCHEMAS, Growing, checkpoint_of
 from microslip.store import Stored, WrongFileError
 from microslip.stream import Head, rows_of
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.thinning import thinned
 from microslip_mechanics.time_history import TimeHistory, joined
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 
 Growing: TypeAlias = TimeHistory | Envelope

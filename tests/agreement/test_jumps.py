@@ -15,7 +15,7 @@ from microslip_mechanics.element import Element
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import response_curve
+from microslip_mechanics.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from rigs import rig_problem

@@ -15,7 +15,7 @@ from microslip.api import scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import response_curve
+from microslip_mechanics.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start

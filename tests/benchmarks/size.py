@@ -34,7 +34,8 @@ from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import TWO_SIDED, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.reduction import reduced
-from microslip_mechanics.response import PeriodicResponse, response_curve
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
 

@@ -9,12 +9,8 @@ from contact_tables import contact_points
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.response import (
-    MARGIN,
-    PEAK_SAMPLES,
-    PeriodicResponse,
-    response_curve,
-)
+from microslip_mechanics.response import MARGIN, PeriodicResponse
+from microslip_mechanics.response_curve import PEAK_SAMPLES, response_curve
 from microslip_mechanics.structure import Structure
 
 FREQUENCY = 850.0

@@ -9,7 +9,7 @@ import pytest
 
 import microslip
 from figure_checks import check_labels
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
 

@@ -16,7 +16,7 @@ from microslip.studies.curve import (
     shown_points,
     trace_curve,
 )
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from microslip.store import Stored, save
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 
 SCREEN = {"matplotlib.pyplot", "tkinter"}
 """needs a display, or looks for one"""

@@ -31,7 +31,8 @@ from microslip.studies.curve import gathered
 from microslip.studies.sweep import kept
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
-from microslip_mechanics.response import PeriodicResponse, ResponseCurve
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate
 

@@ -17,11 +17,8 @@ from microslip.studies.curve import Traced
 from microslip.studies.jump_folds import Fold, folds_of
 from microslip.studies.jumps import LEAST, Jump, Sweep
 from microslip.studies.verify import StudyError
-from microslip_mechanics.response import (
-    PeriodicResponse,
-    ResponseCurve,
-    response_curve,
-)
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.response_curve import ResponseCurve, response_curve
 from microslip_mechanics.static import static_equilibrium
 from small_problems import cubic_oscillator
 

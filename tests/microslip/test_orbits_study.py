@@ -19,7 +19,8 @@ from microslip.studies.orbits import (
     whereabouts,
 )
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse, response_curve
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 from small_problems import TANGENT, cubic_oscillator, mass_on_contact, sliding_block
 

@@ -13,7 +13,7 @@ from microslip.result_file import load
 from microslip.schema import SCHEMAS, Result
 from microslip.store import Stored, StoreError, save
 from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.thinning import thinned
 from microslip_mechanics.time_history import TimeHistory
 

@@ -11,7 +11,7 @@ from microslip.figures import curve as curves
 from microslip.figures import sweep as sweeps
 from microslip.figures.passes import Pass, amplitude
 from microslip.figures.style import alike
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
 

@@ -13,7 +13,8 @@ from microslip.commands.verify_tables import HELD, marches_said, sweep_rows, swe
 from microslip.studies.curve import Traced
 from microslip.studies.orbits import Verdict
 from microslip.studies.verify import SweepAgreement
-from microslip_mechanics.response import PeriodicResponse, ResponseCurve
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.static import StaticState
 from timedomain.verify import Agreement
 

@@ -10,7 +10,7 @@ from microslip.commands import arguments
 from microslip.commands.columns import about, decimal, headed, tabled, titled
 
 if TYPE_CHECKING:
-    from microslip_mechanics.response import ResponseCurve
+    from microslip_mechanics.response_curve import ResponseCurve
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

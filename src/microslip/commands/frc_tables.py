@@ -9,7 +9,7 @@ from microslip.commands.columns import about, decimal, headed, tabled, titled
 
 if TYPE_CHECKING:
     from microslip.studies.curve import Traced
-    from microslip_mechanics.response import ResponseCurve
+    from microslip_mechanics.response_curve import ResponseCurve
     from microslip_mechanics.static import StaticState
 
 

@@ -20,7 +20,7 @@ from microslip.figures.style import (
     readable,
 )
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 
 DOTS: dict[str, Any] = {"linestyle": "", "marker": "o", "ms": 4, "clip_on": False}
 """whole at the ends of the axes, too"""

@@ -17,7 +17,7 @@ from microslip.figures.style import (
     framed,
     readable,
 )
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 
 MARKERS = {
     "peak": "^",

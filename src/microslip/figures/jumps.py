@@ -20,7 +20,7 @@ from microslip.figures.style import (
     readable,
 )
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 
 BESIDE = 0.2
 """how much of the curve is shown beside the sweeps, over their range"""

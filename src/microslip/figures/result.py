@@ -8,7 +8,7 @@ from microslip.figures.curve import curve_figure
 from microslip.figures.envelope import envelope_figure
 from microslip.figures.sweep import sweep_figure
 from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.response import ResponseCurve
+from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
 

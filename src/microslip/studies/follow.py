@@ -8,7 +8,7 @@ from microslip.progress import Watch
 from microslip.studies.curve import gathered
 from microslip.studies.gaps import told
 from microslip.studies.parameter import Parameter
-from microslip_mechanics.response import ResponseCurve, response_curve
+from microslip_mechanics.response_curve import ResponseCurve, response_curve
 
 
 def follow(

@@ -20,7 +20,8 @@ from microslip.scene_tables import Scene
 from microslip.studies.curve import curve_options, gathered
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction import reduced
-from microslip_mechanics.response import PeriodicResponse, ResponseCurve, response_curve
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.response_curve import ResponseCurve, response_curve
 from microslip_mechanics.static import static_equilibrium
 
 HARMONICS = 31

@@ -13,7 +13,8 @@ import numpy as np
 from hbm.aft import AlternatingFrequencyTime
 from hbm.symmetry import mirror
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import edge, normal_response, rubs
+from microslip_mechanics.contact.law import edge, rubs
+from microslip_mechanics.contact.normal import normal_response
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
 

@@ -8,12 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import (
-    contact_energy,
-    contact_force,
-    contact_power,
-    spring_response,
-)
+from microslip_mechanics.contact.law import contact_force, contact_power
+from microslip_mechanics.contact.normal import contact_energy, spring_response
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.segments import Segments, load_factors

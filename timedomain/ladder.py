@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_energy, normal_response
+from microslip_mechanics.contact.normal import contact_energy, normal_response
 from microslip_mechanics.jit import bare_kernel, inner_kernel
 from microslip_mechanics.segments import Segments, segment_of
 from timedomain.accept import accept, settle, tell_error

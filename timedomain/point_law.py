@@ -17,7 +17,7 @@ import math
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.gkf import GKF, gkf_coefficients
-from microslip_mechanics.contact.law import normal_response, spring_response
+from microslip_mechanics.contact.normal import normal_response, spring_response
 from microslip_mechanics.contact.points import (
     COULOMB,
     FRICTIONLESS,

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_energy, contact_power
+from microslip_mechanics.contact.law import contact_power
+from microslip_mechanics.contact.normal import contact_energy
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_energy, normal_response
+from microslip_mechanics.contact.normal import contact_energy, normal_response
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.jit import kernel

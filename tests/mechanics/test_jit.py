@@ -17,7 +17,7 @@ print(power(2.0, 3.0), sum(power.stats.cache_hits.values()))
 """
 ENERGY = """
 import numpy as np
-from microslip_mechanics.contact.law import contact_energy
+from microslip_mechanics.contact.normal import contact_energy
 from microslip_mechanics.contact.points import ContactPoints
 flags = dict(normal=np.int64, clamped=bool, friction=np.int64, constant_load=bool)
 types = [flags.get(name, float) for name in ContactPoints._fields]

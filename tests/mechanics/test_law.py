@@ -20,7 +20,8 @@ from contact_tables import (
     written,
 )
 from microslip_mechanics.contact.hunt_crossley import spring_force
-from microslip_mechanics.contact.law import contact_energy, contact_power, normal_law
+from microslip_mechanics.contact.law import contact_power
+from microslip_mechanics.contact.normal import contact_energy, normal_law
 from microslip_mechanics.contact.points import (
     BRISTLE,
     COULOMB,

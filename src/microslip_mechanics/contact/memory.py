@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.bristle import Bristles, bristle_traction
 from microslip_mechanics.contact.elastic import ElasticFriction, elastic_traction
-from microslip_mechanics.contact.law import normal_response
+from microslip_mechanics.contact.normal import normal_response
 from microslip_mechanics.contact.points import BRISTLE, ELASTIC, RIGID, ContactPoints
 from microslip_mechanics.jit import kernel
 

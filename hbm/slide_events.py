@@ -11,7 +11,8 @@ from hbm.aft import AlternatingFrequencyTime
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import edge
 from microslip_mechanics.contact.points import ELASTIC, ContactPoints
-from microslip_mechanics.contact.sliders import Sliders, Slides
+from microslip_mechanics.contact.sliders import Sliders
+from microslip_mechanics.contact.slides import Slides, slides_of
 
 TURN = 2.0 * np.pi
 PERIODS = 20
@@ -93,7 +94,9 @@ def _settled(
     """Return the tractions that repeat themselves."""
     moved, moving = orbit.at(phase)
     for _ in range(PERIODS):
-        slides = sliders.slides(moved, moving, first, orbit.frequency, continuous=True)
+        slides = slides_of(
+            sliders, moved, moving, first, orbit.frequency, continuous=True
+        )
         first = slides.traction[-1]
         change = np.abs(first - slides.traction[0]).max(initial=0.0)
         if change <= STEADY * np.abs(slides.traction).max(initial=1e-300):

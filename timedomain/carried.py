@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.sliders import Sliders, Slides
+from microslip_mechanics.contact.sliders import Sliders
+from microslip_mechanics.contact.slides import Slides
 
 
 def carried(

@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import RIGID
-from microslip_mechanics.contact.sliders import Sliders, Slides
+from microslip_mechanics.contact.sliders import Sliders
+from microslip_mechanics.contact.slides import Slides, slides_of
 from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
@@ -190,8 +191,8 @@ class PeriodMap:
         displacement = np.vstack([start.displacement, history.displacement])
         velocity = np.vstack([start.velocity, history.velocity])
         first = self.sliders.seen(start.traction)
-        slides = self.sliders.slides(
-            *self.points(displacement, velocity), first, self.frequency
+        slides = slides_of(
+            self.sliders, *self.points(displacement, velocity), first, self.frequency
         )
         friction = float(history.of("friction")[-1])
         return Period(displacement, velocity, friction, slides)
@@ -211,7 +212,8 @@ class PeriodMap:
         """
         if self.sliders.count == 0:
             return self._monodromy(period)
-        slides = self.sliders.slides(
+        slides = slides_of(
+            self.sliders,
             *self.points(period.displacement, period.velocity),
             period.slides.traction[0],
             self.frequency,

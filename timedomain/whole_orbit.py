@@ -16,6 +16,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import ContactPoints
+from microslip_mechanics.contact.slides import slides_of
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.response import PeriodicResponse
@@ -140,7 +141,7 @@ class _Steps:
         points = self._points((displacement, velocity))
         _, power = self._forces(*points)
         friction = power[:-1].mean() * math.tau / carried.frequency
-        slides = carried.sliders.slides(*points, np.zeros(0), carried.frequency)
+        slides = slides_of(carried.sliders, *points, np.zeros(0), carried.frequency)
         period = Period(displacement, velocity, float(friction), slides)
         with np.errstate(over="ignore", invalid="ignore"):
             monodromy = carried.monodromy(period)

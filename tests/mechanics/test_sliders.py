@@ -5,7 +5,8 @@ import pytest
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ELASTIC, PointLaw, contact_table
-from microslip_mechanics.contact.sliders import Sliders, Slides
+from microslip_mechanics.contact.sliders import Sliders
+from microslip_mechanics.contact.slides import Slides, slides_of
 
 STEPS = 20_000
 SHOE = PointLaw(stiffness=60.0, gap=0.3, friction=ELASTIC, dynamic=40.0, tangential=8.0)
@@ -20,7 +21,7 @@ def touched(deeper: float, *, continuous: bool = True) -> Slides:
     moved[:, 0, 1], moving[:, 0, 1] = 0.3 * time, 0.3
     moved[:, 0, 2], moving[:, 0, 2] = -0.2 * time**2, -0.4 * time
     sliders = Sliders.of(contact_table([SHOE]), EVERY)
-    return sliders.slides(moved, moving, np.zeros(2), 1.0, continuous=continuous)
+    return slides_of(sliders, moved, moving, np.zeros(2), 1.0, continuous=continuous)
 
 
 def by_depth(slides: Slides) -> Array:
@@ -61,7 +62,7 @@ def test_either_end_of_a_step_moves_the_touch_by_its_share() -> None:
     sliders = Sliders.of(contact_table([SHOE]), EVERY)
 
     known, unknown = (
-        sliders.slides(moved, moving, np.zeros(2), 1.0, continuous=each)
+        slides_of(sliders, moved, moving, np.zeros(2), 1.0, continuous=each)
         for each in (True, False)
     )
 

@@ -10,6 +10,7 @@ from memory_problems import JENKINS, LIMIT, LUGRE, SHOE, STIFFNESS, masses
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import contact_table
 from microslip_mechanics.contact.sliders import Sliders
+from microslip_mechanics.contact.slides import slides_of
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from small_problems import dwelled
@@ -150,7 +151,7 @@ def test_the_mean_force_is_taken_off_as_far_as_the_limit_admits(
     moved[:, 0, 1] = reach * LIMIT / STIFFNESS * wave
     sliders = Sliders.of(contact_table([JENKINS]), ALONG)
 
-    slides = sliders.slides(moved, moving, np.array([first * LIMIT]), 6.5)
+    slides = slides_of(sliders, moved, moving, np.array([first * LIMIT]), 6.5)
 
     assert slides.stuck.tolist() == [True]
     assert slides.traction[1:].mean() == pytest.approx(mean * LIMIT)

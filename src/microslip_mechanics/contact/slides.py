@@ -1,0 +1,194 @@
+"""What contacts remember along a motion, step by step, with its derivatives (§6, §7).
+
+The traction T of friction that remembers goes from one step to the next,
+
+    T₁ = T(w₁ − w₀, ẇ, N₁, N₀, T₀) ,   δT₁ = F δ(y, ẏ/ω)₁ − G δ(y, ẏ/ω)₀ + H δT₀ ,
+
+so that it is part of the state. Velocity ẇ is the mean of both ends, and N the loads at
+both. A slider that never slips keeps T − k_t w: H = 1.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.memory import friction_load, remembers, traction
+from microslip_mechanics.contact.points import ELASTIC, ContactPoints
+from microslip_mechanics.contact.sliders import Sliders
+from microslip_mechanics.jit import kernel
+
+
+class Slides(NamedTuple):
+    """Tractions at all times of a motion, the beginning included, and derivatives."""
+
+    traction: Array
+    """T [N], shape (times, sliders)"""
+    limit: Array
+    """slip limit of each one's point [N], shape (times, sliders); zero at the first"""
+    motion: Array
+    """F, shape (times, sliders, 2 rank)"""
+    past: Array
+    """G, shape (times, sliders, 2 rank)"""
+    traction_past: Array
+    """H, shape (times, sliders, sliders)"""
+    stuck: NDArray[np.bool_]
+    """which sliders never slip, shape (sliders,)"""
+    mean: Array
+    """by how much the mean traction of these can come nearer to zero [N], (sliders,)"""
+
+
+def slides_of(
+    sliders: Sliders,
+    moved: Array,
+    moving: Array,
+    first: Array,
+    frequency: float,
+    *,
+    continuous: bool = False,
+) -> Slides:
+    """Return the tractions along a motion.
+
+    Parameters
+    ----------
+    sliders
+        Whose tractions are followed.
+    moved, moving
+        Displacement [m] and velocity [m/s] of the points, (times, points, 3).
+    first
+        Tractions at the first time [N], shape (sliders,).
+    frequency
+        ω [rad/s].
+    continuous
+        Whether derivatives are those of the motion, not of its steps: a contact
+        that touches within a step begins to stick there, sooner where it is deeper.
+    """
+    times, count = len(moved), len(sliders.points.load)
+    tractions, limits = np.zeros((times, count, 2)), np.zeros((times, count))
+    by, load = np.zeros((times, count, 2, 8)), np.zeros((times, count, 2))
+    tractions[0] = sliders.spread(first)
+    if sliders.count:
+        recalling = np.flatnonzero(remembers(sliders.points))
+        _follow(sliders.points, recalling, moved, moving, tractions, limits, by, load)
+    motion, past, kept = _derivatives(sliders, by, load, frequency)
+    if continuous:
+        before, after = _touches(sliders, moved, moving, by)
+        past[:, :, : before.shape[2]] -= before
+        motion[:, :, : after.shape[2]] += after
+    never = (kept[1:] == np.eye(sliders.count)).all(axis=(0, 2))
+    stuck = never & (sliders.points.friction[sliders.point] == ELASTIC)
+    held = tractions[1:].mean(axis=0)
+    shares = _shares(tractions[1:], limits[1:], held)
+    return Slides(
+        tractions[:, sliders.point, sliders.axis],
+        limits[:, sliders.point],
+        motion,
+        past,
+        kept,
+        stuck,
+        (shares[:, None] * held)[sliders.point, sliders.axis],
+    )
+
+
+@kernel
+def _follow(
+    points: ContactPoints,
+    recalling: NDArray[np.int64],
+    moved: Array,
+    moving: Array,
+    tractions: Array,
+    limits: Array,
+    by: Array,
+    load: Array,
+) -> None:
+    """Write tractions, slip limits and derivatives at all times but the first.
+
+    The derivatives of the ``load`` are written at the first as well.
+    """
+    for point in recalling:
+        before = 0.0
+        for place in range(moved.shape[0]):
+            now, rate = moved[place, point], moving[place, point]
+            force, by_depth, by_approach = friction_load(points, point, now[0], rate[0])
+            if force > 0.0:
+                load[place, point, 0], load[place, point, 1] = by_depth, by_approach
+            if place > 0:
+                last = place - 1
+                limits[place, point] = points.dynamic[point] * max(force, 0.0)
+                speed = 0.5 * (rate[1:] + moving[last, point, 1:])
+                traction(
+                    points, point, now[1:] - moved[last, point, 1:], speed, force,
+                    before, tractions[last, point], tractions[place, point],
+                    by[place, point],
+                )  # fmt: skip
+            before = max(force, 0.0)
+
+
+def _derivatives(
+    sliders: Sliders, by: Array, load: Array, frequency: float
+) -> tuple[Array, Array, Array]:
+    """Return F, G and H from the derivatives of each traction."""
+    point, basis = sliders.point, sliders.basis
+    own = by[:, point, sliders.axis]
+    normal = basis[3 * point]
+    tangents = basis[3 * point[:, None] + np.arange(1, 3)]
+    slid = np.einsum("tsa,sar->tsr", own[:, :, :2], tangents)
+    drag = np.einsum("tsa,sar->tsr", own[:, :, 2:4], tangents)
+
+    def seen(column: int, load: Array) -> tuple[Array, Array]:
+        pressed = own[:, :, column, None] * load[:, point]
+        moved = pressed[:, :, :1] * normal
+        return moved, frequency * (0.5 * drag + pressed[:, :, 1:] * normal)
+
+    depth, speed = seen(4, load)
+    motion = np.concatenate([slid + depth, speed], axis=2)
+    depth, speed = seen(5, np.roll(load, 1, axis=0))
+    past = np.concatenate([slid - depth, -speed], axis=2)
+    kept = np.zeros((len(by), sliders.count, sliders.count))
+    for row, column in np.argwhere(point[:, None] == point):
+        kept[:, row, column] = own[:, row, 6 + sliders.axis[column]]
+    return motion, past, kept
+
+
+def _touches(
+    sliders: Sliders, moved: Array, moving: Array, by: Array
+) -> tuple[Array, Array]:
+    """Return the tractions by y before and after steps in which a point touches.
+
+    From where it touches on T = k_t (w − w_touch), and a depth that is greater by
+    δd moves w_touch by −ẇ δd/ḋ; shapes (times, sliders, rank).
+    """
+    point, points = sliders.point, sliders.points
+    depth = moved[:, :, 0] - points.gap
+    begins = (depth[1:] > 0.0) & (depth[:-1] <= 0.0) & ~points.constant_load
+    time, where = np.nonzero(begins)
+    above, below = depth[time, where], depth[time + 1, where]
+    share = above / (above - below)
+    speed = (1.0 - share)[:, None] * moving[time, where]
+    speed += share[:, None] * moving[time + 1, where]
+    ahead = np.zeros((*moved.shape[:2], 2))
+    ahead[time + 1, where] = speed[:, 1:] / np.maximum(speed[:, :1], 1e-300)
+    within = np.zeros(moved.shape[:2])
+    within[time + 1, where] = share
+    own = by[:, point, sliders.axis, :2]
+    leap = (own * ahead[:, point]).sum(axis=2)[:, :, None] * sliders.basis[3 * point]
+    part = within[:, point, None]
+    return (1.0 - part) * leap, part * leap
+
+
+def _shares(tractions: Array, limits: Array, held: Array) -> Array:
+    """Return which share of the mean can be taken off all tractions of each point.
+
+    None may exceed its limit at any time, shape (times, points).
+    """
+    square = (held**2).sum(axis=1)
+    along = (tractions * held).sum(axis=2)
+    room = np.maximum(limits**2 - (tractions**2).sum(axis=2), 0.0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        shares = (along + np.sqrt(along**2 + square * room)) / square
+    shares = np.where(square > 0.0, shares, 1.0)
+    least: Array = np.clip(shares.min(axis=0), 0.0, 1.0)
+    return least

@@ -10,12 +10,8 @@ from numpy.typing import ArrayLike
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
-from microslip.studies.curve import (
-    followed_upwards,
-    quasi_static_energy,
-    shown_points,
-    trace_curve,
-)
+from microslip.studies.curve import shown_points, trace_curve
+from microslip.studies.quasi_static import followed_upwards, quasi_static_energy
 from microslip_mechanics.response_curve import ResponseCurve
 
 

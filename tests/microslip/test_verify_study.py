@@ -13,8 +13,9 @@ from microslip.commands.verify_tables import sweep_rows
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
-from microslip.studies.curve import Traced, quasi_static_energy, trace_curve
+from microslip.studies.curve import Traced, trace_curve
 from microslip.studies.orbits import spread
+from microslip.studies.quasi_static import quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.verify import (
     SweepAgreement,

@@ -10,7 +10,7 @@ import numpy as np
 
 from microslip.progress import Watch
 from microslip.scene_tables import Scene
-from microslip.studies.curve import followed_upwards, quasi_static_energy
+from microslip.studies.quasi_static import followed_upwards, quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError

@@ -15,7 +15,8 @@ from microslip.commands.verify_tables import HELD
 from microslip.figures.jumps import JumpLine, jumps_figure
 from microslip.studies.curve import Traced
 from microslip.studies.jump_folds import Fold, folds_of
-from microslip.studies.jumps import LEAST, Jump, Sweep
+from microslip.studies.jump_sweeps import Sweep
+from microslip.studies.jumps import LEAST, Jump
 from microslip.studies.verify import StudyError
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.response_curve import ResponseCurve, response_curve
@@ -325,7 +326,7 @@ def test_sweeps_before_one_fails_are_kept(
     folds = folds_of(cubic_oscillator(drive=0.3, damping=0.1), traced, lead=0.1)
     monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
     monkeypatch.setattr("microslip.studies.jump_folds.folds_of", lambda *_, **__: folds)
-    monkeypatch.setattr("microslip.studies.jumps._swept", swept)
+    monkeypatch.setattr("microslip.studies.jumps.swept_through", swept)
 
     rates = ("--rates", *(f"{rate:g}" for rate in RATES))
     ended, output, error = run("jumps", "jenkins", *rates)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -17,52 +16,26 @@ from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_tables import Scene
 from microslip.studies.curve import trace_curve
-from microslip.studies.orbit import PHASES, Orbit, rubs
+from microslip.studies.orbit import PHASES
+from microslip.studies.precision_march import PERIODS, Carried, fixed_step, march
 from microslip_mechanics.errors import MicroslipError
-from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
-from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start, at_end, on_orbit
-from timedomain.steady import Coordinates, Slope, slope_of, steady
+from timedomain.integrate import MarchOptions
+from timedomain.start import Start, on_orbit
+from timedomain.steady import Coordinates, Slope, slope_of
 
 SHARE = 0.99
 """of the highest peak's frequency: on the flank, where contacts slide"""
 NEAR = 0.01
 """of a frequency, within which the highest stable point of the curve is taken"""
-PERIODS = 2
-"""that are marched at a time: of the second, what began anew is forgotten"""
 SLOPE_STEPS = 2
 """per phase, of the march whose derivative all methods are given"""
 
 
 class PrecisionError(MicroslipError):
     """Methods that cannot be compared at a frequency."""
-
-
-@dataclass(frozen=True, slots=True)
-class Carried:
-    """What a method makes of a motion in :data:`PERIODS` periods."""
-
-    end: Start
-    orbit: Orbit
-    """the last of the periods"""
-    seconds: float
-    """of one thread's processor, per period"""
-
-
-@dataclass(frozen=True, slots=True)
-class Result:
-    """What a method finds at one setting."""
-
-    orbit: Orbit
-    seconds: float
-    """of one thread's processor; of a march those of one period"""
-    marches: bool
-    """whether that is of one period, of many that pass before the motion is steady"""
-    left: float = 0.0
-    """estimated distance from the method's own steady state, over the vibration"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,55 +107,6 @@ def case_of(scene: Scene, hertz: float | None = None) -> Case:
     return Case(
         problem, traced.rest, guess, begun, start, _slope(problem, guess, start)
     )
-
-
-def steady_result(case: Case, carried: Callable[[Start], Carried]) -> Result:
-    """Return what a march finds in its steady state."""
-    fastest = math.inf
-
-    def timed(start: Start) -> Carried:
-        nonlocal fastest
-        made = carried(start)
-        fastest = min(fastest, made.seconds)
-        return made
-
-    found = steady(case.slope, timed, case.start, PERIODS)
-    return Result(found.made.orbit, fastest, marches=True, left=found.left)
-
-
-def march(
-    problem: Problem,
-    frequency: float,
-    options: MarchOptions,
-    periods: int,
-    start: Start,
-) -> Carried:
-    """March some periods from a motion; the last one is measured."""
-    duration = periods * math.tau / frequency
-    began = time.process_time()
-    (history,) = integrate(
-        problem, Dwell(frequency, duration), options, start=start, block=duration
-    )
-    seconds = (time.process_time() - began) / periods
-    taken = history.of("friction")
-    if not rubs(problem):
-        taken = taken + history.of("normal_damping") + history.of("structural_damping")
-    # rows end their steps: phase 0 of the last period is the row before its first
-    taken = np.append(0.0, taken)
-    energy = float(taken[-1] - taken[-1 - PHASES])
-    first = problem.probes.rows @ start.displacement
-    shown = np.vstack([first, history.displacement])[-1 - PHASES : -1]
-    assert history.checkpoint is not None
-    return Carried(at_end(problem, history.checkpoint), Orbit(shown, energy), seconds)
-
-
-def fixed_step(frequency: float, steps: int, method: str) -> MarchOptions:
-    """Return options of equal steps, a multiple of :data:`PHASES` in each period."""
-    stride = max(1, steps // PHASES)
-    step = math.tau / frequency / (stride * PHASES)
-    if method == "reference":
-        return MarchOptions(step, stride, method="reference", residual=1e-12)
-    return MarchOptions(step, stride)
 
 
 def _guess(

@@ -12,8 +12,10 @@ import numpy as np
 
 from hbm.solve import periodic_response, settled_response
 from microslip.studies.orbit import PHASES, Orbit, drive_work, orbit_of, rubs, samples
-from microslip.studies.precision_case import Case, Result, fixed_step, steady_result
+from microslip.studies.precision_case import Case
+from microslip.studies.precision_march import fixed_step
 from microslip.studies.precision_outsiders import Outsiders
+from microslip.studies.precision_result import Result, steady_result
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.integrate import MarchOptions

@@ -12,13 +12,9 @@ import numpy as np
 from scipy.integrate import odeint, solve_ivp
 
 from microslip.studies.orbit import PHASES, Orbit, drive_work, rubs
-from microslip.studies.precision_case import (
-    PERIODS,
-    Carried,
-    Case,
-    Result,
-    steady_result,
-)
+from microslip.studies.precision_case import Case
+from microslip.studies.precision_march import PERIODS, Carried
+from microslip.studies.precision_result import Result, steady_result
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import Dwell
 from timedomain.first_order import FirstOrder, Flow, Jacobian, first_order

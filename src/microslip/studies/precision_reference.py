@@ -8,7 +8,8 @@ from functools import partial
 
 from hbm.solve import periodic_response
 from microslip.studies.orbit import Orbit, orbit_of
-from microslip.studies.precision_case import PERIODS, Case, fixed_step
+from microslip.studies.precision_case import Case
+from microslip.studies.precision_march import PERIODS, fixed_step
 from microslip.studies.precision_methods import shot
 from microslip_mechanics.contact.memory import beyond_motion
 from timedomain.steady import steady

@@ -7,8 +7,9 @@ from typing import TypeAlias
 import pytest
 
 from microslip.scene_file import built_in_text, load_scene
-from microslip.studies.explain import Pruned, pruned
+from microslip.studies.explain import pruned
 from microslip.studies.imported import FRC, imported
+from microslip.studies.pruned import Pruned
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 COARSE = ("curve.harmonics=3", "curve.samples=64")

@@ -121,6 +121,23 @@ def _texts(value: object) -> tuple[str, ...]:
     return tuple(value)
 
 
+def read_numbers(
+    source: str, table: str, values: object, kind: Quantity
+) -> dict[str, float]:
+    """Return a table of numbers of one kind."""
+    if not isinstance(values, dict):
+        raise SceneError(f"{source}: [{table}] must be a table, not {values!r}")
+    found = {}
+    for name, value in values.items():
+        try:
+            found[name] = kind.read(value)
+        except ValueError as error:
+            raise SceneError(
+                f"{source}: [{table}] {name}{shown(value)}: {error}"
+            ) from None
+    return found
+
+
 def shown(value: object) -> str:
     """Return `` = value`` for a message; a table has too much to show."""
     if isinstance(value, dict):

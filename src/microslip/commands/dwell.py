@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.sweep import energy_table, estimates
+from microslip.commands.sweep_tables import energy_table, estimates
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from microslip.commands import arguments
+from microslip.commands.sweep_tables import energy_table, estimates, extremes
 
 if TYPE_CHECKING:
     from microslip.progress import Watch
@@ -52,7 +53,6 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.recording import Recording
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.studies.loads import load_history
@@ -62,10 +62,7 @@ def _run(options: argparse.Namespace) -> int:
     data, picture = _places(options)
     scene = load_scene(options.scene, options.overrides)
     problem, loads = problem_of(scene), load_history(scene)
-    recording, end = Recording(data, scene.text, options.command), None
-    envelope = options.envelope
-    if options.resume is not None:
-        recording, end, envelope = _resumed(options, scene)
+    recording, end, envelope = _begun(options, scene, data)
     blocks = marched(
         problem,
         loads,
@@ -128,10 +125,10 @@ def _places(options: argparse.Namespace) -> tuple[Path, Path]:
     return options.resume, options.resume.with_suffix(".png")
 
 
-def _resumed(
-    options: argparse.Namespace, scene: Scene
+def _begun(
+    options: argparse.Namespace, scene: Scene, data: Path
 ) -> tuple[Recording, Checkpoint | None, bool]:
-    """Return the file that goes on, where its march stood, and if it is an envelope.
+    """Return the file, where its march goes on if it does, and if it is an envelope.
 
     Raises
     ------
@@ -139,9 +136,11 @@ def _resumed(
         If the file has rows in time, and an envelope is asked for.
     """
     from microslip.quantity import SceneError
-    from microslip.recording import resumed
+    from microslip.recording import Recording, resumed
     from microslip_mechanics.envelope import Envelope
 
+    if options.resume is None:
+        return Recording(data, scene.text, options.command), None, options.envelope
     recording, end = resumed(options.resume, scene.text)
     envelope = isinstance(end, Envelope)
     if options.envelope and not envelope:
@@ -161,7 +160,7 @@ def _show(options: argparse.Namespace, data: Path, picture: Path) -> bool:
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)
     save_figure(picture, result_figure(result, arguments.title(options)))
     print(energy_table(result))
-    print("\n".join([*estimates(result), *_extremes(result)]))
+    print("\n".join([*estimates(result), *extremes(result)]))
     return closes(result)
 
 
@@ -173,58 +172,3 @@ def watched(duration: float, name: str = "sweep") -> Watch:
         return float(block.time[-1]) if block.time.size else 0.0
 
     return lambda blocks: shown(blocks, total=duration, done=done, unit="s", name=name)
-
-
-def energy_table(result: TimeHistory | Envelope) -> str:
-    """Return energies and the closing error of their balance."""
-    lines = [f"energy until {result.time[-1]:g} s [J]"]
-    lines += [
-        f"  {name.replace('_', ' '):20s} {result.of(name)[-1]:12.6g}"
-        for name in result.energies
-    ]
-    closing = abs(result.closing_error).max()
-    share = closing / max(abs(result.of("input")).max(), 1e-300)
-    lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")
-    return "\n".join(lines)
-
-
-def estimates(result: TimeHistory | Envelope) -> list[str]:
-    """Return lines of the estimated errors, as far as the result tells them."""
-    from microslip_mechanics.envelope import Envelope
-
-    if isinstance(result, Envelope) or not result.energy_error.size:
-        return []
-    friction, lines = abs(result.of("friction")[-1]), []
-    for name, values in (
-        ("friction, error", result.energy_error),
-        ("quadrature - work", result.work_difference),
-    ):
-        for value in values[-1:]:
-            share = f"  ({value / friction:.1e} of it)" if friction else ""
-            lines.append(f"  {name:20s} {value:12.2g}{share}")
-    peak = f"estimated error of the peak amplitude {result.peak_error[-1]:.1e}"
-    return [*lines, peak]
-
-
-def _extremes(result: TimeHistory | Envelope) -> list[str]:
-    """Return lines of the extremes of displacements, velocities and forces."""
-    from microslip_mechanics.envelope import Envelope
-
-    if isinstance(result, Envelope):
-        moved, moving = (result.lowest, result.highest), result.fastest
-        normal = result.normal_smallest, result.normal_largest
-    else:
-        moved, moving = (result.displacement,) * 2, result.velocity
-        normal = (result.normal_force,) * 2
-    lines = ["largest displacement [mm] and velocity [m/s]"]
-    for place, name in enumerate(result.probes):
-        far = 1e3 * max(abs(each[:, place]).max() for each in moved)
-        fast = abs(moving[:, place]).max()
-        lines.append(f"  {name:20s} {far:12.6g} {fast:12.6g}")
-    lines.append("normal force [N], least and most")
-    for place, name in enumerate(result.contacts):
-        least, most = normal[0][:, place].min(), normal[1][:, place].max()
-        lines.append(f"  {name:20s} {least:12.6g} {most:12.6g}")
-    if result.divided:
-        lines.append(f"{result.divided} steps converged only when divided")
-    return lines

@@ -1,0 +1,64 @@
+"""What a march says of its energies, its errors and its extremes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from microslip_mechanics.envelope import Envelope
+    from microslip_mechanics.time_history import TimeHistory
+
+
+def energy_table(result: TimeHistory | Envelope) -> str:
+    """Return energies and the closing error of their balance."""
+    lines = [f"energy until {result.time[-1]:g} s [J]"]
+    lines += [
+        f"  {name.replace('_', ' '):20s} {result.of(name)[-1]:12.6g}"
+        for name in result.energies
+    ]
+    closing = abs(result.closing_error).max()
+    share = closing / max(abs(result.of("input")).max(), 1e-300)
+    lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")
+    return "\n".join(lines)
+
+
+def estimates(result: TimeHistory | Envelope) -> list[str]:
+    """Return lines of the estimated errors, as far as the result tells them."""
+    from microslip_mechanics.envelope import Envelope
+
+    if isinstance(result, Envelope) or not result.energy_error.size:
+        return []
+    friction, lines = abs(result.of("friction")[-1]), []
+    for name, values in (
+        ("friction, error", result.energy_error),
+        ("quadrature - work", result.work_difference),
+    ):
+        for value in values[-1:]:
+            share = f"  ({value / friction:.1e} of it)" if friction else ""
+            lines.append(f"  {name:20s} {value:12.2g}{share}")
+    peak = f"estimated error of the peak amplitude {result.peak_error[-1]:.1e}"
+    return [*lines, peak]
+
+
+def extremes(result: TimeHistory | Envelope) -> list[str]:
+    """Return lines of the extremes of displacements, velocities and forces."""
+    from microslip_mechanics.envelope import Envelope
+
+    if isinstance(result, Envelope):
+        moved, moving = (result.lowest, result.highest), result.fastest
+        normal = result.normal_smallest, result.normal_largest
+    else:
+        moved, moving = (result.displacement,) * 2, result.velocity
+        normal = (result.normal_force,) * 2
+    lines = ["largest displacement [mm] and velocity [m/s]"]
+    for place, name in enumerate(result.probes):
+        far = 1e3 * max(abs(each[:, place]).max() for each in moved)
+        fast = abs(moving[:, place]).max()
+        lines.append(f"  {name:20s} {far:12.6g} {fast:12.6g}")
+    lines.append("normal force [N], least and most")
+    for place, name in enumerate(result.contacts):
+        least, most = normal[0][:, place].min(), normal[1][:, place].max()
+        lines.append(f"  {name:20s} {least:12.6g} {most:12.6g}")
+    if result.divided:
+        lines.append(f"{result.divided} steps converged only when divided")
+    return lines

@@ -10,19 +10,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, dwell
+from microslip.commands.decay_march import marched, recorded
+from microslip.commands.decay_tables import COLUMNS, cycles
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from microslip.experiments import March
     from microslip.scene_tables import Scene
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.ring_down import RingDown
     from microslip_mechanics.time_history import Checkpoint, TimeHistory
 
-COLUMNS = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
-PERIODS, SHOWN = 300, 20
+PERIODS = 300
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -75,7 +72,7 @@ def _run(options: argparse.Namespace) -> int:
     problem = problem_of(scene)
     chosen = _chosen(options, problem)
     begin = _driven(options, scene, problem, data)
-    history = _released(options, scene, problem, begin, data)
+    history = recorded(options, scene, problem, begin, data)
     ending = history.ending
     probe = liveliest(history) if chosen is None else chosen
     decay = measured(problem, history, probe)
@@ -90,7 +87,7 @@ def _run(options: argparse.Namespace) -> int:
     save_table(table, COLUMNS, zip(*columns, strict=True))
     title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:g} Hz"
     save_figure(picture, decay_figure(history, decay, probe, title))
-    print("\n".join(_lines(decay, history.probes[probe])))
+    print("\n".join(cycles(decay, history.probes[probe])))
     print(f"decay in {data}, table in {table}, picture in {picture}")
     if ending == "complete":
         ending = _tell_step_errors(options, scene, problem, begin, history, probe)
@@ -133,54 +130,6 @@ def _driven(
     return history.checkpoint, math.tau * options.frequency
 
 
-def _released(
-    options: argparse.Namespace,
-    scene: Scene,
-    problem: Problem,
-    begin: tuple[Checkpoint, float],
-    data: Path,
-) -> TimeHistory:
-    """March the decay into a file; return it, and in it how it ended."""
-    from microslip.recording import Recording
-
-    with Recording(data, scene.text, options.command) as recording:
-        history = _marched(
-            options, scene.march, problem, begin, ("decay", recording.keep)
-        )
-        recording.end(history.ending)
-    return history
-
-
-def _marched(
-    options: argparse.Namespace,
-    march: March,
-    problem: Problem,
-    begin: tuple[Checkpoint, float],
-    shown: tuple[str, Callable[[TimeHistory], None]],
-) -> TimeHistory:
-    """Return a decay, or what there is of it, and in it how it ended.
-
-    ``shown`` is what its bar says, and what takes its blocks as they come.
-    """
-    from microslip.commands.sweep import watched
-    from microslip.studies.decay import released
-    from microslip.studies.sweep import kept
-    from microslip_mechanics.time_history import joined
-
-    (state, frequency), (name, also) = begin, shown
-    blocks: list[TimeHistory] = []
-
-    def keep(block: TimeHistory) -> None:
-        also(block)
-        blocks.append(block)
-
-    marching = released(
-        problem, state, march, frequency=frequency, periods=options.periods
-    )
-    length = math.tau / frequency * options.periods
-    return joined(blocks, kept(watched(length, name)(marching), keep))
-
-
 def _tell_step_errors(
     options: argparse.Namespace,
     scene: Scene,
@@ -198,7 +147,7 @@ def _tell_step_errors(
         store_every=max(1, scene.march.store_every // 2),
     )
     try:
-        coarse = _marched(
+        coarse = marched(
             options, twice, problem, begin, ("step errors", lambda _: None)
         )
         ending = coarse.ending
@@ -214,26 +163,3 @@ def _tell_step_errors(
             said = "not known: steps twice as long show no swings"
     print(f"estimated error of time steps and rows: {said}")
     return "complete"
-
-
-def _lines(decay: RingDown, probe: str) -> list[str]:
-    """Return the table of the decay, some of its cycles."""
-    count = decay.time.size
-    rows = [
-        f"free decay of {probe}",
-        "time [s]  amplitude [mm]  frequency [Hz]  damping ratio [%]",
-    ]
-    chosen = sorted({round(n * (count - 1) / (SHOWN - 1)) for n in range(SHOWN)})
-    rows += [
-        f"{decay.time[place]:8.4f} {1e3 * decay.amplitude[place]:15.6g} "
-        f"{decay.frequency[place] / math.tau:15.4f} "
-        f"{100.0 * decay.damping[place]:18.4f}"
-        for place in chosen
-    ]
-    grows = int((decay.damping < 0.0).sum())
-    if grows:
-        rows.append(
-            f"the amplitude grows in {grows} of {count} cycles: several motions decay "
-            "together and beat, so that no row is of one alone, or something feeds them"
-        )
-    return rows

@@ -1,6 +1,5 @@
 """What verify and frc say of stability, and of sweeps without friction."""
 
-import argparse
 import dataclasses
 import math
 
@@ -8,7 +7,7 @@ import numpy as np
 import pytest
 
 from microslip.commands.frc_tables import events, resolution, table
-from microslip.commands.verify import Found, _verdict
+from microslip.commands.verify_findings import Findings, verdict
 from microslip.commands.verify_tables import HELD, marches_said, sweep_rows, sweeps_said
 from microslip.studies.curve import Traced
 from microslip.studies.orbits import Verdict
@@ -127,15 +126,13 @@ def test_the_table_of_a_curve_is_in_the_units_of_its_head(
 def test_a_march_that_leaves_its_orbit_ends_verify_with_one(
     deviation: float, status: int
 ) -> None:
-    found = Found(("x",), marches=[left(deviation, 0)])
+    found = Findings(("x",), marches=[left(deviation, 0)])
 
-    assert _verdict(argparse.Namespace(tolerance=1e-3), found) == status
+    assert verdict(found, 1e-3) == status
 
 
 def test_orbits_beyond_both_estimates_end_verify_with_one() -> None:
     lost = Verdict(unmoved(), "", None, "")
-    assert (
-        _verdict(argparse.Namespace(tolerance=1e-3), Found(("x",), orbits=[lost])) == 0
-    )
-    found = Found(("x",), orbits=[lost] * 2)
-    assert _verdict(argparse.Namespace(tolerance=1e-3), found) == 1
+    assert verdict(Findings(("x",), orbits=[lost]), 1e-3) == 0
+    found = Findings(("x",), orbits=[lost] * 2)
+    assert verdict(found, 1e-3) == 1

@@ -13,7 +13,8 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.errors import ContinuationError, hertz
 from hbm.fourier import FourierBasis, to_complex
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response, periodic_response
+from hbm.periodic_response import periodic_response
+from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import FRICTIONLESS

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from hbm.options import CurveOptions
-from hbm.solve import parameter_response
+from hbm.parameter_curves import parameter_response
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from rigs import rig_problem

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response, periodic_response
+from hbm.periodic_response import periodic_response
+from hbm.solve import frequency_response
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium

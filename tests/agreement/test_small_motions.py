@@ -8,7 +8,8 @@ import pytest
 import scipy.linalg
 
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response, periodic_response
+from hbm.periodic_response import periodic_response
+from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse

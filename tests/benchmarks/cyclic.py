@@ -24,7 +24,8 @@ import numpy as np
 from hbm.cyclic import cyclic_response
 from hbm.fourier import to_complex, to_real
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response, periodic_response
+from hbm.periodic_response import periodic_response
+from hbm.solve import frequency_response
 from microslip.scene_file import load_scene
 from microslip.scenes.bladed_disk.build import sector
 from microslip_mechanics.arrays import Array

@@ -35,9 +35,10 @@ from benchmarks.pyharm_side import median
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
+from hbm.periodic_response import periodic_response
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
-from hbm.solve import frequency_response, periodic_response
+from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium

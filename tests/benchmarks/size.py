@@ -26,8 +26,9 @@ import numpy as np
 import scipy.sparse
 
 from hbm.options import CurveOptions
+from hbm.periodic_response import periodic_response
 from hbm.relative import relative_problem
-from hbm.solve import frequency_response, periodic_response
+from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.beam import RectangularSection, beam_matrices
 from microslip_mechanics.contact.interface import Interface

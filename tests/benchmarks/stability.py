@@ -21,7 +21,8 @@ sys.path.append(str(Path(__file__).parents[1]))
 import numpy as np
 
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response, periodic_response, with_multipliers
+from hbm.periodic_response import periodic_response, with_multipliers
+from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array

@@ -9,7 +9,7 @@ import scipy.linalg
 from hbm.cyclic import cyclic_response
 from hbm.fourier import to_complex, to_real
 from hbm.options import CurveOptions
-from hbm.solve import periodic_response
+from hbm.periodic_response import periodic_response
 from memory_problems import JENKINS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface

@@ -14,8 +14,9 @@ from hbm.fold_balance import FoldBalance
 from hbm.fold_curve import FoldPoint, meeting
 from hbm.linearisation import Linearisation
 from hbm.options import CurveOptions
+from hbm.parameter_curves import fold_curve
 from hbm.segment import Segment, folds
-from hbm.solve import fold_curve, frequency_response
+from hbm.solve import frequency_response
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem

@@ -7,7 +7,8 @@ import pytest
 
 from contact_tables import contact_points
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response, parameter_response
+from hbm.parameter_curves import parameter_response
+from hbm.solve import frequency_response
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.static import static_equilibrium

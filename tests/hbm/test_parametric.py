@@ -9,7 +9,7 @@ from hbm.along_parameter import AlongParameter
 from hbm.continuation import trace
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.solve import parameter_response
+from hbm.parameter_curves import parameter_response
 from hbm.step_control import StepControl
 from microslip.quantity import SceneError
 from microslip.studies.parameter import parameter

@@ -8,7 +8,8 @@ import pytest
 import scipy.optimize
 
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response, settled_response
+from hbm.periodic_response import settled_response
+from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.problem import Problem

@@ -10,10 +10,12 @@ from hbm.equivalent import equivalent_contact
 from hbm.fourier import FourierBasis
 from hbm.newton import Outcome, correct
 from hbm.options import CurveOptions
+from hbm.parameter_curves import fold_curve
+from hbm.periodic_response import periodic_response
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
 from hbm.rigid import with_pushes
-from hbm.solve import fold_curve, frequency_response, periodic_response
+from hbm.solve import frequency_response
 from law_examples import NAMES, PRESSED, SLIDING, driven
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element

@@ -10,9 +10,10 @@ from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis, to_complex
 from hbm.modes import ModeOptions
 from hbm.options import CurveOptions
+from hbm.periodic_response import periodic_response, settled_response
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
-from hbm.solve import frequency_response, periodic_response, settled_response
+from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem

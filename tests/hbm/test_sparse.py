@@ -11,7 +11,8 @@ import scipy.sparse.linalg
 from hbm.condensation import condense
 from hbm.fourier import to_complex
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response, periodic_response
+from hbm.periodic_response import periodic_response
+from hbm.solve import frequency_response
 from hbm.stability import small_motions
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.excitation import Dwell

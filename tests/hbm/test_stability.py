@@ -8,9 +8,10 @@ from scipy.linalg import expm
 
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
+from hbm.periodic_response import periodic_response
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance
-from hbm.solve import frequency_response, periodic_response
+from hbm.solve import frequency_response
 from hbm.stability import small_motions
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import pytest
 
 from hbm.fold_curve import FoldPoint
-from hbm.solve import fold_curve
+from hbm.parameter_curves import fold_curve
 from microslip.studies.folds import followed_folds
 from microslip.studies.parameter import parameter
 

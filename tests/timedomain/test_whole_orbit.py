@@ -7,7 +7,7 @@ import pytest
 
 from contact_tables import contact_points
 from convergence import observed_order
-from hbm.solve import periodic_response
+from hbm.periodic_response import periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import TWO_SIDED
 from microslip_mechanics.problem import Problem

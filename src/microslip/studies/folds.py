@@ -11,7 +11,7 @@ import numpy as np
 from hbm.errors import ContinuationError
 from hbm.fold_curve import FoldPoint
 from hbm.options import CurveOptions
-from hbm.solve import fold_curve
+from hbm.parameter_curves import fold_curve
 from microslip.experiments import Curve
 from microslip.interruption import unmasked
 from microslip.progress import Watch

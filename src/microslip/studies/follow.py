@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hbm.options import CurveOptions
-from hbm.solve import parameter_response
+from hbm.parameter_curves import parameter_response
 from microslip.progress import Watch
 from microslip.studies.curve import gathered
 from microslip.studies.gaps import told

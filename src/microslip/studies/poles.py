@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.dense_problem import RESOLVED
 from hbm.equivalent import (
     amplitudes,
     equivalent_contact,
@@ -18,7 +19,6 @@ from hbm.equivalent import (
 )
 from hbm.errors import ContinuationError
 from hbm.poles import NONE, followed, poles
-from hbm.solve import RESOLVED
 from microslip.rigs import problem_of
 from microslip.scene_tables import Scene
 from microslip.studies.pole_question import Question

@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from hbm.solve import periodic_response, settled_response
+from hbm.periodic_response import periodic_response, settled_response
 from microslip.studies.orbit import PHASES, Orbit, drive_work, orbit_of, rubs, samples
 from microslip.studies.precision_case import Case
 from microslip.studies.precision_march import fixed_step

@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 from functools import partial
 
-from hbm.solve import periodic_response
+from hbm.periodic_response import periodic_response
 from microslip.studies.orbit import Orbit, orbit_of
 from microslip.studies.precision_case import Case
 from microslip.studies.precision_march import PERIODS, fixed_step

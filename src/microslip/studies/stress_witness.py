@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.solve import with_multipliers
+from hbm.periodic_response import with_multipliers
 from microslip.scene_tables import Scene
 from microslip.studies.dwell import dwelling
 from microslip.studies.stress_clock import Clock, OutOfTimeError

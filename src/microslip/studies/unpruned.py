@@ -11,9 +11,11 @@ from itertools import islice
 import numpy as np
 
 from hbm.cyclic import along_sector, cyclic_response
+from hbm.dense_problem import RESOLVED
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency, along_frequency
-from hbm.solve import RESOLVED, frequency_response, periodic_response
+from hbm.periodic_response import periodic_response
+from hbm.solve import frequency_response
 from microslip.progress import Watch
 from microslip.rigs import problem_of, sector_of, unpruned_of
 from microslip.scene_tables import Scene

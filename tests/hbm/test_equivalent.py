@@ -4,15 +4,9 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from hbm.equivalent import (
-    amplitudes,
-    equivalent_contact,
-    free_structure,
-    one_harmonic_error,
-    one_harmonic_response,
-    stuck_structure,
-)
+from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
 from hbm.errors import ContinuationError
+from hbm.one_harmonic import amplitudes, one_harmonic_error, one_harmonic_response
 from hbm.poles import damping_ratios, frequencies, poles
 from honesty import falling
 from microslip.rigs import problem_of
@@ -288,7 +282,7 @@ def test_the_error_is_told_at_the_frequency_of_the_response(
     def lost(*_: object, **__: object) -> PeriodicResponse:
         raise ContinuationError("no response is found")
 
-    monkeypatch.setattr("hbm.equivalent.periodic_response", lost)
+    monkeypatch.setattr("hbm.one_harmonic.periodic_response", lost)
     error = one_harmonic_error(problem, rest, found, limits, 1e-3)
 
     assert expected < 1e-3
@@ -300,7 +294,7 @@ def test_a_curve_that_does_not_pass_a_frequency_is_refused(
 ) -> None:
     problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
     elsewhere = iter([swinging(1.0, TURN * 8.0, 64)])
-    monkeypatch.setattr("hbm.equivalent.frequency_response", lambda *_: elsewhere)
+    monkeypatch.setattr("hbm.one_harmonic.frequency_response", lambda *_: elsewhere)
 
     with pytest.raises(ContinuationError, match="does not pass 9 Hz"):
         one_harmonic_response(problem, static_equilibrium(problem), DUFFING, TURN * 9.0)

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hbm.equivalent import one_harmonic_response
 from hbm.errors import ContinuationError
+from hbm.one_harmonic import one_harmonic_response
 from hbm.poles import damping_ratios, frequencies
 from microslip.quantity import SceneError
 from microslip.studies import poles as study

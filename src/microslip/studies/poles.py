@@ -9,15 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.dense_problem import RESOLVED
-from hbm.equivalent import (
-    amplitudes,
-    equivalent_contact,
-    free_structure,
-    one_harmonic_error,
-    one_harmonic_response,
-    stuck_structure,
-)
+from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
 from hbm.errors import ContinuationError
+from hbm.one_harmonic import amplitudes, one_harmonic_error, one_harmonic_response
 from hbm.poles import NONE, followed, poles
 from microslip.rigs import problem_of
 from microslip.scene_tables import Scene

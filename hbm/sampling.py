@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.refinement import Samples, Work, refine
+from hbm.cell import Samples, Work
+from hbm.refinement import refine
 from hbm.symmetry import Symmetry
 from hbm.transitions import EVENTS, faded, graded, locate, passes, steepness
 from microslip_mechanics.arrays import Array

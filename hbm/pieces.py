@@ -7,16 +7,15 @@ from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from hbm.adaptive import AdaptiveBalance
-from hbm.continuation import correct_at, trace
+from hbm.continuation import trace
 from hbm.corner import round_corner
 from hbm.effort import Effort
 from hbm.errors import PLACE, ContinuationError
-from hbm.homotopy import approaches
 from hbm.newton import Correction
 from hbm.path import Path
+from hbm.path_metric import path_metric
+from hbm.restart import FIRST, LEAPS, Restart
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 
@@ -26,17 +25,6 @@ REMEMBERED = 60
 """points behind the last one, by which the way to a corner is known"""
 CORNERS = 30
 """that a piece may turn round before it is given up"""
-LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
-"""shares of the range by which a restart passes what resists, tried in turn; from the
-first one again where the piece before has come nearer to the end"""
-PUSHES = 10.0
-"""of a push on rigid contacts, over that of a motion: change that counts as one unit of
-arc; it jumps, so that every harmonic that is added changes it"""
-FIRST = (0.0, 1e-2)
-"""the same where there is no curve yet"""
-FOLDED = (0.0, LEAPS[0], LEAPS[-1])
-"""leaps behind which a first point is also sought through folds of the drive, which
-takes thousands of evaluations where there is none"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +83,7 @@ class Pieces:
         ``reached`` is the share of the range up to where the first does.
         """
         where = self.start + reached * (self.end - self.start)
-        guess = self._again(where, self.end, iter(LEAPS))
+        guess = self.restart.point(where, self.end, iter(LEAPS))
         last: Correction | None = None
         if guess is not None:
             for last in self._cornered(guess, self.end):
@@ -115,7 +103,7 @@ class Pieces:
 
         ``first`` are the leaps by which a first point is sought if there is none.
         """
-        guess, heading, leaps = self._still(begin), end, iter(first)
+        guess, heading, leaps = self.restart.still(begin), end, iter(first)
         for attempt in range(RESTARTS + 1):
             last: Correction | None = None
             try:
@@ -125,8 +113,8 @@ class Pieces:
             except ContinuationError:
                 heading = self._onwards(last, heading)
                 reached = float((guess if last is None else last.point)[-1])
-                leaps = self._leaps(float(guess[-1]), reached, heading, leaps)
-                again = self._again(reached, heading, leaps)
+                leaps = self.restart.leaps(float(guess[-1]), reached, heading, leaps)
+                again = self.restart.point(reached, heading, leaps)
                 if again is None or attempt == RESTARTS:
                     raise
                 guess = again
@@ -149,23 +137,21 @@ class Pieces:
             direction=direction,
         )
 
-    def metric(self, point: Array) -> Array:
-        """Return the change of each component that counts as one unit of arc.
+    @property
+    def restart(self) -> Restart:
+        """Where a new piece begins."""
+        return Restart(
+            self.path,
+            self.system,
+            abs(self.end - self.start),
+            self.control,
+            self.effort,
+            self.metric,
+        )
 
-        Relative changes of mean motion and vibration each, and a tenth of the range: a
-        preload makes mean values large, and must not hide the vibration. Means that
-        are smaller than it count like it. Pushes on rigid contacts count less.
-        """
-        means = self.path.rank
-        vibration = float(np.linalg.norm(point[means:-1])) + 1e-15
-        scale = np.full(point.size, vibration)
-        scale[:means] = max(float(np.linalg.norm(point[:means])), vibration)
-        tractions = self.path.at(float(point[-1]))[0].tractions
-        if tractions is not None:
-            pushes = scale[:-1].reshape(-1, means)[:, tractions.rows.shape[1] :]
-            pushes *= PUSHES
-        scale[-1] = self.path.unit(float(point[-1]))
-        return scale
+    def metric(self, point: Array) -> Array:
+        """Return the change of each component that counts as one unit of arc."""
+        return path_metric(self.path, point)
 
     def _cornered(self, guess: Array, heading: float) -> Iterator[Correction]:
         """Yield corrections of one piece, round its corners."""
@@ -211,59 +197,3 @@ class Pieces:
             return heading
         onwards = math.copysign(1.0, last.along[-1])
         return max(self.start, self.end, key=lambda each: onwards * each)
-
-    def _leaps(
-        self, begun: float, reached: float, heading: float, left: Iterator[float]
-    ) -> Iterator[float]:
-        """Return the leaps to try: all of them if the last piece came nearer."""
-        way = math.copysign(self.end - self.start, heading - begun)
-        return iter(LEAPS) if (reached - begun) / way > LEAPS[0] else left
-
-    def _again(
-        self, reached: float, heading: float, leaps: Iterator[float]
-    ) -> Array | None:
-        """Return a point from which the curve can go on, past what resists.
-
-        ``leaps`` are what is left to try, in shares of the range.
-        """
-        way = math.copysign(abs(self.end - self.start), heading - reached)
-        for leap in leaps:
-            parameter = reached + leap * way
-            if (heading - parameter) * way <= 0.0:
-                return None
-            for coefficients in approaches(
-                self.path,
-                parameter,
-                self.control,
-                self.effort,
-                self.metric,
-                folded=leap in FOLDED,
-            ):
-                settled = self._settled(coefficients, parameter)
-                if settled is not None:
-                    return settled
-        return None
-
-    def _settled(self, coefficients: Array, parameter: float) -> Array | None:
-        """Return the point near a coarse response; None if it does not converge.
-
-        Harmonics for which a point has no room are left out.
-        """
-        guess = self._still(parameter)
-        kept = coefficients.ravel()[: guess.size - 1]
-        guess[: kept.size] = kept
-        self.system.restart(coefficients.shape[0] // 2)
-        try:
-            found = correct_at(
-                self.system, guess, self.control, self.system, self.metric
-            )
-        except ContinuationError:
-            return None
-        return found.point
-
-    def _still(self, parameter: float) -> Array:
-        """Return the point at rest."""
-        problem, _ = self.path.at(parameter)
-        point = np.zeros(self.system.size)
-        point[: problem.rank], point[-1] = problem.rest, parameter
-        return point

@@ -66,7 +66,7 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
     monkeypatch.setattr("hbm.pieces.trace", trace)
     monkeypatch.setattr("hbm.pieces.round_corner", lambda *_: None)
     monkeypatch.setattr(
-        "hbm.pieces.approaches", lambda *_, **__: (np.array([[y]]) for y in (0.0, 0.9))
+        "hbm.restart.approaches", lambda *_, **__: (np.array([[y]]) for y in (0.0, 0.9))
     )
     return found
 
@@ -107,7 +107,7 @@ def test_folds_of_the_drive_are_followed_at_the_nearest_and_the_farthest_place(
         tried.append((parameter, folded))
         return iter(())
 
-    monkeypatch.setattr("hbm.pieces.approaches", approaches)
+    monkeypatch.setattr("hbm.restart.approaches", approaches)
 
     list(pieces(0.0, 1.0))
 
@@ -120,7 +120,7 @@ def test_folds_of_the_drive_are_followed_at_the_nearest_and_the_farthest_place(
 def test_a_curve_that_stops_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
 
     points = [each.point for each in pieces(0.0, 1.0)]
 
@@ -140,7 +140,7 @@ def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
         return traced(system, start, back, **options)
 
     monkeypatch.setattr("hbm.pieces.trace", trace)
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
         list(pieces(0.0, 1.0))
@@ -151,7 +151,7 @@ def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
 def test_a_curve_that_stops_from_both_ends_says_where_it_did_first(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
     kept: list[Correction] = []
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
@@ -195,7 +195,7 @@ def test_what_lies_between_curves_that_turn_back_is_sought(
 def test_what_lies_between_curves_that_turn_back_and_is_not_found_is_told(
     returned: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
 
     with pytest.raises(ContinuationError, match=r"turns back at parameter 0\.4,"):
         list(pieces(0.0, 1.0))
@@ -216,7 +216,7 @@ def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
         return traced(system, start, end, **options)
 
     monkeypatch.setattr("hbm.pieces.trace", trace)
-    monkeypatch.setattr("hbm.pieces.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
 
     points = [each.point for each in pieces(0.0, 1.0)]
 
@@ -270,7 +270,7 @@ def test_a_curve_of_few_harmonics_goes_on_from_a_response_of_more(
     path = along_frequency(problem, static_equilibrium(problem), start, end)
     tracer = Tracer(problem, path, CurveOptions(start, end, stability=False, **limit))
 
-    found = tracer.pieces._settled(np.zeros((2 * harmonics + 1, 1)), start)
+    found = tracer.pieces.restart.settled(np.zeros((2 * harmonics + 1, 1)), start)
 
     assert found is not None
     assert found[-1] == start

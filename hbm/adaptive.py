@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.arc_step import tangent
 from hbm.effort import Effort
 from hbm.fourier import FourierBasis
 from hbm.newton import (
@@ -18,21 +17,16 @@ from hbm.newton import (
     Small,
     correct,
 )
+from hbm.report import Report
 from hbm.resolution import Estimate, Resolution
+from hbm.resolution_choice import ResolutionChoice
 from hbm.superharmonics import Superharmonics
 from microslip_mechanics.arrays import Array
 
 HARMONICS = 255
 """most that are solved for"""
-FEWEST_SAMPLES, MOST_SAMPLES = 32, 16384
 STEEP = 0.05
 """error at constant frequency from which a fold may be near"""
-SPARE = 6.0
-"""times that the error may be below its tolerance before less is taken"""
-SHARPER = 4.0
-"""times that a threshold velocity falls where friction is to be resolved better"""
-MARKED = 127
-"""harmonics from which an event is no more accurate than any other point"""
 SHORT = 0.01
 """step from which on less is tried"""
 WAIT = 10
@@ -84,6 +78,7 @@ class AdaptiveBalance:
         self._wait, self._effort = 0, effort or Effort()
         self._superharmonics = Superharmonics()
         self._smoothest, self._sharpest = start.threshold, 0.0
+        self._choice = ResolutionChoice(tolerance, most, start.threshold)
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold or none is asked for"""
@@ -112,10 +107,10 @@ class AdaptiveBalance:
         """Return a guess with more harmonics, if these have another tangent."""
         if self._pushed or self._tolerance is None:
             return None
-        reported, _ = self.reported(correction, scale)
+        reported, _ = self.report.reported(correction, scale)
         ways = correction.along / scale, reported.along / scale
         sizes = [float(np.linalg.norm(way)) for way in ways]
-        finer = self._doubled(True, True)
+        finer = self._choice.doubled(self.fourier, True, True)
         straight = float(ways[0] @ ways[1]) >= STRAIGHT * sizes[0] * sizes[1]
         if straight or finer == self.fourier:
             return None
@@ -124,7 +119,7 @@ class AdaptiveBalance:
 
     def overlooks(self, point: Array, scale: Array, step: float) -> bool:
         """Return whether a step passed the resonance of a higher harmonic."""
-        reported, fourier, _ = self.kept(point)
+        reported, fourier, _ = self.report.kept(point)
         rank = self._resolution.rank
         orders = slice(rank, fourier.coefficients * rank)
         waves = (reported[orders] / scale[orders]).reshape(fourier.harmonics, 2, rank)
@@ -139,7 +134,8 @@ class AdaptiveBalance:
         self._kept, self._wait = self.settled, self._wait - 1
         self._superharmonics.keep()
         if self.estimate is not None and self._wait <= 0 and step >= SHORT:
-            self.fourier, self._sharpest = self._coarser(self.estimate), 0.0
+            self.fourier = self._choice.coarser(self.fourier, self.estimate)
+            self._sharpest = 0.0
 
     def retreat(self, times: int) -> None:
         """Go back to the resolution of the last kept point, then to finer ones.
@@ -155,7 +151,8 @@ class AdaptiveBalance:
         if self._tolerance is not None:
             patience = PATIENCE if kept.harmonics < FEW else PATIENT
             for _ in range(min(times // patience, RAISES)):
-                self.fourier, self._wait = self._doubled(True, True), 0
+                self.fourier = self._choice.doubled(self.fourier, True, True)
+                self._wait = 0
 
     def settle(
         self,
@@ -171,28 +168,21 @@ class AdaptiveBalance:
 
         The refined point lies in the plane through it, normal to ``normal``;
         ``tolerance`` and ``small`` are those of :func:`~hbm.newton.correct`, ``share``
-        that of the error that is allowed with fewer than :data:`MARKED` harmonics. With
-        less than the whole, a point of unknown error stays as it is; so does one that
-        has the most harmonics and whose friction cannot be sharper. ``across`` says
-        that the error is one in that plane, not at constant frequency, as at a fold.
+        that of the error that is allowed with fewer than
+        :data:`~hbm.resolution_choice.MARKED` harmonics. With less than the whole, a
+        point of unknown error stays as it is; so does one that has the most harmonics
+        and whose friction cannot be sharper. ``across`` says that the error is one in
+        that plane, not at constant frequency, as at a fold.
         What is returned may have failed.
         """
         while True:
             self.settled = self.fourier
             correction = replace(correction, point=self._truncated(correction.point))
-            if not self._estimates:
+            asked = self._asked(correction, normal, share, across)
+            if asked is None:
                 return correction
-            try:
-                self.estimate = self._estimated(correction, normal, across)
-            except SingularError:
-                self.estimate = None
-                return correction
-            finer = self._finer(self.estimate, share)
-            lost = share < 1.0 and math.isinf(self.estimate.error)
-            if finer == self.fourier or lost:
-                return correction
+            finer, guess = asked
             self.fourier, self._wait = finer, WAIT
-            guess = self.estimate.corrected
             again = correct(
                 self,
                 guess,
@@ -212,6 +202,38 @@ class AdaptiveBalance:
             if not converged:
                 return correction
 
+    @property
+    def report(self) -> Report:
+        """What is reported of the last settled point."""
+        return Report(
+            self.estimate,
+            self.settled,
+            self._estimates,
+            self._tolerance is not None,
+            self._most,
+        )
+
+    def _asked(
+        self, correction: Correction, normal: Array, share: float, across: bool
+    ) -> tuple[FourierBasis, Array] | None:
+        """Note the error; return the resolution that it asks for, and a guess there.
+
+        None if the point stays as it is.
+        """
+        if not self._estimates:
+            return None
+        try:
+            self.estimate = self._estimated(correction, normal, across)
+        except SingularError:
+            self.estimate = None
+            return None
+        sharpest = self._sharpest if self._exhausted else 0.0
+        finer = self._choice.finer(self.fourier, self.estimate, share, sharpest)
+        lost = share < 1.0 and math.isinf(self.estimate.error)
+        if finer == self.fourier or lost:
+            return None
+        return finer, self.estimate.corrected
+
     def _estimated(
         self, correction: Correction, normal: Array, across: bool
     ) -> Estimate:
@@ -226,49 +248,6 @@ class AdaptiveBalance:
         other = self._resolution.estimate(correction, self.fourier, normal)
         return min(estimate, other, key=lambda each: each.error)
 
-    def kept(self, point: Array) -> tuple[Array, FourierBasis, float]:
-        """Return the settled point as it is to be reported, its resolution and error.
-
-        With a tolerance it is the corrected one; fixed harmonics stay what they are,
-        and have the error of what is not corrected.
-        """
-        if not self._estimates:
-            return point, self.settled, math.nan
-        if self.estimate is None or math.isinf(self.estimate.error):
-            return point, self.settled, math.inf
-        if self._tolerance is None:
-            return point, self.settled, self.estimate.before
-        return self.estimate.corrected, self.estimate.fourier, self.estimate.error
-
-    @property
-    def aside(self) -> float:
-        """Error of the parameter of the settled point, a fold, as it is reported."""
-        if not self._estimates:
-            return math.nan
-        if self.estimate is None or math.isinf(self.estimate.error):
-            return math.inf
-        uncorrected = self.estimate.shift if self._tolerance is None else 0.0
-        return uncorrected + self.estimate.aside
-
-    def reported(
-        self, correction: Correction, scale: Array
-    ) -> tuple[Correction, FourierBasis]:
-        """Return the settled point as it is reported, with the tangent there.
-
-        With more than :data:`MARKED` harmonics it is the point as it was settled.
-        """
-        point, fourier, _ = self.kept(correction.point)
-        estimate, as_settled = self.estimate, (correction, self.settled)
-        if estimate is None or fourier == self.settled or fourier.harmonics > MARKED:
-            return as_settled
-        if fourier.doubled.harmonics > 2 * self._most + 1:  # points have no more room
-            return as_settled
-        try:
-            along = tangent(estimate.slope, correction.along, scale)
-        except SingularError:
-            return as_settled
-        return replace(correction, point=point, tangent=along), fourier
-
     @property
     def _exhausted(self) -> bool:
         """Whether the last settled point has the most harmonics."""
@@ -279,44 +258,3 @@ class AdaptiveBalance:
         truncated = point.copy()
         truncated[self.fourier.coefficients * self._resolution.rank : -1] = 0.0
         return truncated
-
-    def _finer(self, estimate: Estimate, share: float) -> FourierBasis:
-        """Return the resolution that the error asks for."""
-        if self.fourier.harmonics >= MARKED:
-            share = 1.0
-        if self._tolerance is None or estimate.error <= share * self._tolerance:
-            return self.fourier
-        enough = share * self._tolerance / (3.0 if self._smoothest else 2.0)
-        finer = self._doubled(estimate.truncation > enough, estimate.sampling > enough)
-        sharpest = self._sharpest if self._exhausted else 0.0
-        if estimate.smoothing > enough and finer.threshold > sharpest:
-            finer = replace(finer, threshold=finer.threshold / SHARPER)
-        return finer
-
-    def _doubled(self, harmonics: bool, samples: bool) -> FourierBasis:
-        """Return a resolution with twice the harmonics, or samples, or both."""
-        orders, count = self.fourier.harmonics, self.fourier.samples
-        if harmonics:
-            orders = min(2 * orders + 1, self._most)
-        if samples:
-            count = min(2 * count, MOST_SAMPLES)
-        count = max(count, 8 * (orders + 1))
-        return FourierBasis(orders, count, self.fourier.threshold)
-
-    def _coarser(self, estimate: Estimate) -> FourierBasis:
-        """Return the resolution for the next point, less where much is to spare."""
-        if self._tolerance is None:
-            return self.fourier
-        harmonics, samples = self.fourier.harmonics, self.fourier.samples
-        enough = self._tolerance / SPARE
-        if estimate.truncation < enough:
-            harmonics = max(harmonics // 2, 1)
-        if estimate.truncation < 1e-3 * enough:
-            harmonics = max(harmonics // 4, 1)
-        if estimate.sampling < enough:
-            samples //= 2
-        threshold = self.fourier.threshold
-        if estimate.smoothing < enough / SHARPER:
-            threshold = min(SHARPER * threshold, self._smoothest)
-        samples = max(samples, FEWEST_SAMPLES, 8 * (harmonics + 1))
-        return FourierBasis(harmonics, samples, threshold)

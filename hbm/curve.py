@@ -72,7 +72,7 @@ class Curve:
         self, correction: Correction, event: str
     ) -> tuple[PeriodicResponse, Settled]:
         """Return the response at a settled point, and what events beside it need."""
-        kept, fourier, error = self.system.kept(correction.point)
+        kept, fourier, error = self.system.report.kept(correction.point)
         balance, point = self.resolution.at(fourier).at_frequency(kept)
         made = replace(
             response(self.problem, balance, replace(correction, point=point)),

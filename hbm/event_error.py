@@ -40,8 +40,8 @@ def fold_error(
     bend
         Change of :func:`~hbm.segment.folds` along the segment.
     """
-    error = system.aside
-    point, system.fourier, _ = system.kept(fold.point)
+    error = system.report.aside
+    point, system.fourier, _ = system.report.kept(fold.point)
     step, near = segment.length * fold.along, PRECISION * segment.length
     if segment.after.turns:
         return error + abs(folds(fold) * segment.length)
@@ -107,8 +107,8 @@ def peak_error(
     metric
         Of the curve.
     """
-    point, _, error = system.kept(peak.point)
+    point, _, error = system.report.kept(peak.point)
     largest = float(resolution.amplitudes([point]).max())
     doubt = math.sqrt(4.0 * error * largest / bend)
-    finer, _ = system.reported(peak, metric(peak.point))
+    finer, _ = system.report.reported(peak, metric(peak.point))
     return (doubt + abs(growth(finer)) / bend) * abs(folds(peak))

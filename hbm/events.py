@@ -83,7 +83,7 @@ class Events:
         that of the curve, the point is solved there.
         """
         correction, scale = settled.correction, metric(settled.correction.point)
-        reported, fourier = self.system.reported(correction, scale)
+        reported, fourier = self.system.report.reported(correction, scale)
         growth, solved = self.growth(reported), self.growth(correction)
         if growth * solved < 0.0:
             back, self.system.fourier = self.system.fourier, fourier

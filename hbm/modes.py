@@ -198,7 +198,7 @@ def _mode(
     correction: Correction,
 ) -> NonlinearMode:
     """Return the mode at a settled point."""
-    point, fourier, error = system.kept(correction.point)
+    point, fourier, error = system.report.kept(correction.point)
     balance = resolution.at(fourier)
     motion, pole = balance.motion(point), balance.parts(point).pole
     first = problem.probes.rows @ (motion[1] - 1j * motion[2])

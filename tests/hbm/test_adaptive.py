@@ -54,7 +54,7 @@ def test_a_point_settles_at_the_error_that_is_asked_for(tolerance: float) -> Non
 
     assert system.estimate is not None
     assert system.estimate.error <= tolerance
-    point, fourier, error = system.kept(found.point)
+    point, fourier, error = system.report.kept(found.point)
     assert error == system.estimate.error
     assert fourier.harmonics == 2 * system.fourier.harmonics + 1
     assert fourier.samples == 2 * system.fourier.samples
@@ -66,7 +66,7 @@ def test_smaller_tolerances_take_more_harmonics_and_samples() -> None:
     for tolerance in (3e-2, 3e-3, 3e-4, 3e-5):
         system, guess = adaptive(block(), tolerance=tolerance, start=COARSE)
         found = correct_at(system, guess, CONTROL, system)
-        _, fourier, _ = system.kept(found.point)
+        _, fourier, _ = system.report.kept(found.point)
         taken.append((fourier.harmonics, fourier.samples))
 
     harmonics, samples = np.array(taken).T
@@ -80,7 +80,7 @@ def test_the_most_harmonics_are_not_exceeded_and_the_error_says_so() -> None:
 
     found = correct_at(system, guess, CONTROL, system)
 
-    _, fourier, error = system.kept(found.point)
+    _, fourier, error = system.report.kept(found.point)
     assert fourier.harmonics == 2 * 7 + 1
     assert error > 1e-6
 
@@ -96,7 +96,7 @@ def test_fixed_harmonics_stay_and_have_the_error_before_the_correction(
     found = correct_at(system, guess, CONTROL, system)
     exact = correct_at(reference, finer, CONTROL, reference)
 
-    point, fourier, error = system.kept(found.point)
+    point, fourier, error = system.report.kept(found.point)
     assert fourier == start
     np.testing.assert_array_equal(point, found.point)
     (known,), (size,) = resolution_of(block()).amplitudes([point, exact.point])

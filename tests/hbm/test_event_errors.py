@@ -125,6 +125,11 @@ class Graph:
         x, p = point
         return np.array([p - self.height(x)]), Dense([[-self.slope(x), 1.0]])
 
+    @property
+    def report(self) -> "Graph":
+        """What is reported of the last settled point."""
+        return self
+
     def kept(self, point: Array) -> tuple[Array, None, float]:
         """Return a point as it is reported."""
         return point, None, 0.0

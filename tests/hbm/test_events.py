@@ -49,6 +49,11 @@ class Line:
         """Return a point that needs nothing more."""
         return correction
 
+    @property
+    def report(self) -> "Line":
+        """What is reported of the last settled point."""
+        return self
+
     def kept(self, point: Array) -> tuple[Array, object, float]:
         """Return a point as it is reported, its resolution and its error."""
         return point, FOURIER, 0.0

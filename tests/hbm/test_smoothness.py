@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hbm.adaptive import SHARPER, WAIT, AdaptiveBalance
+from hbm.adaptive import WAIT, AdaptiveBalance
 from hbm.continuation import correct_at
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
@@ -16,6 +16,7 @@ from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
 from hbm.resolution import Estimate, PathResolution, Resolution
+from hbm.resolution_choice import SHARPER
 from hbm.smoothness import FALL, smoothest
 from hbm.solve import frequency_response
 from hbm.step_control import StepControl

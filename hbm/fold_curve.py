@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.along_parameter import AlongParameter
+from hbm.balance import Balance
 from hbm.continuation import trace
 from hbm.curve import response
 from hbm.fold_balance import FoldBalance, Inner, beyond
@@ -16,7 +17,7 @@ from hbm.fourier import FourierBasis
 from hbm.newton import Correction, SingularError
 from hbm.options import CurveOptions
 from hbm.parametric import mirrored
-from hbm.residual import Balance, HarmonicBalance
+from hbm.residual import HarmonicBalance
 from hbm.segment import Segment, folds
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.active import PROBE, extended, moving, symmetric
+from hbm.balance import Balance
 from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem, relative_problem
-from hbm.residual import Balance, HarmonicBalance
+from hbm.residual import HarmonicBalance
 from hbm.rigid import with_pushes
 from hbm.stability import SmallMotions, small_motions
 from microslip_mechanics.problem import Problem

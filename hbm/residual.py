@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 from dataclasses import replace
 from functools import partial
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,29 +13,12 @@ from hbm.contact_cycle import ContactCycle
 from hbm.fourier import FourierBasis, to_complex, to_real
 from hbm.iterated import Parts
 from hbm.jacobian import assemble, terms
+from hbm.linear_balance import LinearBalance
 from hbm.linearisation import Linearisation
 from hbm.low_orders import LowOrders
 from hbm.memory import marched
 from hbm.relative import RelativeProblem
-from microslip_mechanics.arrays import Array, ComplexArray
-
-
-class Balance(Protocol):
-    """A system whose points are harmonic balances at some frequency."""
-
-    fourier: FourierBasis
-
-    def __call__(self, point: Array) -> tuple[Array, Linearisation]:
-        """Return the residual [N], (size − 1,), and what solves with its Jacobian."""
-
-    def residual(self, point: Array) -> Array:
-        """Return the residual [N], (size − 1,)."""
-
-    def impulses(self, above: int, most: int) -> float:
-        """Return the norm of the contact impulses between two orders, last call."""
-
-    def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
-        """Return harmonic balance at the point's parameter, and the point for it."""
+from microslip_mechanics.arrays import Array
 
 
 class HarmonicBalance:
@@ -62,12 +44,11 @@ class HarmonicBalance:
         problem = problem.smoothed(fourier.threshold)
         self._active = np.ones(shape, dtype=bool) if active is None else active
         self.contact = problem.contact(fourier)
+        self._wanted = np.vstack([self._active[:1], self._active[1::2]])
         self._take(problem)
-        self._orders = 1j * np.arange(fourier.harmonics + 1)
         self._terms = terms(self._active)
         self._places = np.full(shape, -1)
         self._places[self._active] = np.arange(self._terms.unknowns.size)
-        self._wanted = np.vstack([self._active[:1], self._active[1::2]])
         iterates = LowOrders.serve(self._active, fourier.samples)
         iterates &= not marched(problem.points).any()
         self._low = LowOrders(self._active) if iterates else None
@@ -91,13 +72,7 @@ class HarmonicBalance:
         self.problem = problem
         self._still = np.zeros(self._active.shape)
         self._still[0] = problem.rest
-        self._force = np.zeros(
-            (len(self._still) // 2 + 1, problem.force.shape[1]), complex
-        )
-        self._force[:2] = problem.force
-        self._load = problem.condensed.loading(problem.force)
-        self._at = np.nan
-        self._structure: tuple[ComplexArray, ...] = ()
+        self._linear = LinearBalance(problem, self._wanted)
 
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
         """Return the residual [N], (size − 1,), and what solves with its Jacobian.
@@ -117,7 +92,7 @@ class HarmonicBalance:
             return self._jacobian(frequency), by_last
 
         def divided(low: LowOrders) -> Parts:
-            by_last, held = slope(), self._held(frequency)
+            by_last, held = slope(), self._linear.held(frequency)
             return low.parts(self.contact, held, frequency, by_last)
 
         parts = None if low is None else partial(divided, low)
@@ -125,7 +100,7 @@ class HarmonicBalance:
 
     def _jacobian(self, frequency: float) -> Array:
         """Return ∂R/∂y of the unknowns where the contacts were called."""
-        stiffness = self._held(frequency)
+        stiffness = self._linear.held(frequency)
         jacobian = assemble(
             *self.contact.tangents.spectra(2 * self.fourier.harmonics),
             np.ascontiguousarray(stiffness.real),
@@ -139,24 +114,15 @@ class HarmonicBalance:
     def _slope(self, point: Array) -> Array:
         """Return ∂R/∂ω of the unknowns where the contacts were called."""
         coefficients, frequency = self.split(point)
-        _, _, load_change = self._linear(frequency)
-        variable, amplitudes = self._orders * frequency, to_complex(coefficients)
-        turned = self.problem.condensed.slope(variable, amplitudes) - load_change
-        change = to_real(self._orders[:, None] * turned)
+        change = self._linear.slope(coefficients, frequency)
         whole = change + self.contact.by_frequency(frequency)
         slope: Array = whole.ravel()[self._terms.unknowns]
         return slope
 
-    def _held(self, frequency: float) -> ComplexArray:
-        """Return the dynamic stiffness with what holds free bodies."""
-        stiffness = self._linear(frequency)[0].copy()
-        stiffness[0] += self.problem.gauge
-        return stiffness
-
     def residual(self, point: Array) -> Array:
         """Return the residual [N], (size − 1,)."""
         coefficients, frequency = self.split(point)
-        stiffness, load, _ = self._linear(frequency)
+        stiffness, load, _ = self._linear.at(frequency)
         amplitudes = to_complex(coefficients)[..., None]
         force = self.contact(coefficients, frequency)
         residual = to_real((stiffness @ amplitudes)[..., 0] - load) + force
@@ -206,14 +172,7 @@ class HarmonicBalance:
     def motion(self, point: Array) -> Array:
         """Return the coefficients of the full motion u [m], shape (2H + 1, dofs)."""
         coefficients, frequency = self.split(point)
-        variable = self._orders * frequency
-        motion = to_real(
-            self.problem.condensed.motion(
-                variable, to_complex(coefficients), self._force
-            )
-        )
-        motion[0] += self.problem.position
-        return motion
+        return self._linear.motion(coefficients, frequency)
 
     def cycle(self, point: Array) -> ContactCycle:
         """Return what the contacts do over one period."""
@@ -231,16 +190,3 @@ class HarmonicBalance:
         """Return the mean force [N] by which only the gauge of a free body is held."""
         coefficients, _ = self.split(point)
         return float(np.abs(self.problem.gauge @ coefficients[0]).max(initial=0.0))
-
-    def _linear(self, frequency: float) -> tuple[ComplexArray, ...]:
-        """Return dynamic stiffness, load and its derivative by s, cached."""
-        if frequency != self._at:
-            variable = self._orders * frequency
-            condensed, shape = self.problem.condensed, (variable.size, self.rank)
-            # only the orders 0 and 1 are loaded
-            loads = np.zeros((2, *shape), complex)
-            loads[:, :2] = self._load(variable[:2])
-            stiffness = condensed.dynamic_stiffness(variable, self._wanted)
-            self._structure = (stiffness, *loads)
-            self._at = frequency
-        return self._structure

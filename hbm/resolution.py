@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.balance import Balance
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Linearised
 from hbm.path import Path
 from hbm.refined import Refined, Resolved, refined
-from hbm.residual import Balance
 from microslip_mechanics.arrays import Array, ComplexArray, largest
 
 SMOOTHER = 1e-3

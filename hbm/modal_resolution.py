@@ -13,7 +13,8 @@ from hbm.fourier import FourierBasis
 from hbm.free_motion import FreeMotion
 from hbm.linear_modes import LinearMode
 from hbm.memory import marched
-from hbm.modal import ModalBalance, ModalParts, Reference
+from hbm.modal import ModalBalance
+from hbm.modal_parts import ModalParts, Reference
 from hbm.relative import RelativeProblem
 from hbm.resolution import Resolution
 from microslip_mechanics.arrays import Array

@@ -16,7 +16,7 @@ from hbm.fourier import FourierBasis, derivative
 from hbm.free_motion import free_motion
 from hbm.leaps import Leaping
 from hbm.linear_modes import FreeDecay, LinearMode, linear_modes
-from hbm.modal import Reference
+from hbm.modal_parts import Reference
 from hbm.modal_resolution import ModalResolution
 from hbm.newton import Correction
 from hbm.one_thread import one_thread

@@ -8,7 +8,8 @@ from hbm.condensation import condense
 from hbm.fourier import FourierBasis
 from hbm.free_motion import free_motion
 from hbm.linear_modes import linear_modes
-from hbm.modal import ModalBalance, ModalParts, Reference
+from hbm.modal import ModalBalance
+from hbm.modal_parts import ModalParts, Reference
 from hbm.relative import relative_problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem

@@ -1,4 +1,4 @@
-"""A small dense solve for kernels: a library call costs more than it computes here."""
+"""Small dense algebra for kernels: a library call costs more than it computes here."""
 
 from __future__ import annotations
 
@@ -83,3 +83,18 @@ def copy_rows(source: Array, target: Array) -> None:
     for i in range(source.shape[0]):
         for j in range(source.shape[1]):
             target[i, j] = source[i, j]
+
+
+@kernel
+def dot(left: Array, right: Array) -> float:
+    """Return the inner product of two vectors."""
+    total = 0.0
+    for i in range(left.size):
+        total += left[i] * right[i]
+    return total
+
+
+@kernel
+def norm(vector: Array) -> float:
+    """Return the Euclidean length of a vector."""
+    return float(np.sqrt(dot(vector, vector)))

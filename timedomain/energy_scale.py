@@ -9,7 +9,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.segments import Segments
 from timedomain.coordinates import Modes
-from timedomain.newmark import State
+from timedomain.state import State
 
 
 def least_energy(

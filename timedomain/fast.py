@@ -31,7 +31,6 @@ from timedomain.motion import (
     Motion,
     Trial,
 )
-from timedomain.newmark import State
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record import FLOWS, STORES, row_length
 from timedomain.schemes import MEAN_FORCE, SDIRK2, Scheme
@@ -43,6 +42,7 @@ from timedomain.start import (
     refill,
     stored_energy,
 )
+from timedomain.state import State
 from timedomain.tables import LEVELS, empty_tables, fill
 
 NUMBERS = 5

@@ -2,66 +2,19 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force
-from microslip_mechanics.contact.memory import add_traction
-from microslip_mechanics.contact.points import (
-    ELASTIC,
-    FRICTIONLESS,
-    RIGID,
-    ContactPoints,
-)
+from microslip_mechanics.contact.points import ELASTIC, FRICTIONLESS, ContactPoints
 from microslip_mechanics.jit import kernel
-from timedomain.dense import solve_in_place
+from timedomain.dense import norm, solve_in_place
+from timedomain.operators import Operators
 from timedomain.projection import projected
+from timedomain.reaction import reaction_of
 from timedomain.record import Meters, accumulate, store
+from timedomain.state import State
 
 NEWTON_LIMIT, HALVINGS = 50, 12
-
-
-class Operators(NamedTuple):
-    """Constant matrices of one step size (theory, eqs. 22–24)."""
-
-    step: float
-    """h [s]"""
-    free: Array
-    """free acceleration from the predicted (u, v), shape (dofs, 2 dofs)"""
-    load: Array
-    """free acceleration from the load factors, shape (dofs, loads)"""
-    contact: Array
-    """acceleration from contact forces, shape (dofs, rank)"""
-    compliance: Array
-    """relative acceleration from contact forces, shape (rank, rank)"""
-    selection: Array
-    """relative coordinates y from u, shape (rank, dofs)"""
-    basis: Array
-    """relative displacements of the points from y, shape (3 points, rank)"""
-
-
-class State(NamedTuple):
-    """What one step hands to the next; written in place."""
-
-    displacement: Array
-    velocity: Array
-    acceleration: Array
-    reaction: Array
-    """contact force on the relative coordinates [N], shape (rank,)"""
-    forces: Array
-    """of each point [N], shape (points, 3)"""
-    gaps: Array
-    """relative displacement of each point [m], shape (points, 3)"""
-    slips: Array
-    """relative velocity of each point [m/s], shape (points, 3)"""
-    past: Array
-    """where each point was along its tangents when the step began [m], its traction [N]
-    of friction that remembers, its velocity [m/s], and its normal load [N] with a zero;
-    shape (points, 4, 2)"""
-    fresh: Array
-    """the same for now"""
 
 
 @kernel
@@ -185,7 +138,7 @@ def _newton(
     tangent = np.empty_like(compliance)
     guess = free - np.dot(compliance, state.reaction)
     change = np.zeros_like(guess)
-    scale, size = _norm(free) + 1e-300, np.inf
+    scale, size = norm(free) + 1e-300, np.inf
     for iteration in range(NEWTON_LIMIT + 1):
         shrink, reached = 1.0, np.inf
         for _ in range(HALVINGS):
@@ -200,14 +153,14 @@ def _newton(
                 tangents,
             )
             residual = trial - free + np.dot(compliance, reaction)
-            reached = _norm(residual)
+            reached = norm(residual)
             if reached < size:
                 break
             shrink *= 0.5
         if not reached < size:
             return reaction, -1
         guess, size = trial, reached
-        if size <= tolerance * (scale + _norm(guess)):
+        if size <= tolerance * (scale + norm(guess)):
             return reaction, iteration
         matrix = np.dot(compliance, tangent)
         for i in range(guess.size):
@@ -216,80 +169,3 @@ def _newton(
         if not solve_in_place(matrix, change):
             return reaction, -1
     return reaction, -1
-
-
-@kernel
-def reaction_of(
-    operators: Operators,
-    points: ContactPoints,
-    state: State,
-    displacement: Array,
-    velocity: Array,
-    tangent: Array,
-    tangents: Array,
-) -> Array:
-    """Return the contact force on y; write its derivative by the acceleration."""
-    basis = operators.basis
-    reaction = np.zeros(displacement.size)
-    tangent[:] = 0.0
-    for point in range(points.load.size):
-        rows = basis[3 * point : 3 * point + 3]
-        for axis in range(3):
-            state.gaps[point, axis] = _dot(rows[axis], displacement)
-            state.slips[point, axis] = _dot(rows[axis], velocity)
-        contact_force(
-            points,
-            point,
-            state.gaps[point],
-            state.slips[point],
-            state.forces[point],
-            tangents[0],
-            tangents[1],
-        )
-        if ELASTIC <= points.friction[point] < RIGID:
-            add_traction(
-                points, point, state.gaps[point], state.slips[point],
-                state.past[point], state.fresh[point], state.forces[point],
-                tangents[0], tangents[1],
-            )  # fmt: skip
-        _scatter(operators.step, rows, state.forces[point], tangents, reaction, tangent)
-    return reaction
-
-
-@kernel
-def _scatter(
-    step: float,
-    rows: Array,
-    force: Array,
-    tangents: Array,
-    reaction: Array,
-    tangent: Array,
-) -> None:
-    """Add one point's force and tangent to those of the relative coordinates."""
-    rank = reaction.size
-    for axis in range(3):
-        for i in range(rank):
-            reaction[i] += rows[axis, i] * force[axis]
-        for other in range(3):
-            slope = 0.5 * step * tangents[1, axis, other]
-            slope += 0.25 * step**2 * tangents[0, axis, other]
-            if slope == 0.0:
-                continue
-            for i in range(rank):
-                left = rows[axis, i] * slope
-                if left != 0.0:
-                    for j in range(rank):
-                        tangent[i, j] += left * rows[other, j]
-
-
-@kernel
-def _dot(left: Array, right: Array) -> float:
-    total = 0.0
-    for i in range(left.size):
-        total += left[i] * right[i]
-    return total
-
-
-@kernel
-def _norm(vector: Array) -> float:
-    return float(np.sqrt(_dot(vector, vector)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,9 +11,7 @@ from microslip_mechanics.contact.law import contact_power
 from microslip_mechanics.contact.normal import contact_energy
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
-
-if TYPE_CHECKING:
-    from timedomain.newmark import State
+from timedomain.state import State
 
 FLOWS = ("input", "friction", "normal_damping", "structural_damping")
 """integrated powers"""

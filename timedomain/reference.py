@@ -9,7 +9,8 @@ from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import factors_over
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
-from timedomain.newmark import Operators, march
+from timedomain.newmark import march
+from timedomain.operators import Operators, step_operators
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record import FLOWS, STORES, accumulate, row_length, store
 from timedomain.set_valued import march_sliders, sliders
@@ -41,7 +42,7 @@ class ReferenceMarch:
         self._options, self._steps = options, steps
         self._step = history.duration / steps
         self._shapes = problem.loads.T.copy()
-        self._operators = _operators(problem, self._shapes, self._step)
+        self._operators = step_operators(problem, self._shapes, self._step)
         self._sliders = sliders(problem)
         self._state = first_state(problem, history, start)
         self._meters = meters(problem, self._shapes)
@@ -115,7 +116,7 @@ class ReferenceMarch:
         for halvings in range(1, self._options.divisions + 1):
             parts = 2**halvings
             times = self._times(step + np.arange(1.0, parts + 1.0) / parts)
-            operators = _operators(self._problem, self._shapes, self._step / parts)
+            operators = step_operators(self._problem, self._shapes, self._step / parts)
             factors = self._factors(times)
             done, iterations = self._marched(operators, factors, nothing, 0)
             if done == parts:
@@ -166,24 +167,3 @@ class ReferenceMarch:
             divided,
             checkpoint=end,
         )
-
-
-def _operators(problem: Problem, shapes: Array, step: float) -> Operators:
-    """Return the matrices of average acceleration (theory, eqs. 22–23)."""
-    structure = problem.structure.dense
-    basis, selection = problem.interface.relative_motion()
-    half = 0.5 * step
-    effective = (
-        structure.mass + half * structure.damping + half**2 * structure.stiffness
-    )
-    inverse = np.linalg.inv(effective)
-    contact = inverse @ selection.T
-    return Operators(
-        step,
-        -inverse @ np.hstack([structure.stiffness, structure.damping]),
-        inverse @ shapes,
-        contact,
-        selection @ contact,
-        selection,
-        basis,
-    )

@@ -21,8 +21,11 @@ from microslip_mechanics.contact.rigid import slide
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 from timedomain.dense import solve_in_place
-from timedomain.newmark import HALVINGS, NEWTON_LIMIT, Operators, State, reaction_of
+from timedomain.newmark import HALVINGS, NEWTON_LIMIT
+from timedomain.operators import Operators
+from timedomain.reaction import reaction_of
 from timedomain.record import FLOWS, Meters, accumulate, store
+from timedomain.state import State
 
 FRICTION = FLOWS.index("friction")
 LOOSE = 1e-9

@@ -21,8 +21,8 @@ from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.segments import factors_over
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint
-from timedomain.newmark import State
 from timedomain.record import FLOWS, Meters, accumulate
+from timedomain.state import State
 
 LOOP = 4096
 """samples of a period in which contacts that remember settle"""

@@ -13,7 +13,8 @@ from timedomain.newmark import march
 from timedomain.operators import Operators, step_operators
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record import FLOWS, STORES, accumulate, row_length, store
-from timedomain.set_valued import march_sliders, sliders
+from timedomain.rigid_points import sliders
+from timedomain.set_valued import march_sliders
 from timedomain.start import (
     Start,
     checkpoint,

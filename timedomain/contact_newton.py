@@ -2,77 +2,20 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import bare_kernel, inner_kernel
+from timedomain.contact_matrix import assemble
 from timedomain.coordinates import Contacts
 from timedomain.dense import copy_rows, eliminate
-from timedomain.point_law import linearise
+from timedomain.local_motion import Answer, Local
 
 NEWTON_LIMIT = 40
 CAREFUL = 6
 """iterations with tangents before those with secants"""
 EARLY = 0.03
 """of the residual: one more change of a quadratic iteration squares it"""
-
-
-class Answer(NamedTuple):
-    """How the relative motion of a stage answers a contact force; one level, stage."""
-
-    compliance: Array
-    stiffness: Array
-    slope: Array
-    scalar: float
-    weight: Array
-    begins: Array
-    """penetrations at the begin of a step of means, or empty"""
-
-
-class Local(NamedTuple):
-    """Relative motion and forces; the last three are workspace."""
-
-    displacement: Array
-    """shape (rank,)"""
-    velocity: Array
-    """shape (rank,)"""
-    reaction: Array
-    """φ [N], shape (rank,)"""
-    gaps: Array
-    """of the points [m], shape (points, 3)"""
-    slips: Array
-    """[m/s], shape (points, 3)"""
-    forces: Array
-    """[N], shape (points, 3)"""
-    lines: Array
-    """linearised forces, shape (points, 3)"""
-    by_gap: Array
-    """shape (points, 3)"""
-    by_slip: Array
-    """shape (points, 3, 3)"""
-    matrix: Array
-    """shape (rank, rank)"""
-    change: Array
-    """shape (2, rank)"""
-
-
-def empty_local(rank: int, points: int) -> Local:
-    """Return a relative motion of zeros."""
-    return Local(
-        np.zeros(rank),
-        np.zeros(rank),
-        np.zeros(rank),
-        np.zeros((points, 3)),
-        np.zeros((points, 3)),
-        np.zeros((points, 3)),
-        np.zeros((points, 3)),
-        np.zeros((points, 3)),
-        np.zeros((points, 3, 3)),
-        np.zeros((rank, rank)),
-        np.zeros((2, rank)),
-    )
 
 
 @bare_kernel
@@ -106,7 +49,7 @@ def solve_contact(
         return 1
     _begin(contacts, answer, displacement, velocity, local)
     for iteration in range(1, NEWTON_LIMIT + 1):
-        size, scale = _assemble(contacts, answer, local, iteration > CAREFUL)
+        size, scale = assemble(contacts, answer, local, iteration > CAREFUL)
         if size <= tolerance * scale + floor:
             copy_rows(local.lines, local.forces)
             return iteration
@@ -176,89 +119,6 @@ def _read(contacts: Contacts, local: Local) -> None:
                 gap += row * local.displacement[first + i]
                 slip += row * local.velocity[first + i]
             local.gaps[point, axis], local.slips[point, axis] = gap, slip
-
-
-@inner_kernel
-def _assemble(
-    contacts: Contacts, answer: Answer, local: Local, careful: bool
-) -> tuple[float, float]:
-    """Write Newton's matrix and right side; return the residual and its scale."""
-    rank = local.velocity.size
-    matrix, right = local.matrix, local.change[0]
-    for i in range(rank):
-        right[i] = local.reaction[i]
-        for j in range(rank):
-            matrix[i, j] = answer.stiffness[i, j]
-    scale = 0.0
-    for point in range(contacts.first.size):
-        linearise(
-            contacts.points,
-            point,
-            answer.weight[point],
-            careful,
-            answer.begins,
-            local.gaps,
-            local.slips,
-            local.forces,
-            local.lines,
-            local.by_gap,
-            local.by_slip,
-        )
-        line = local.lines[point]
-        scale = max(scale, abs(line[0]) + abs(line[1]) + abs(line[2]))
-        if answer.scalar >= 0.0:
-            for axis in range(3):
-                local.by_slip[point, axis, 0] += (
-                    answer.scalar * local.by_gap[point, axis]
-                )
-        _scatter(contacts, local, point)
-        if answer.scalar < 0.0:
-            _scatter_displacement(contacts, answer, local, point)
-    size = 0.0
-    for i in range(rank):
-        size = max(size, abs(right[i]))
-        scale = max(scale, abs(local.reaction[i]))
-    return size, scale
-
-
-@inner_kernel
-def _scatter(contacts: Contacts, local: Local, point: int) -> None:
-    """Add one point to Newton's matrix and right side."""
-    first, width = contacts.first[point], contacts.width[point]
-    basis, lines, slopes = contacts.basis, local.lines, local.by_slip
-    for i in range(width):
-        up, one, two = basis[point, 0, i], basis[point, 1, i], basis[point, 2, i]
-        local.change[0, first + i] -= (
-            up * lines[point, 0] + one * lines[point, 1] + two * lines[point, 2]
-        )
-        zero = up * slopes[point, 0, 0]
-        zero += one * slopes[point, 1, 0] + two * slopes[point, 2, 0]
-        left = one * slopes[point, 1, 1] + two * slopes[point, 2, 1]
-        side = one * slopes[point, 1, 2] + two * slopes[point, 2, 2]
-        for j in range(width):
-            local.matrix[first + i, first + j] += (
-                zero * basis[point, 0, j]
-                + left * basis[point, 1, j]
-                + side * basis[point, 2, j]
-            )
-
-
-@inner_kernel
-def _scatter_displacement(
-    contacts: Contacts, answer: Answer, local: Local, point: int
-) -> None:
-    """Add what the normal displacement does, where it is not bound to velocity."""
-    first, width = contacts.first[point], contacts.width[point]
-    rows, by_gap = contacts.basis[point], local.by_gap[point]
-    gap = local.change[1]
-    gap[:] = 0.0
-    for i in range(width):
-        for j in range(gap.size):
-            gap[j] += rows[0, i] * answer.slope[first + i, j]
-    for i in range(width):
-        left = rows[0, i] * by_gap[0] + rows[1, i] * by_gap[1] + rows[2, i] * by_gap[2]
-        for j in range(gap.size):
-            local.matrix[first + i, j] += left * gap[j]
 
 
 @inner_kernel

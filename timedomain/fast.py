@@ -13,10 +13,10 @@ from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
-from timedomain.contact_newton import empty_local
 from timedomain.coordinates import Contacts, Coordinates, Modes, modal_coordinates
 from timedomain.energy_scale import least_energy, settled
 from timedomain.ladder import DONE, FAILED, TICKS, climb
+from timedomain.local_motion import empty_local
 from timedomain.motion import (
     DRIFT,
     ITERATIONS,

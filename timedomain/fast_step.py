@@ -5,7 +5,7 @@ from __future__ import annotations
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import bare_kernel, inner_kernel
 from microslip_mechanics.segments import Segments, load_factors
-from timedomain.contact_newton import Answer, solve_contact
+from timedomain.contact_newton import solve_contact
 from timedomain.coordinates import Contacts, Modes
 from timedomain.coupling import (
     coupled_force,
@@ -14,6 +14,7 @@ from timedomain.coupling import (
 )
 from timedomain.dense import copy, copy_rows
 from timedomain.fast_powers import pull, stage_powers
+from timedomain.local_motion import Answer
 from timedomain.motion import HINT, ITERATIONS, LENGTH, Control, Motion, Trial
 from timedomain.tables import Tables
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from timedomain.contact_newton import Local
+from timedomain.local_motion import Local
 
 TICK, LEVEL, HINT, STEPS, REJECTED = range(5)
 ITERATIONS, SAFE, SAFE_STEPS, ROUGH, FIRST, HOPELESS = range(5, 11)

@@ -2,64 +2,23 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
-from timedomain.coordinates import Contacts, Coordinates, Modes, modal_coordinates
-from timedomain.energy_scale import least_energy, settled
+from timedomain.coordinates import modal_coordinates
+from timedomain.fast_control import SAFETY, fast_control
+from timedomain.fast_history import empty_rows, fast_history
+from timedomain.first_motion import first_motion
 from timedomain.ladder import DONE, FAILED, TICKS, climb
-from timedomain.local_motion import empty_local
-from timedomain.motion import (
-    DRIFT,
-    ITERATIONS,
-    LARGEST_DRIFT,
-    LENGTH,
-    OTHER_WORK,
-    REFERENCE,
-    REJECTED,
-    TICK,
-    UNKEPT,
-    Control,
-    Motion,
-    Trial,
-)
+from timedomain.motion import ITERATIONS, REJECTED, TICK, empty_trial
 from timedomain.options import IntegrationError, MarchOptions
-from timedomain.record import FLOWS, STORES, row_length
 from timedomain.schemes import MEAN_FORCE, SDIRK2, Scheme
-from timedomain.start import (
-    Start,
-    first_state,
-    force_scale,
-    powers,
-    refill,
-    stored_energy,
-)
-from timedomain.state import State
+from timedomain.start import Start, first_state, force_scale, refill, stored_energy
 from timedomain.tables import LEVELS, empty_tables, fill
-
-NUMBERS = 5
-"""that a row holds behind the energies"""
-PER_CYCLE, CYCLED = 12, 3e-4
-"""least number of steps in a cycle of the load, and the error that they make; it falls
-with their fourth power"""
-RESIDUAL = 1e-2
-"""of contact forces, over the tolerance of one step"""
-HOLD = 0.5
-"""cycles of the load without a rough step before steps grow"""
-ROUNDING = 1e-9
-"""of a number of steps, relative"""
-CANCELLED = 4.0
-"""by which errors exceed their sum, whose signs cancel: at most that on eight rigs"""
-SAFETY = 0.05
-"""error of one step over the tolerance of the whole march"""
 
 
 class FastMarch:
@@ -80,33 +39,24 @@ class FastMarch:
         self._step = history.duration / steps
         self._coordinates = modal_coordinates(problem)
         self._segments = history.segments()
-        self._force_scale = force_scale(problem, start)
         state = first_state(problem, history, start)
-        self._control = self._controlled(state)
+        self._control = fast_control(
+            options,
+            self._segments,
+            coordinates=self._coordinates,
+            state=state,
+            duration=self._duration,
+            step=self._step,
+            force_scale=force_scale(problem, start),
+        )
         self._stored_at_start = stored_energy(problem, state)
         modes, contacts = self._coordinates.modes, self._coordinates.contacts
         first, second = (empty_tables(each, modes, contacts) for each in schemes)
         self._tables = first, second
-        self._trial = _trial(schemes, self._coordinates)
-        inverse = self._coordinates.inverse
-        reaction = _reaction(contacts, state.forces)
-        self._motion = Motion(
-            inverse @ state.displacement,
-            inverse @ state.velocity,
-            _coupled(modes, inverse, state),
-            state.gaps,
-            state.slips,
-            state.forces,
-            np.zeros_like(state.forces),
-            np.stack([reaction, np.zeros_like(reaction)]),
-            _relative(modes, inverse, state),
-            powers(problem, history, state),
-            np.zeros(len(FLOWS)),
-            np.zeros(8),
-            np.zeros(11, dtype=np.int64),
+        self._trial = empty_trial(schemes, self._coordinates)
+        self._motion = first_motion(
+            problem, history, self._coordinates, state, self._control
         )
-        self._motion.numbers[LENGTH] = self._control.longest
-        self._motion.numbers[REFERENCE] = self._control.least
 
     def resume(self, end: Checkpoint) -> int:
         """Go back to the end of a block; return the steps until there.
@@ -137,8 +87,7 @@ class FastMarch:
         stride, counts = self._options.store_every, self._motion.counts
         numbers = 1 + first // stride + np.arange(count // stride)
         times = self._duration * (numbers * stride / self._steps)
-        probes, points = len(self._problem.probes.names), self._problem.interface.count
-        rows = np.empty((len(times), row_length(probes, points) + NUMBERS))
+        rows = empty_rows(self._problem, len(times))
         before, done, status = counts.copy(), 0, FAILED
         modes, contacts = self._coordinates.modes, self._coordinates.contacts
         while status != DONE:
@@ -175,39 +124,6 @@ class FastMarch:
             step=self._control.longest / 2.0**level,
         )
 
-    def _controlled(self, state: State) -> Control:
-        """Return step, ladder and tolerances."""
-        options = self._options
-        stride, longest, tolerance = options.store_every, self._step, 0.0
-        lowest = min(LEVELS - 1, options.divisions)
-        if options.tolerance is not None:
-            row = self._step * stride
-            steps = PER_CYCLE * max(1.0, CYCLED / options.tolerance) ** 0.25
-            wanted = min(self._cycle() / steps, row)
-            stride = 2 ** max(0, math.ceil(math.log2(row / wanted) - 1e-9))
-            longest, tolerance = row / stride, SAFETY * options.tolerance
-            lowest = LEVELS - 1
-        floor = 1e-10 * self._force_scale
-        residual = options.residual
-        if tolerance > 0.0:
-            residual = max(residual, RESIDUAL * tolerance)
-        hold = int(TICKS * HOLD * self._cycle() / longest) if tolerance > 0.0 else 0
-        modes, inverse = self._coordinates.modes, self._coordinates.inverse
-        least = least_energy(modes, inverse, state, self._segments, longest)
-        still = min(settled(self._segments), self._duration)
-        tick = math.ceil(TICKS * (still / longest) * (1.0 - ROUNDING))
-        return Control(
-            longest, stride, tolerance, residual, floor, lowest, hold, least, tick
-        )
-
-    def _cycle(self) -> float:
-        """Return the shortest cycle of the load [s], or the whole march."""
-        begin = self._segments.begin
-        edges = np.append(begin, self._duration)
-        times = np.concatenate([edges, begin + 1e-9 * np.diff(edges)])
-        fastest = float(np.abs(clock(self._segments, times)[:, 0]).max())
-        return min(2.0 * np.pi / fastest, self._duration) if fastest else self._duration
-
     def _failure(self) -> IntegrationError:
         tick = self._motion.counts[TICK]
         return IntegrationError(
@@ -220,31 +136,18 @@ class FastMarch:
     def _table(
         self, times: Array, rows: Array, counts: NDArray[np.int64]
     ) -> TimeHistory:
-        probes, contacts = self._problem.probes.names, self._problem.interface.names
-        sizes = [len(probes), len(probes), len(contacts), 1, len(FLOWS) + len(STORES)]
-        shown, moving, normal, power, energy, more = np.split(
-            rows, np.cumsum(sizes), axis=1
-        )
-        difference = energy[:, FLOWS.index("friction")] - more[:, OTHER_WORK]
-        history = TimeHistory(
+        """Return the stored rows as a history; ``counts`` is how many were made."""
+        return fast_history(
+            self._problem,
             times,
-            probes,
-            shown,
-            moving,
-            contacts,
-            normal,
-            power[:, 0],
-            (*FLOWS, *STORES),
-            energy,
-            self._stored_at_start,
-            self._step,
-            int(counts[ITERATIONS]),
-            0 if self._options.tolerance else int(counts[REJECTED]),
+            rows,
+            stored_at_start=self._stored_at_start,
+            step=self._step,
+            iterations=int(counts[ITERATIONS]),
+            rejected=int(counts[REJECTED]),
+            tolerance=self._options.tolerance,
             checkpoint=self._checkpoint(),
-            work_difference=difference,
         )
-        least = self._options.tolerance
-        return history if least is None else _estimated(history, more, least)
 
     def _checkpoint(self) -> Checkpoint:
         shapes, motion = self._coordinates.shapes, self._motion
@@ -257,68 +160,8 @@ class FastMarch:
         )
 
 
-def _estimated(history: TimeHistory, more: Array, least: float) -> TimeHistory:
-    """Return a history with estimated errors, none below the tolerance."""
-    drift, unkept = np.abs(more[:, DRIFT]), more[:, UNKEPT]
-    drift = CANCELLED * (drift + np.abs(history.work_difference)) + unkept
-    lost = (more[:, LARGEST_DRIFT] + unkept) / more[:, REFERENCE]
-    return replace(
-        history,
-        energy_error=np.maximum(drift, least * np.abs(history.of("friction"))),
-        peak_error=np.maximum(lost, least),
-    )
-
-
 def _said(tolerance: float) -> str:
     """Return how accurate steps are, in words."""
     if tolerance == 0.0:
         return "without a tolerance"
     return f"with a tolerance of {tolerance / SAFETY:g}"
-
-
-def _coupled(modes: Modes, inverse: Array, state: State) -> Array:
-    """Return the damping force of the other modes, its rate and 0, (3, modes)."""
-    if not modes.coupling.any():
-        return np.zeros((3, 0))
-    motion = np.stack([state.velocity, state.acceleration])
-    return np.pad(motion @ inverse.T @ modes.coupling.T, ((0, 1), (0, 0)))
-
-
-def _relative(modes: Modes, inverse: Array, state: State) -> Array:
-    """Return y and ẏ, shape (2, rank)."""
-    motion = np.stack([state.displacement, state.velocity], axis=1)
-    return np.ascontiguousarray((modes.selection @ inverse @ motion).T)
-
-
-def _reaction(contacts: Contacts, forces: Array) -> Array:
-    """Return φ from the forces of the points."""
-    reaction = np.zeros(int((contacts.first + contacts.width).max(initial=0)))
-    for first, width, basis, force in zip(
-        contacts.first, contacts.width, contacts.basis, forces, strict=True
-    ):
-        reaction[first : first + width] += force @ basis[:, :width]
-    return reaction
-
-
-def _trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
-    """Return workspace for a step."""
-    modes, points = coordinates.modes, coordinates.contacts.first.size
-    count, rank = modes.stiffness.size, len(modes.selection)
-    stages = 1 + max(scheme.stages for scheme in schemes)
-    return Trial(
-        empty_local(rank, points),
-        np.zeros(count),
-        np.zeros(count),
-        np.zeros((stages, count)),
-        np.zeros(count),
-        np.zeros((2, rank)),
-        np.zeros((stages, len(FLOWS))),
-        np.zeros(len(modes.loads)),
-        np.zeros((points, 3)),
-        np.zeros(rank),
-        np.zeros(4),
-        np.zeros(count),
-        np.zeros(count),
-        np.zeros(points),
-        np.zeros((3, count if modes.coupling.any() else 0)),
-    )

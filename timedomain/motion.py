@@ -8,7 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from timedomain.local_motion import Local
+from timedomain.coordinates import Coordinates
+from timedomain.local_motion import Local, empty_local
+from timedomain.record import FLOWS
+from timedomain.schemes import Scheme
 
 TICK, LEVEL, HINT, STEPS, REJECTED = range(5)
 ITERATIONS, SAFE, SAFE_STEPS, ROUGH, FIRST, HOPELESS = range(5, 11)
@@ -108,3 +111,27 @@ class Trial(NamedTuple):
     coupled: Array
     """damping force of the other modes at the begin, its change, and by how much its
     mean exceeds that of both ends; shape (3, modes), or (3, 0) without any"""
+
+
+def empty_trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Trial:
+    """Return workspace for a step."""
+    modes, points = coordinates.modes, coordinates.contacts.first.size
+    count, rank = modes.stiffness.size, len(modes.selection)
+    stages = 1 + max(scheme.stages for scheme in schemes)
+    return Trial(
+        empty_local(rank, points),
+        np.zeros(count),
+        np.zeros(count),
+        np.zeros((stages, count)),
+        np.zeros(count),
+        np.zeros((2, rank)),
+        np.zeros((stages, len(FLOWS))),
+        np.zeros(len(modes.loads)),
+        np.zeros((points, 3)),
+        np.zeros(rank),
+        np.zeros(4),
+        np.zeros(count),
+        np.zeros(count),
+        np.zeros(points),
+        np.zeros((3, count if modes.coupling.any() else 0)),
+    )

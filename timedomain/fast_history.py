@@ -1,0 +1,75 @@
+"""What the fast march has stored, as a time history with its estimated errors."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.motion import DRIFT, LARGEST_DRIFT, OTHER_WORK, REFERENCE, UNKEPT
+from timedomain.record import FLOWS, STORES, row_length
+
+NUMBERS = 5
+"""that a row holds behind the energies"""
+CANCELLED = 4.0
+"""by which errors exceed their sum, whose signs cancel: at most that on eight rigs"""
+
+
+def empty_rows(problem: Problem, count: int) -> Array:
+    """Return room for so many stored rows."""
+    probes, points = len(problem.probes.names), problem.interface.count
+    return np.empty((count, row_length(probes, points) + NUMBERS))
+
+
+def fast_history(
+    problem: Problem,
+    times: Array,
+    rows: Array,
+    *,
+    stored_at_start: float,
+    step: float,
+    iterations: int,
+    rejected: int,
+    tolerance: float | None,
+    checkpoint: Checkpoint,
+) -> TimeHistory:
+    """Return the history of a block; see :class:`TimeHistory` for what it holds."""
+    probes, contacts = problem.probes.names, problem.interface.names
+    sizes = [len(probes), len(probes), len(contacts), 1, len(FLOWS) + len(STORES)]
+    shown, moving, normal, power, energy, more = np.split(
+        rows, np.cumsum(sizes), axis=1
+    )
+    difference = energy[:, FLOWS.index("friction")] - more[:, OTHER_WORK]
+    history = TimeHistory(
+        times,
+        probes,
+        shown,
+        moving,
+        contacts,
+        normal,
+        power[:, 0],
+        (*FLOWS, *STORES),
+        energy,
+        stored_at_start,
+        step,
+        iterations,
+        0 if tolerance else rejected,
+        checkpoint=checkpoint,
+        work_difference=difference,
+    )
+    return history if tolerance is None else _estimated(history, more, tolerance)
+
+
+def _estimated(history: TimeHistory, more: Array, least: float) -> TimeHistory:
+    """Return a history with estimated errors, none below the tolerance."""
+    drift, unkept = np.abs(more[:, DRIFT]), more[:, UNKEPT]
+    drift = CANCELLED * (drift + np.abs(history.work_difference)) + unkept
+    lost = (more[:, LARGEST_DRIFT] + unkept) / more[:, REFERENCE]
+    return replace(
+        history,
+        energy_error=np.maximum(drift, least * np.abs(history.of("friction"))),
+        peak_error=np.maximum(lost, least),
+    )

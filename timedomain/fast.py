@@ -9,15 +9,17 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.checkpoint import refill
 from timedomain.coordinates import modal_coordinates
 from timedomain.fast_control import SAFETY, fast_control
 from timedomain.fast_history import empty_rows, fast_history
 from timedomain.first_motion import first_motion
 from timedomain.ladder import DONE, FAILED, TICKS, climb
+from timedomain.meters import stored_energy
 from timedomain.motion import ITERATIONS, REJECTED, TICK, empty_trial
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.schemes import MEAN_FORCE, SDIRK2, Scheme
-from timedomain.start import Start, first_state, force_scale, refill, stored_energy
+from timedomain.start import Start, first_state, force_scale
 from timedomain.tables import LEVELS, empty_tables, fill
 
 

@@ -8,9 +8,9 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from timedomain.coordinates import Contacts, Coordinates, Modes
+from timedomain.meters import powers
 from timedomain.motion import LENGTH, REFERENCE, Control, Motion
 from timedomain.record import FLOWS
-from timedomain.start import powers
 from timedomain.state import State
 
 

@@ -9,20 +9,15 @@ from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import factors_over
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.checkpoint import checkpoint, restore
+from timedomain.meters import meters, stored_energy
 from timedomain.newmark import march
 from timedomain.operators import Operators, step_operators
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record import FLOWS, STORES, accumulate, row_length, store
 from timedomain.rigid_points import sliders
 from timedomain.set_valued import march_sliders
-from timedomain.start import (
-    Start,
-    checkpoint,
-    first_state,
-    meters,
-    restore,
-    stored_energy,
-)
+from timedomain.start import Start, first_state
 
 SAME = 1e-9
 """relative difference of steps that rounding makes"""

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
@@ -20,8 +17,6 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.segments import factors_over
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.time_history import Checkpoint
-from timedomain.record import FLOWS, Meters, accumulate
 from timedomain.state import State
 
 LOOP = 4096
@@ -97,21 +92,6 @@ def on_orbit(problem: Problem, response: PeriodicResponse) -> Start:
     return Start(displacement[0], velocity[0], tractions)
 
 
-def at_end(problem: Problem, end: Checkpoint) -> Start:
-    """Return the motion at the end of a march, with what contacts remember.
-
-    Those that remember are marched by the reference method alone, whose checkpoint
-    holds their tractions; behind it may be that of a march with other steps.
-    """
-    if not remembers(problem.interface.points).any():
-        return Start(end.displacement, end.velocity)
-    state = first_state(problem, Dwell(1.0, 1.0), at_rest(problem))
-    unread = meters(problem, problem.loads.T.copy())
-    own = 3 + sum(array.size for array in _kept(state, unread))
-    restore(state, unread, replace(end, memory=end.memory[:own]))
-    return Start(end.displacement, end.velocity, state.past[:, 1].copy())
-
-
 def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
     """Return the state whose acceleration balances all forces at time zero."""
     structure, interface = problem.structure, problem.interface
@@ -160,89 +140,3 @@ def _contacts(interface: Interface, start: Start) -> tuple[Array, Array, Array, 
         past[:, 1] = start.traction
         forces[:, 1:] += start.traction
     return moved, moving, forces, past
-
-
-def checkpoint(
-    state: State, meters: Meters, steps: int, step: float, stored: float
-) -> Checkpoint:
-    """Return where a march stands after so many steps [s].
-
-    ``stored`` is the energy [J] that was stored at its start.
-    """
-    kept = [array.ravel() for array in _kept(state, meters)]
-    memory = np.concatenate([[steps, stored, step], *kept])
-    return Checkpoint(state.displacement.copy(), state.velocity.copy(), memory)
-
-
-def restore(state: State, meters: Meters, end: Checkpoint) -> tuple[int, float, float]:
-    """Put state and meters to where a march stood; return what else it kept.
-
-    These are its number of steps, their length [s] and ``stored``.
-
-    Raises
-    ------
-    ValueError
-        If that march had other degrees of freedom or contacts.
-    """
-    arrays = (state.displacement, state.velocity, *_kept(state, meters))
-    refill(arrays, np.concatenate([end.displacement, end.velocity, end.memory[3:]]))
-    steps, stored, step = end.memory[:3]
-    return int(steps), float(step), float(stored)
-
-
-def refill(arrays: Sequence[NDArray[Any]], numbers: Array) -> None:
-    """Write numbers of a checkpoint into the arrays of a march.
-
-    Raises
-    ------
-    ValueError
-        If they are the numbers of another problem.
-    """
-    if numbers.size != sum(array.size for array in arrays):
-        raise ValueError(
-            f"a march cannot go on from a state of {numbers.size} numbers: "
-            "it must be one of the same problem"
-        )
-    cuts = np.cumsum([array.size for array in arrays])[:-1]
-    for array, values in zip(arrays, np.split(numbers, cuts), strict=True):
-        array[...] = values.reshape(array.shape)
-
-
-def _kept(state: State, meters: Meters) -> tuple[Array, ...]:
-    """Return what a step takes over from the one before, besides the motion."""
-    return (*state[2:], meters.powers, meters.energies)
-
-
-def meters(problem: Problem, shapes: Array) -> Meters:
-    """Return meters that read zero."""
-    structure = problem.structure
-    return Meters(
-        structure.mass,
-        structure.damping,
-        structure.stiffness,
-        shapes,
-        np.ascontiguousarray(problem.probes.rows),
-        np.zeros(len(FLOWS)),
-        np.zeros(len(FLOWS)),
-    )
-
-
-def powers(problem: Problem, history: LoadHistory, state: State) -> Array:
-    """Return the powers of FLOWS at time zero [W], shape (4,)."""
-    shapes = problem.loads.T.copy()
-    reading = meters(problem, shapes)
-    factors = factors_over(history.segments(), np.zeros(1), shapes.shape[1])[0]
-    accumulate(reading, problem.interface.points, state, factors, 0.0)
-    return reading.powers
-
-
-def stored_energy(problem: Problem, state: State) -> float:
-    """Return kinetic, elastic and contact energy [J]."""
-    structure, points = problem.structure, problem.interface.points
-    kinetic = state.velocity @ structure.mass @ state.velocity / 2.0
-    elastic = state.displacement @ structure.stiffness @ state.displacement / 2.0
-    contact = sum(
-        contact_energy(points, point, state.gaps[point, 0])
-        for point in range(problem.interface.count)
-    )
-    return float(kinetic + elastic + contact)

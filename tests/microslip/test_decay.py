@@ -32,8 +32,9 @@ from microslip_mechanics.system import system
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from rigs import rig_problem
 from small_problems import cubic_oscillator, oscillator, sliding_block
+from timedomain.checkpoint import at_end
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
-from timedomain.start import Start, at_end
+from timedomain.start import Start
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 

@@ -22,7 +22,8 @@ from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.jit import closure
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.undamped_modes import undamped_modes
-from timedomain.first_order_rate import ENERGIES, System, flow, jacobian, stored_energy
+from timedomain.first_order_rate import flow, jacobian, stored_energy
+from timedomain.first_order_system import ENERGIES, System
 from timedomain.start import Start
 
 __all__ = ["FirstOrder", "Flow", "Jacobian", "first_order", "flow", "jacobian"]

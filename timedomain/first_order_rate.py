@@ -2,49 +2,16 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
-from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, contact_power
 from microslip_mechanics.contact.normal import contact_energy, spring_response
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
-from microslip_mechanics.segments import Segments, load_factors
-
-ENERGIES = 3
-"""friction, damping, input: the last places of the state"""
-
-
-class System(NamedTuple):
-    """Constants of the first-order form."""
-
-    rates: Array
-    """ω² / s of each mode [1/s], shape (modes,)"""
-    damping: Array
-    """Φᵀ C Φ [1/s], shape (modes, modes)"""
-    gaps: Array
-    """relative displacements of the points [m] from s q over its unit, (3 points, m)"""
-    slips: Array
-    """relative velocities [m/s] from q̇ over its unit, shape (3 points, modes)"""
-    pulls: Array
-    """Φᵀ Lᵀ over the motion unit, shape (modes, 3 points)"""
-    loads: Array
-    """Φᵀ of preload and drive over the motion unit, shape (loads, modes)"""
-    scale: float
-    """s [1/s]"""
-    motion: float
-    """unit of s q and q̇ [m √kg / s]"""
-    energy: float
-    """unit of the energies [J]"""
-    history: Segments
-    points: ContactPoints
-    slider: NDArray[np.int64]
-    """place of each point's tractions among the tractions, −1 if there are none"""
-    limit: Array
-    """µ N of each point [N], the unit of its tractions"""
+from microslip_mechanics.segments import load_factors
+from timedomain.first_order_slider import slide, slide_tangents
+from timedomain.first_order_system import ENERGIES, System
 
 
 @kernel
@@ -61,7 +28,7 @@ def flow(system: System, time: float, state: Array, rate: Array) -> None:
         gap, slip, force = gaps[rows], slips[rows], forces[rows]
         contact_force(points, point, gap, slip, force, tangent, tangent)
         if system.slider[point] >= 0:
-            _slide(system, point, slip, held, slides, force)
+            slide(system, point, slip, held, slides, force)
         slid, lost = contact_power(points, point, gap, slip, force)
         friction += slid
         damped += lost
@@ -107,7 +74,7 @@ def jacobian(system: System, time: float, state: Array, matrix: Array) -> None:
             matrix[modes : 2 * modes, columns] -= np.dot(pull, np.dot(tangent, seen))
             matrix[-3:-1, columns] += np.dot(power[part], seen) / system.energy
         if system.slider[point] >= 0:
-            _slide_tangents(system, point, slip, state, matrix)
+            slide_tangents(system, point, slip, state, matrix)
     loads = _loads(system, time)
     unit = system.motion**2 / system.energy
     # of vᵀ C v, where C has Coriolis terms too
@@ -124,57 +91,6 @@ def _loads(system: System, time: float) -> Array:
     load_factors(system.history, time, 0, factors)
     loads: Array = np.dot(factors, system.loads)
     return loads
-
-
-@kernel
-def _slides(system: System, point: int, slip: Array, held: Array) -> bool:
-    """Return whether a slider is at its limit and pulled further."""
-    first = 2 * system.slider[point]
-    one, two = held[first], held[first + 1]
-    return bool(one * one + two * two >= 1.0 and one * slip[1] + two * slip[2] > 0.0)
-
-
-@kernel
-def _slide(
-    system: System, point: int, slip: Array, held: Array, rate: Array, force: Array
-) -> None:
-    """Add the traction of one slider to its force, and write the traction's rate."""
-    first, limit = 2 * system.slider[point], system.limit[point]
-    stiff = system.points.tangential[point] / limit
-    for axis in range(2):
-        force[axis + 1] += limit * held[first + axis]
-        rate[first + axis] = stiff * slip[axis + 1]
-    if _slides(system, point, slip, held):
-        one, two = held[first], held[first + 1]
-        along = (one * slip[1] + two * slip[2]) / (one * one + two * two)
-        rate[first] -= stiff * along * one
-        rate[first + 1] -= stiff * along * two
-
-
-@kernel
-def _slide_tangents(
-    system: System, point: int, slip: Array, state: Array, matrix: Array
-) -> None:
-    """Add the derivatives of one slider's traction, its direction held."""
-    modes, first = system.rates.size, 2 * system.slider[point]
-    held = state[2 * modes : -ENERGIES]
-    limit, pulled = system.limit[point], _slides(system, point, slip, held)
-    stiff = system.points.tangential[point] / limit
-    size = held[first] ** 2 + held[first + 1] ** 2
-    for axis in range(2):
-        row, column = 3 * point + 1 + axis, 2 * modes + first + axis
-        for mode in range(modes):
-            speed = system.slips[row, mode]
-            matrix[modes + mode, column] -= limit * system.pulls[mode, row]
-            matrix[-3, modes + mode] += (
-                limit * held[first + axis] * (speed / system.energy)
-            )
-            matrix[column, modes + mode] += stiff * speed
-            if pulled:
-                for other in range(2):
-                    share = stiff * held[first + axis] * held[first + other] / size
-                    matrix[2 * modes + first + other, modes + mode] -= share * speed
-        matrix[-3, column] += limit * slip[axis + 1] / system.energy
 
 
 @kernel

@@ -2,7 +2,7 @@
 
 Where the threshold velocity is far below what a step changes, Newton's iteration on
 the law itself jumps from one sliding direction to the other. Here stick or slip follows
-from the friction that is needed (:mod:`timedomain.point_law`); the solution is the
+from the friction that is needed (:mod:`timedomain.point_friction`); the solution is the
 same.
 """
 

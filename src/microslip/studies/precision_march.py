@@ -12,7 +12,8 @@ from microslip.studies.orbit import PHASES, Orbit, rubs
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start, at_end
+from timedomain.checkpoint import at_end
+from timedomain.start import Start
 
 PERIODS = 2
 """that are marched at a time: of the second, what began anew is forgotten"""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_energy
+from microslip_mechanics.contact.normal import contact_energy
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import factors_over

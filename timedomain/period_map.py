@@ -1,35 +1,21 @@
-"""A period of the reference march, and the exact derivative of what it does to a state.
+"""A period of the reference march as a map of states (theory §7).
 
 The step of :mod:`timedomain.newmark` is the trapezoidal rule on s = (u, u̇). With φ the
-contact force, of tangents D at the new and at the old time,
-
-    s₁ = A s₀ + b (φ₀ + φ₁) + load ,    δφ = D W δs ,
-
-and z = δs − b δφ turns its derivative into a matrix of rank r more than A:
-
-    z₁ = (A + c E W) z₀ ,   c = A b + b ,   E = (1 − D W b)⁻¹ D .
-
-Steps are taken together in blocks, each a constant power of A and a small matrix. With
-friction that remembers the tractions are part of the state, and steps are taken one by
-one (:mod:`timedomain.carried`).
+contact force at the old and at the new time it is s₁ = A s₀ + b (φ₀ + φ₁) + load.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.slides import Slides, slides_of
 from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
-from timedomain.carried import carried
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.modal_structure import ModalStructure
 from timedomain.start import Start
@@ -38,8 +24,6 @@ BLOCK = 16
 """steps that are taken together"""
 TOLERANCE = 1e-12
 """of the march's contact forces"""
-NUDGE = 1e-6
-"""of the vibration, for derivatives by differences"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,15 +38,6 @@ class Period:
     """energy that friction took [J]"""
     slides: Slides
     """what contacts remember"""
-
-
-class Sensitivity(NamedTuple):
-    """Derivatives by the state before a period."""
-
-    monodromy: Array
-    """of the state after it, shape (states, states)"""
-    mean: Array
-    """of the mean tractions over it, in units of states, shape (sliders, states)"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,30 +118,6 @@ class PeriodMap:
         held[slides.stuck] = (slides.mean / self.unit)[slides.stuck]
         return gap
 
-    def slope(self, period: Period, sensitivity: Sensitivity) -> Array:
-        """Return the derivative of minus the gap by the state, (states, states)."""
-        slope = np.eye(len(sensitivity.monodromy)) - sensitivity.monodromy
-        held = slope[len(slope) - self.sliders.count :]
-        stuck = period.slides.stuck
-        held[stuck] = -sensitivity.mean[stuck]
-        return slope
-
-    def loose(self, monodromy: Array, stuck: NDArray[np.bool_]) -> Array:
-        """Return the derivative of what is left if some sliders are springs.
-
-        A slider that never slips keeps T − k_t w: that is a multiplier of exactly one,
-        which says nothing but that its position is free.
-        """
-        sliders, size = self.sliders, len(monodromy)
-        first = size - sliders.count
-        made = np.eye(size)
-        seen = sliders.along @ self.structure.selection
-        springs = (sliders.stiffness / self.unit)[:, None] * seen
-        made[first:][stuck, : first // 2] = springs[stuck]
-        kept = np.append(np.ones(first, dtype=bool), ~stuck)
-        found: Array = (monodromy @ made[:, kept])[kept]
-        return found
-
     def march(self, state: Array) -> Period:
         """March one period.
 
@@ -196,70 +147,6 @@ class PeriodMap:
         )
         friction = float(history.of("friction")[-1])
         return Period(displacement, velocity, friction, slides)
-
-    def sensitivity(self, period: Period) -> Sensitivity:
-        """Return the exact derivatives of what a march does by the state before it."""
-        if self.sliders.count == 0:
-            whole = self._monodromy(period)
-            return Sensitivity(whole, np.zeros((0, len(whole))))
-        return self._carried(period, period.slides)
-
-    def monodromy(self, period: Period) -> Array:
-        """Return the derivative of the motion: small motions grow by it in a period.
-
-        It is that of the march but where contacts that remember touch: a march jumps
-        from one step to the next as they do so, a motion does not.
-        """
-        if self.sliders.count == 0:
-            return self._monodromy(period)
-        slides = slides_of(
-            self.sliders,
-            *self.points(period.displacement, period.velocity),
-            period.slides.traction[0],
-            self.frequency,
-            continuous=True,
-        )
-        return self._carried(period, slides).monodromy
-
-    def _carried(self, period: Period, slides: Slides) -> Sensitivity:
-        free, push = self.step(-self.structure.selection.T)
-        units = np.append(np.ones(len(free)), self.unit)
-        tangents = self.tangents(*self.points(period.displacement, period.velocity))
-        monodromy, mean = carried(free, push, self.seen, tangents, self.sliders, slides)
-        monodromy = monodromy * units / units[:, None]
-        return Sensitivity(monodromy, mean * units / self.unit[:, None])
-
-    def _monodromy(self, period: Period) -> Array:
-        """Return the derivative of the state after a period without memory.
-
-        With rigid friction, which has no tangents, it is that of differences.
-        """
-        if (self.problem.interface.points.friction == RIGID).any():
-            return self._differences(period)
-        free, push = self.step(-self.structure.selection.T)
-        seen = self.seen
-        tangents = self.tangents(*self.points(period.displacement, period.velocity))
-        answers = np.linalg.solve(
-            np.eye(push.shape[1]) - tangents @ (seen @ push), tangents
-        )
-        carried = _product(free, push, seen, answers[:-1])
-        whole: Array = np.eye(len(free))
-        before = whole - push @ tangents[0] @ seen
-        made: Array = (whole + push @ answers[-1] @ seen) @ carried @ before
-        return made
-
-    def _differences(self, period: Period) -> Array:
-        """Return the derivative by marches from states nearby."""
-        motions = np.hstack([period.displacement, period.velocity / self.frequency])
-        to_modes = np.kron(np.eye(2), self.structure.inverse)
-        nudge = NUDGE * float(np.linalg.norm(np.ptp(motions @ to_modes.T, axis=0)))
-        start = self.state(Start(period.displacement[0], period.velocity[0]))
-        ends = []
-        for push in np.vstack([np.zeros(start.size), nudge * np.eye(start.size)]):
-            near = self.march(start + push)
-            ends.append(self.state(Start(near.displacement[-1], near.velocity[-1])))
-        derivative: Array = (np.array(ends[1:]) - ends[0]).T / nudge
-        return derivative
 
     def step(self, forces: Array) -> tuple[Array, Array]:
         """Return A of one step, and what ``forces`` on modes do at either of its ends.
@@ -293,31 +180,3 @@ class PeriodMap:
             for each in (displacement, velocity)
         )
         return moved, moving
-
-
-def _product(free: Array, push: Array, seen: Array, answers: Array) -> Array:
-    """Return the product of A + c E W over all steps, later ones on the left.
-
-    ``answers`` holds E of each step, shape ``(steps, rank, 2 rank)``.
-    """
-    size, rank = push.shape
-    count = len(answers) // BLOCK
-    blocks = answers.reshape(count, BLOCK, rank, 2 * rank)
-    powers = [np.eye(size)]
-    for _ in range(BLOCK):
-        powers.append(free @ powers[-1])
-    kick = free @ push + push
-    watched = np.stack([seen @ power for power in powers[:BLOCK]])
-    kicked = np.hstack([power @ kick for power in powers[BLOCK - 1 :: -1]])
-    coupled = np.zeros((BLOCK, 2 * rank, BLOCK, rank))
-    for late in range(BLOCK):
-        for early in range(late):
-            coupled[late, :, early] = watched[late - 1 - early] @ kick
-    lag = blocks @ coupled.reshape(BLOCK, 2 * rank, BLOCK * rank)
-    drive = (blocks @ watched).reshape(count, BLOCK * rank, size)
-    width = BLOCK * rank
-    forces = np.linalg.solve(np.eye(width) - lag.reshape(count, width, width), drive)
-    carried = powers[0]
-    for force in forces:
-        carried = powers[BLOCK] @ carried + kicked @ (force @ carried)
-    return carried

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array, ComplexArray
 from timedomain.closed_march import ClosedMarch
 from timedomain.floquet import extrapolated_multipliers
+from timedomain.period_sensitivity import loose_monodromy
 from timedomain.start import Start
 
 SHARE = 8
@@ -79,7 +80,7 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
     moved = (after - before) / 3.0
     stuck = coarse.period.slides.stuck | fine.period.slides.stuck
     multipliers = extrapolated_multipliers(
-        coarse.map.loose(coarse.monodromy, stuck), fine.map.loose(fine.monodromy, stuck)
+        *(loose_monodromy(each.map, each.monodromy, stuck) for each in (coarse, fine))
     )
     more = (fine.period.friction - coarse.period.friction) / 3.0
     return PeriodicOrbit(

@@ -10,7 +10,6 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.memory import friction_load, remembers
-from microslip_mechanics.contact.normal import contact_energy
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.problem import Problem

@@ -23,6 +23,7 @@ from small_problems import (
 )
 from timedomain.closed_march import ShootingError, closed
 from timedomain.period_map import BLOCK, PeriodMap
+from timedomain.period_sensitivity import sensitivity_of
 from timedomain.periodic_orbit import PeriodicOrbit
 from timedomain.shooting import ShootingOptions, periodic_orbit
 from timedomain.start import Start
@@ -166,7 +167,7 @@ def test_the_monodromy_is_the_derivative_of_the_march(
     found = closed(carried, carried.state(still(problem)))
     # Not on the orbit: there the first and the last tangents are the same.
     state = found.state * 1.1
-    monodromy = carried.sensitivity(carried.march(state)).monodromy
+    monodromy = sensitivity_of(carried, carried.march(state)).monodromy
 
     step = 1e-6 * np.linalg.norm(state)
     for column, each in enumerate(np.eye(state.size)):

@@ -11,8 +11,8 @@ import numpy as np
 from microslip.studies.orbit import PHASES, Orbit, rubs
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from timedomain.integrate import MarchOptions, integrate
 from timedomain.checkpoint import at_end
+from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
 
 PERIODS = 2

@@ -1,0 +1,172 @@
+"""The exact derivative of what a period of the reference march does to a state.
+
+With φ the contact force, of tangents D at the new and at the old time, a step is
+
+    s₁ = A s₀ + b (φ₀ + φ₁) + load ,    δφ = D W δs ,
+
+and z = δs − b δφ turns its derivative into a matrix of rank r more than A:
+
+    z₁ = (A + c E W) z₀ ,   c = A b + b ,   E = (1 − D W b)⁻¹ D .
+
+Steps are taken together in blocks, each a constant power of A and a small matrix. With
+friction that remembers the tractions are part of the state, and steps are taken one by
+one (:mod:`timedomain.carried`).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.points import RIGID
+from microslip_mechanics.contact.slides import Slides, slides_of
+from timedomain.carried import carried
+from timedomain.period_map import BLOCK, Period, PeriodMap
+from timedomain.start import Start
+
+NUDGE = 1e-6
+"""of the vibration, for derivatives by differences"""
+
+
+class Sensitivity(NamedTuple):
+    """Derivatives by the state before a period."""
+
+    monodromy: Array
+    """of the state after it, shape (states, states)"""
+    mean: Array
+    """of the mean tractions over it, in units of states, shape (sliders, states)"""
+
+
+def sensitivity_of(period_map: PeriodMap, period: Period) -> Sensitivity:
+    """Return the exact derivatives of what a march does by the state before it."""
+    if period_map.sliders.count == 0:
+        whole = _without_memory(period_map, period)
+        return Sensitivity(whole, np.zeros((0, len(whole))))
+    return _with_memory(period_map, period, period.slides)
+
+
+def monodromy_of(period_map: PeriodMap, period: Period) -> Array:
+    """Return the derivative of the motion: small motions grow by it in a period.
+
+    It is that of the march but where contacts that remember touch: a march jumps
+    from one step to the next as they do so, a motion does not.
+    """
+    if period_map.sliders.count == 0:
+        return _without_memory(period_map, period)
+    slides = slides_of(
+        period_map.sliders,
+        *period_map.points(period.displacement, period.velocity),
+        period.slides.traction[0],
+        period_map.frequency,
+        continuous=True,
+    )
+    return _with_memory(period_map, period, slides).monodromy
+
+
+def gap_slope(period_map: PeriodMap, period: Period, sensitivity: Sensitivity) -> Array:
+    """Return the derivative of minus the gap by the state, (states, states)."""
+    slope = np.eye(len(sensitivity.monodromy)) - sensitivity.monodromy
+    held = slope[len(slope) - period_map.sliders.count :]
+    stuck = period.slides.stuck
+    held[stuck] = -sensitivity.mean[stuck]
+    return slope
+
+
+def loose_monodromy(
+    period_map: PeriodMap, monodromy: Array, stuck: NDArray[np.bool_]
+) -> Array:
+    """Return the derivative of what is left if some sliders are springs.
+
+    A slider that never slips keeps T − k_t w: that is a multiplier of exactly one,
+    which says nothing but that its position is free.
+    """
+    sliders, size = period_map.sliders, len(monodromy)
+    first = size - sliders.count
+    made = np.eye(size)
+    seen = sliders.along @ period_map.structure.selection
+    springs = (sliders.stiffness / period_map.unit)[:, None] * seen
+    made[first:][stuck, : first // 2] = springs[stuck]
+    kept = np.append(np.ones(first, dtype=bool), ~stuck)
+    found: Array = (monodromy @ made[:, kept])[kept]
+    return found
+
+
+def _with_memory(period_map: PeriodMap, period: Period, slides: Slides) -> Sensitivity:
+    """Return the derivatives of a period with what contacts remember."""
+    free, push = period_map.step(-period_map.structure.selection.T)
+    units = np.append(np.ones(len(free)), period_map.unit)
+    tangents = period_map.tangents(
+        *period_map.points(period.displacement, period.velocity)
+    )
+    monodromy, mean = carried(
+        free, push, period_map.seen, tangents, period_map.sliders, slides
+    )
+    monodromy = monodromy * units / units[:, None]
+    return Sensitivity(monodromy, mean * units / period_map.unit[:, None])
+
+
+def _without_memory(period_map: PeriodMap, period: Period) -> Array:
+    """Return the derivative of the state after a period without memory.
+
+    With rigid friction, which has no tangents, it is that of differences.
+    """
+    if (period_map.problem.interface.points.friction == RIGID).any():
+        return _differences(period_map, period)
+    free, push = period_map.step(-period_map.structure.selection.T)
+    seen = period_map.seen
+    tangents = period_map.tangents(
+        *period_map.points(period.displacement, period.velocity)
+    )
+    answers = np.linalg.solve(
+        np.eye(push.shape[1]) - tangents @ (seen @ push), tangents
+    )
+    product = _product(free, push, seen, answers[:-1])
+    whole: Array = np.eye(len(free))
+    before = whole - push @ tangents[0] @ seen
+    made: Array = (whole + push @ answers[-1] @ seen) @ product @ before
+    return made
+
+
+def _differences(period_map: PeriodMap, period: Period) -> Array:
+    """Return the derivative by marches from states nearby."""
+    motions = np.hstack([period.displacement, period.velocity / period_map.frequency])
+    to_modes = np.kron(np.eye(2), period_map.structure.inverse)
+    nudge = NUDGE * float(np.linalg.norm(np.ptp(motions @ to_modes.T, axis=0)))
+    start = period_map.state(Start(period.displacement[0], period.velocity[0]))
+    ends = []
+    for push in np.vstack([np.zeros(start.size), nudge * np.eye(start.size)]):
+        near = period_map.march(start + push)
+        ends.append(period_map.state(Start(near.displacement[-1], near.velocity[-1])))
+    derivative: Array = (np.array(ends[1:]) - ends[0]).T / nudge
+    return derivative
+
+
+def _product(free: Array, push: Array, seen: Array, answers: Array) -> Array:
+    """Return the product of A + c E W over all steps, later ones on the left.
+
+    ``answers`` holds E of each step, shape ``(steps, rank, 2 rank)``.
+    """
+    size, rank = push.shape
+    count = len(answers) // BLOCK
+    blocks = answers.reshape(count, BLOCK, rank, 2 * rank)
+    powers = [np.eye(size)]
+    for _ in range(BLOCK):
+        powers.append(free @ powers[-1])
+    kick = free @ push + push
+    watched = np.stack([seen @ power for power in powers[:BLOCK]])
+    kicked = np.hstack([power @ kick for power in powers[BLOCK - 1 :: -1]])
+    coupled = np.zeros((BLOCK, 2 * rank, BLOCK, rank))
+    for late in range(BLOCK):
+        for early in range(late):
+            coupled[late, :, early] = watched[late - 1 - early] @ kick
+    lag = blocks @ coupled.reshape(BLOCK, 2 * rank, BLOCK * rank)
+    drive = (blocks @ watched).reshape(count, BLOCK * rank, size)
+    width = BLOCK * rank
+    forces = np.linalg.solve(np.eye(width) - lag.reshape(count, width, width), drive)
+    carried = powers[0]
+    for force in forces:
+        carried = powers[BLOCK] @ carried + kicked @ (force @ carried)
+    return carried

@@ -94,9 +94,7 @@ def _settled(
     """Return the tractions that repeat themselves."""
     moved, moving = orbit.at(phase)
     for _ in range(PERIODS):
-        slides = slides_of(
-            sliders, moved, moving, first, orbit.frequency, continuous=True
-        )
+        slides = slides_of(sliders, moved, moving, first, orbit.frequency)
         first = slides.traction[-1]
         change = np.abs(first - slides.traction[0]).max(initial=0.0)
         if change <= STEADY * np.abs(slides.traction).max(initial=1e-300):

@@ -12,7 +12,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from timedomain.integrate import IntegrationError
 from timedomain.period_map import Period, PeriodMap
-from timedomain.period_sensitivity import gap_slope, monodromy_of, sensitivity_of
+from timedomain.period_sensitivity import gap_slope, sensitivity_of
 
 ITERATIONS, HALVINGS = 30, 8
 CLOSED = 1e-8
@@ -64,7 +64,8 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
     marched = _marched(carried, state, until)
     for iteration in range(1, ITERATIONS + 1):
         period, gap = marched
-        slope = gap_slope(carried, period, sensitivity_of(carried, period))
+        sensitivity = sensitivity_of(carried, period)
+        slope = gap_slope(carried, period, sensitivity)
         change, neutral = _change(slope, gap)
         accepted = CLOSED * _vibration(carried, period)
         accepted += ROUNDING * float(np.linalg.norm(state))
@@ -77,7 +78,7 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
                 )
             share = apart / max(accepted / CLOSED, 1e-300)
             return ClosedMarch(
-                carried, state, period, monodromy_of(carried, period), neutral, share,
+                carried, state, period, sensitivity.monodromy, neutral, share,
                 iteration,
             )  # fmt: skip
         state, marched = _closer(carried, state, change, marched, until)

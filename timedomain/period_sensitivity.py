@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import RIGID
-from microslip_mechanics.contact.slides import Slides, slides_of
 from timedomain.carried import carried
 from timedomain.period_map import BLOCK, Period, PeriodMap
 from timedomain.start import Start
@@ -45,25 +44,7 @@ def sensitivity_of(period_map: PeriodMap, period: Period) -> Sensitivity:
     if period_map.sliders.count == 0:
         whole = _without_memory(period_map, period)
         return Sensitivity(whole, np.zeros((0, len(whole))))
-    return _with_memory(period_map, period, period.slides)
-
-
-def monodromy_of(period_map: PeriodMap, period: Period) -> Array:
-    """Return the derivative of the motion: small motions grow by it in a period.
-
-    It is that of the march but where contacts that remember touch: a march jumps
-    from one step to the next as they do so, a motion does not.
-    """
-    if period_map.sliders.count == 0:
-        return _without_memory(period_map, period)
-    slides = slides_of(
-        period_map.sliders,
-        *period_map.points(period.displacement, period.velocity),
-        period.slides.traction[0],
-        period_map.frequency,
-        continuous=True,
-    )
-    return _with_memory(period_map, period, slides).monodromy
+    return _with_memory(period_map, period)
 
 
 def gap_slope(period_map: PeriodMap, period: Period, sensitivity: Sensitivity) -> Array:
@@ -94,7 +75,7 @@ def loose_monodromy(
     return found
 
 
-def _with_memory(period_map: PeriodMap, period: Period, slides: Slides) -> Sensitivity:
+def _with_memory(period_map: PeriodMap, period: Period) -> Sensitivity:
     """Return the derivatives of a period with what contacts remember."""
     free, push = period_map.step(-period_map.structure.selection.T)
     units = np.append(np.ones(len(free)), period_map.unit)
@@ -102,7 +83,7 @@ def _with_memory(period_map: PeriodMap, period: Period, slides: Slides) -> Sensi
         *period_map.points(period.displacement, period.velocity)
     )
     monodromy, mean = carried(
-        free, push, period_map.seen, tangents, period_map.sliders, slides
+        free, push, period_map.seen, tangents, period_map.sliders, period.slides
     )
     monodromy = monodromy * units / units[:, None]
     return Sensitivity(monodromy, mean * units / period_map.unit[:, None])

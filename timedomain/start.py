@@ -9,7 +9,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import contact_force
-from microslip_mechanics.contact.memory import friction_load, remembers
+from microslip_mechanics.contact.memory import pressed, remembers
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.problem import Problem
@@ -129,9 +129,10 @@ def _contacts(interface: Interface, start: Start) -> tuple[Array, Array, Array, 
     past = np.zeros((interface.count, 4, 2))
     past[:, 0], past[:, 2] = moved[:, 1:], moving[:, 1:]
     for point in range(interface.count):
-        past[point, 3, 0], _, _ = friction_load(
+        press, _, _ = pressed(
             interface.points, point, moved[point, 0], moving[point, 0]
         )
+        past[point, 3] = press
         contact_force(
             interface.points, point, moved[point], moving[point], forces[point], *unused
         )

@@ -23,7 +23,7 @@ class State(NamedTuple):
     """relative velocity of each point [m/s], shape (points, 3)"""
     past: Array
     """where each point was along its tangents when the step began [m], its traction [N]
-    of friction that remembers, its velocity [m/s], and its normal load [N] with a zero;
-    shape (points, 4, 2)"""
+    of friction that remembers, its velocity [m/s], and its normal load [N] and depth
+    [m]; shape (points, 4, 2)"""
     fresh: Array
     """the same for now"""

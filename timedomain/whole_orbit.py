@@ -29,7 +29,7 @@ from timedomain.closed_march import (
     ShootingError,
 )
 from timedomain.period_map import Period, PeriodMap
-from timedomain.period_sensitivity import monodromy_of
+from timedomain.period_sensitivity import sensitivity_of
 from timedomain.whole_change import whole_change
 
 
@@ -145,7 +145,7 @@ class _Steps:
         slides = slides_of(carried.sliders, *points, np.zeros(0), carried.frequency)
         period = Period(displacement, velocity, float(friction), slides)
         with np.errstate(over="ignore", invalid="ignore"):
-            monodromy = monodromy_of(carried, period)
+            monodromy = sensitivity_of(carried, period).monodromy
         return ClosedMarch(carried, states[0], period, monodromy, 0, gap, iterations)
 
     def _motion(self, states: Array) -> tuple[Array, Array]:

@@ -5,9 +5,13 @@ import pytest
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis
-from memory_problems import JENKINS, LIMIT, STIFFNESS
+from hbm.newton import correct
+from hbm.path import along_frequency
+from hbm.resolution import PathResolution
+from memory_problems import JENKINS, LIMIT, SHOE, STIFFNESS, masses
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import BRISTLE, ELASTIC, PointLaw, contact_table
+from microslip_mechanics.static import static_equilibrium
 
 FREQUENCY = 7.0
 TANGENT = np.eye(3)[:, 1:2]
@@ -57,22 +61,52 @@ def test_stuck_slider_is_a_spring_that_carries_no_mean_force() -> None:
     assert force[:, 0] == pytest.approx(expected, abs=1e-12)
 
 
-def test_separated_contact_has_no_traction_and_sticks_when_it_closes() -> None:
+@pytest.mark.parametrize("part", [0.1, 0.5, 0.9])
+def test_separated_contact_has_no_traction_and_sticks_where_it_touches(
+    part: float,
+) -> None:
     law = PointLaw(
         stiffness=100.0, friction=ELASTIC, dynamic=10.0, tangential=STIFFNESS
     )
     points = contact(law, EVERY[:, :2])
+    early = 2.0 * np.pi * part / 1024  # it touches within the last step
     coefficients = np.zeros((11, 2))
-    coefficients[2, 0] = 1.0  # pressed in the first half of the period
-    coefficients[1, 1] = 1.0
+    coefficients[1:3, 0] = np.sin(early), np.cos(early)
+    coefficients[1, 1], coefficients[2, 1] = 1.0, 1.0
     points(coefficients, FREQUENCY)
     points.cycle(coefficients, FREQUENCY)
     traction = points._traces.regular.force[1]
     phase = 2.0 * np.pi * np.arange(1024) / 1024
-    closed = STIFFNESS * (np.cos(phase) - np.cos(phase[1]))
-    assert traction[512:] == pytest.approx(np.zeros(512), abs=1e-12)
+    touch = np.cos(-early) + np.sin(-early)
+    closed = STIFFNESS * (np.cos(phase) + np.sin(phase) - touch)
+    assert traction[512:1023] == pytest.approx(np.zeros(511), abs=1e-12)
     # the slip limit is far away but near both ends
-    assert traction[50:450] == pytest.approx(closed[50:450], rel=0.02)
+    assert traction[20:450] == pytest.approx(closed[20:450], abs=1e-5 * STIFFNESS)
+
+
+@pytest.mark.parametrize("frequency", [7.5, 8.0])
+def test_errors_of_a_shoe_that_touches_fall_with_the_square_of_the_samples(
+    frequency: float,
+) -> None:
+    # where it sticks as it touches; where it slips the touch is no matter
+    problem = masses(SHOE, EVERY[:, [1, 0]], np.array([0.3, 0.6]))
+    path = along_frequency(problem, static_equilibrium(problem), 5.0, 9.0)
+    made = PathResolution(path, problem.probes.rows, marched=True)
+    start = np.zeros(FourierBasis(7, 64).coefficients * path.rank + 1)
+    upright = np.append(start[:-1], 1.0)
+    start[-1] = frequency
+
+    def amplitudes(samples: int) -> Array:
+        system = made.at(FourierBasis(7, samples))
+        found = correct(system, start, upright, tolerance=1e-12)
+        (sizes,) = made.amplitudes((found.point,))
+        return np.ravel(sizes)
+
+    exact = amplitudes(16384)
+    errors = [np.abs(amplitudes(n) / exact - 1.0).max() for n in (128, 1024)]
+
+    assert errors[0] < 1.5e-3
+    assert errors[1] < 1e-5
 
 
 def test_loop_of_dahl_has_its_closed_form() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.memory import traction
+from microslip_mechanics.contact.memory import Press, traction
 from microslip_mechanics.contact.points import ELASTIC, PointLaw, contact_table
 
 POINTS = contact_table(
@@ -21,8 +21,9 @@ def one_step(
     slide: Array, loads: tuple[float, float], old: Array
 ) -> tuple[Array, Array]:
     """Return the traction after a slide under loads (before, after), and tangents."""
-    new, by = np.empty(2), np.empty((2, 8))
-    traction(POINTS, 0, slide, np.zeros(2), loads[1], loads[0], old, new, by)
+    new, by = np.empty(2), np.empty((2, 10))
+    before, after = (Press(load, load) for load in loads)  # a spring of 1 N/m
+    traction(POINTS, 0, slide, np.zeros(2), after, before, old, new, by)
     return new, by
 
 
@@ -116,8 +117,9 @@ def test_without_friction_there_is_no_traction(slide: list[float]) -> None:
     smooth = contact_table(
         [PointLaw(stiffness=1.0, friction=ELASTIC, dynamic=0.0, tangential=2.0)]
     )
-    new, by = np.empty(2), np.empty((2, 8))
+    new, by = np.empty(2), np.empty((2, 10))
+    press = Press(1.0, 1.0)
     old = np.array([2.0, 1.0])
-    traction(smooth, 0, np.array(slide), np.zeros(2), 1.0, 1.0, old, new, by)
+    traction(smooth, 0, np.array(slide), np.zeros(2), press, press, old, new, by)
     assert (new == 0.0).all()
     assert (by == 0.0).all()

@@ -8,7 +8,7 @@ import pytest
 from law_examples import CASES, NAMES, element
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force
-from microslip_mechanics.contact.memory import beyond_motion, remembers, traction
+from microslip_mechanics.contact.memory import Press, beyond_motion, remembers, traction
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.element import interface_of
 from microslip_mechanics.laws.catalogue import LAWS, law_name
@@ -31,11 +31,14 @@ def force(points: ContactPoints, point: int, motion: Array) -> tuple[Array, Arra
 
 
 def pulled(points: ContactPoints, point: int, state: Array) -> tuple[Array, Array]:
-    """Return the traction of (slide, velocity, loads, old) and its derivatives."""
-    new, by = np.empty(2), np.empty((2, 8))
-    traction(
-        points, point, state[:2], state[2:4], state[4], state[5], state[6:], new, by
-    )
+    """Return the traction and its derivatives.
+
+    By slide, velocity, loads after and before, old traction, depths after and before.
+    """
+    new, by = np.empty(2), np.empty((2, 10))
+    slide, velocity, (load, past), old, (depth, above) = np.split(state, 5)
+    after, before = Press(load, depth), Press(past, above)
+    traction(points, point, slide, velocity, after, before, old, new, by)
     return new, by
 
 
@@ -80,13 +83,16 @@ def test_tangents_of_what_remembers_are_central_differences(case: str) -> None:
         limit = points.dynamic[point] * load
         reach = limit / points.tangential[point]
         # what was before stays within its limit
-        scale = np.array([reach, reach, 1.0, 1.0, change, change, *[0.8 * limit] * 2])
-        for draw in random.uniform(-0.7, 0.7, (40, 8)):
+        scale = np.array([reach, 1.0, change, 0.8 * limit, 0.0 if constant else 1.0])
+        scale = np.repeat(scale, 2)
+        touches = 0
+        for draw in random.uniform(-0.7, 0.7, (40, 10)):
             state = scale * draw
             state[4:6] += load
             _, exact = pulled(points, point, state)
-            for column in range(8):
-                push = np.zeros(8)
+            touches += state[9] < 0.0 < state[8]
+            for column in range(10):
+                push = np.zeros(10)
                 push[column] = 1e-6 * (scale[column] or load)
                 high, _ = pulled(points, point, state + push)
                 low, _ = pulled(points, point, state - push)
@@ -95,6 +101,7 @@ def test_tangents_of_what_remembers_are_central_differences(case: str) -> None:
                 np.testing.assert_allclose(
                     exact[:, column], slope, atol=1e-6 * size, rtol=1e-6
                 )
+        assert constant or touches > 5
 
 
 def test_true_is_no_number() -> None:

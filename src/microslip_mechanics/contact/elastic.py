@@ -55,7 +55,8 @@ def elastic_traction(
         Written: the traction that resists, shape ``(2,)``.
     by
         Written: derivatives of both components by slide (2), velocity (2), load (1),
-        load before (1) and old traction (2), shape ``(2, 8)``.
+        load before (1) and old traction (2), shape ``(2, 8)``
+        or with more columns, which are zero.
     """
     by[:] = 0.0
     first, last = law.coefficient * max(past_load, 0.0), law.coefficient * load

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,7 +13,7 @@ from microslip_mechanics.contact.bristle import Bristles, bristle_traction
 from microslip_mechanics.contact.elastic import ElasticFriction, elastic_traction
 from microslip_mechanics.contact.normal import normal_response
 from microslip_mechanics.contact.points import BRISTLE, ELASTIC, RIGID, ContactPoints
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import inner_kernel, kernel
 
 MEMORIES = (ELASTIC, BRISTLE)
 """kinds of friction that remember"""
@@ -30,8 +33,64 @@ def beyond_motion(points: ContactPoints) -> bool:
     return bool((remembers(points) | (points.friction == RIGID)).any())
 
 
+class Press(NamedTuple):
+    """How a point is pressed at one end of a slide."""
+
+    load: float
+    """of friction [N]; zero out of contact"""
+    depth: float
+    """by which its faces overlap [m]; infinite under a constant load"""
+
+
 @kernel
 def traction(
+    points: ContactPoints,
+    point: int,
+    slide: Array,
+    velocity: Array,
+    press: Press,
+    past: Press,
+    old: Array,
+    new: Array,
+    by: Array,
+) -> None:
+    """Write the traction of one point after a small slide, and its derivatives.
+
+    A point that touches within the slide slides from there on. The error of a motion
+    that is cut into slides falls with the square of their length.
+
+    Parameters
+    ----------
+    points, point
+        The table and the row in it.
+    slide, velocity
+        Increment of the sliding displacement [m], and the mean of the velocities at
+        both ends [m/s], each of shape ``(2,)``.
+    press, past
+        At the end and at the beginning.
+    old, new
+        Traction before, and written: after it [N], each of shape ``(2,)``.
+    by
+        Written: derivatives of both components by slide (2), velocity (2), load (1),
+        load before (1), old traction (2), depth (1) and depth before (1), shape
+        ``(2, 10)``.
+    """
+    if not past.depth < 0.0 < press.depth:
+        _slid(points, point, slide, velocity, press.load, past.load, old, new, by)
+        return
+    way = press.depth - past.depth
+    touching = press.depth / way
+    _slid(
+        points, point, touching * slide, velocity, press.load, past.load, old, new, by
+    )
+    for row in range(2):
+        longer = (by[row, 0] * slide[0] + by[row, 1] * slide[1]) / way
+        by[row, 0], by[row, 1] = touching * by[row, 0], touching * by[row, 1]
+        by[row, 8], by[row, 9] = longer * (1.0 - touching), longer * touching
+
+
+@inner_kernel
+def _slid(
     points: ContactPoints,
     point: int,
     slide: Array,
@@ -42,26 +101,7 @@ def traction(
     new: Array,
     by: Array,
 ) -> None:
-    """Write the traction of one point after a small slide, and its derivatives.
-
-    The error of a motion that is cut into slides falls with the square of their length
-    while its point stays in contact; one that touches within a slide slides all of it.
-
-    Parameters
-    ----------
-    points, point
-        The table and the row in it.
-    slide, velocity
-        Increment of the sliding displacement [m], and the mean of the velocities at
-        both ends [m/s], each of shape ``(2,)``.
-    load, past_load
-        Normal loads [N] at the end and the beginning; zero or less out of contact.
-    old, new
-        Traction before, and written: after it [N], each of shape ``(2,)``.
-    by
-        Written: derivatives of both components by slide (2), velocity (2), load (1),
-        load before (1) and old traction (2), shape ``(2, 8)``.
-    """
+    """Write the traction as the law has it, after a slide that is in contact."""
     if points.friction[point] == ELASTIC:
         elastic = ElasticFriction(points.tangential[point], points.dynamic[point])
         elastic_traction(elastic, slide, load, past_load, old, new, by)
@@ -91,6 +131,24 @@ def friction_load(
 
 
 @kernel
+def pressed(
+    points: ContactPoints, point: int, displacement: float, velocity: float
+) -> tuple[Press, float, float]:
+    """Return how a point is pressed, and the derivatives of its load.
+
+    They are those by ``displacement`` and ``velocity`` along the normal; zero out of
+    contact.
+    """
+    load, by_depth, by_approach = friction_load(points, point, displacement, velocity)
+    depth = displacement - points.gap[point]
+    if points.constant_load[point]:
+        depth = math.inf
+    if load <= 0.0:
+        return Press(0.0, depth), 0.0, 0.0
+    return Press(load, depth), by_depth, by_approach
+
+
+@kernel
 def add_traction(
     points: ContactPoints,
     point: int,
@@ -112,26 +170,25 @@ def add_traction(
         Relative displacement [m] and velocity [m/s], each of shape ``(3,)``.
     past
         Where it was along both tangents [m], its traction there [N], its velocity
-        [m/s], and its normal load [N] with a zero, shape ``(4, 2)``.
+        [m/s], and its normal load [N] and depth [m], shape ``(4, 2)``.
     fresh
         Written: the same for now.
     force, by_displacement, by_velocity
         As :func:`~microslip_mechanics.contact.law.contact_force` wrote them; added to.
     """
-    slide, speed, by = np.empty(2), np.empty(2), np.empty((2, 8))
-    load, by_depth, by_approach = friction_load(
-        points, point, displacement[0], velocity[0]
-    )
-    fresh[3, 0] = load
+    slide, speed, by = np.empty(2), np.empty(2), np.empty((2, 10))
+    press, by_depth, by_approach = pressed(points, point, displacement[0], velocity[0])
+    before = Press(past[3, 0], past[3, 1])
+    fresh[3, 0], fresh[3, 1] = press.load, press.depth
     for axis in range(2):
         fresh[0, axis] = displacement[axis + 1]
         fresh[2, axis] = velocity[axis + 1]
         slide[axis] = displacement[axis + 1] - past[0, axis]
         speed[axis] = 0.5 * (fresh[2, axis] + past[2, axis])
-    traction(points, point, slide, speed, load, past[3, 0], past[1], fresh[1], by)
+    traction(points, point, slide, speed, press, before, past[1], fresh[1], by)
     for row in range(2):
         force[row + 1] += fresh[1, row]
-        by_displacement[row + 1, 0] += by[row, 4] * by_depth
+        by_displacement[row + 1, 0] += by[row, 4] * by_depth + by[row, 8]
         by_velocity[row + 1, 0] += by[row, 4] * by_approach
         for column in range(2):
             by_displacement[row + 1, column + 1] += by[row, column]

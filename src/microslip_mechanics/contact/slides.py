@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.memory import friction_load, remembers, traction
+from microslip_mechanics.contact.memory import Press, pressed, remembers, traction
 from microslip_mechanics.contact.points import ELASTIC, ContactPoints
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.jit import kernel
@@ -47,8 +47,6 @@ def slides_of(
     moving: Array,
     first: Array,
     frequency: float,
-    *,
-    continuous: bool = False,
 ) -> Slides:
     """Return the tractions along a motion.
 
@@ -62,22 +60,15 @@ def slides_of(
         Tractions at the first time [N], shape (sliders,).
     frequency
         ω [rad/s].
-    continuous
-        Whether derivatives are those of the motion, not of its steps: a contact
-        that touches within a step begins to stick there, sooner where it is deeper.
     """
     times, count = len(moved), len(sliders.points.load)
     tractions, limits = np.zeros((times, count, 2)), np.zeros((times, count))
-    by, load = np.zeros((times, count, 2, 8)), np.zeros((times, count, 2))
+    by, load = np.zeros((times, count, 2, 10)), np.zeros((times, count, 2))
     tractions[0] = sliders.spread(first)
     if sliders.count:
         recalling = np.flatnonzero(remembers(sliders.points))
         _follow(sliders.points, recalling, moved, moving, tractions, limits, by, load)
     motion, past, kept = _derivatives(sliders, by, load, frequency)
-    if continuous:
-        before, after = _touches(sliders, moved, moving, by)
-        past[:, :, : before.shape[2]] -= before
-        motion[:, :, : after.shape[2]] += after
     never = (kept[1:] == np.eye(sliders.count)).all(axis=(0, 2))
     stuck = never & (sliders.points.friction[sliders.point] == ELASTIC)
     held = tractions[1:].mean(axis=0)
@@ -109,22 +100,21 @@ def _follow(
     The derivatives of the ``load`` are written at the first as well.
     """
     for point in recalling:
-        before = 0.0
+        before = Press(0.0, 0.0)
         for place in range(moved.shape[0]):
             now, rate = moved[place, point], moving[place, point]
-            force, by_depth, by_approach = friction_load(points, point, now[0], rate[0])
-            if force > 0.0:
-                load[place, point, 0], load[place, point, 1] = by_depth, by_approach
+            press, by_depth, by_approach = pressed(points, point, now[0], rate[0])
+            load[place, point, 0], load[place, point, 1] = by_depth, by_approach
             if place > 0:
                 last = place - 1
-                limits[place, point] = points.dynamic[point] * max(force, 0.0)
+                limits[place, point] = points.dynamic[point] * press.load
                 speed = 0.5 * (rate[1:] + moving[last, point, 1:])
                 traction(
-                    points, point, now[1:] - moved[last, point, 1:], speed, force,
+                    points, point, now[1:] - moved[last, point, 1:], speed, press,
                     before, tractions[last, point], tractions[place, point],
                     by[place, point],
                 )  # fmt: skip
-            before = max(force, 0.0)
+            before = press
 
 
 def _derivatives(
@@ -139,9 +129,9 @@ def _derivatives(
     drag = np.einsum("tsa,sar->tsr", own[:, :, 2:4], tangents)
 
     def seen(column: int, load: Array) -> tuple[Array, Array]:
-        pressed = own[:, :, column, None] * load[:, point]
-        moved = pressed[:, :, :1] * normal
-        return moved, frequency * (0.5 * drag + pressed[:, :, 1:] * normal)
+        heavier = own[:, :, column, None] * load[:, point]
+        deeper = heavier[:, :, :1] + own[:, :, column + 4, None]
+        return deeper * normal, frequency * (0.5 * drag + heavier[:, :, 1:] * normal)
 
     depth, speed = seen(4, load)
     motion = np.concatenate([slid + depth, speed], axis=2)
@@ -151,32 +141,6 @@ def _derivatives(
     for row, column in np.argwhere(point[:, None] == point):
         kept[:, row, column] = own[:, row, 6 + sliders.axis[column]]
     return motion, past, kept
-
-
-def _touches(
-    sliders: Sliders, moved: Array, moving: Array, by: Array
-) -> tuple[Array, Array]:
-    """Return the tractions by y before and after steps in which a point touches.
-
-    From where it touches on T = k_t (w − w_touch), and a depth that is greater by
-    δd moves w_touch by −ẇ δd/ḋ; shapes (times, sliders, rank).
-    """
-    point, points = sliders.point, sliders.points
-    depth = moved[:, :, 0] - points.gap
-    begins = (depth[1:] > 0.0) & (depth[:-1] <= 0.0) & ~points.constant_load
-    time, where = np.nonzero(begins)
-    above, below = depth[time, where], depth[time + 1, where]
-    share = above / (above - below)
-    speed = (1.0 - share)[:, None] * moving[time, where]
-    speed += share[:, None] * moving[time + 1, where]
-    ahead = np.zeros((*moved.shape[:2], 2))
-    ahead[time + 1, where] = speed[:, 1:] / np.maximum(speed[:, :1], 1e-300)
-    within = np.zeros(moved.shape[:2])
-    within[time + 1, where] = share
-    own = by[:, point, sliders.axis, :2]
-    leap = (own * ahead[:, point]).sum(axis=2)[:, :, None] * sliders.basis[3 * point]
-    part = within[:, point, None]
-    return (1.0 - part) * leap, part * leap
 
 
 def _shares(tractions: Array, limits: Array, held: Array) -> Array:

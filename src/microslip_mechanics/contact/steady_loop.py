@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.memory import friction_load, traction
+from microslip_mechanics.contact.memory import Press, pressed, traction
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 
@@ -82,16 +82,16 @@ def _period(
 ) -> None:
     """March one period from ``state``: traction and its change; the first from rest."""
     samples = displacement.shape[1]
-    by, slide, new = np.zeros((2, 8)), np.zeros(2), np.zeros(2)
+    by, slide, new = np.zeros((2, 10)), np.zeros(2), np.zeros(2)
     for place in range(samples):
         begins = first and place == 0
         before = place - 1 if place > 0 else samples - 1
         last = place if begins else before
         for axis in range(1, 3):
             slide[axis - 1] = displacement[axis, place] - displacement[axis, last]
-        load, by_load = _loads(points, point, displacement, velocity, place, last)
+        press, past, by_load = _ends(points, point, displacement, velocity, place, last)
         speed = 0.5 * (velocity[1:, place] + velocity[1:, last])
-        traction(points, point, slide, speed, load[0], load[1], state[0], new, by)
+        traction(points, point, slide, speed, press, past, state[0], new, by)
         one, two = state[1]
         for axis in range(2):
             state[0, axis] = made[axis, place] = new[axis]
@@ -108,26 +108,26 @@ def _period(
 
 
 @kernel
-def _loads(
+def _ends(
     points: ContactPoints,
     point: int,
     displacement: Array,
     velocity: Array,
     place: int,
     last: int,
-) -> tuple[Array, Array]:
-    """Return the loads after and before a slide, (2,), and each one's derivatives.
+) -> tuple[Press, Press, Array]:
+    """Return how a point is pressed after and before a slide, and how loads change.
 
-    They are those by depth and approach, shape ``(2, 2)``; zero out of contact.
+    The latter are the derivatives by depth and approach at both ends, shape ``(2, 2)``.
     """
-    load, by = np.zeros(2), np.zeros((2, 2))
-    for end, moment in enumerate((place, last)):
-        pressed, by_depth, by_approach = friction_load(
-            points, point, displacement[0, moment], velocity[0, moment]
-        )
-        if pressed > 0.0:
-            load[end], by[end, 0], by[end, 1] = pressed, by_depth, by_approach
-    return load, by
+    by = np.empty((2, 2))
+    press, by[0, 0], by[0, 1] = pressed(
+        points, point, displacement[0, place], velocity[0, place]
+    )
+    past, by[1, 0], by[1, 1] = pressed(
+        points, point, displacement[0, last], velocity[0, last]
+    )
+    return press, past, by
 
 
 @kernel
@@ -160,6 +160,7 @@ def _carry(
                 change = by[row, 6] * one + by[row, 7] * two
                 if column == 0:
                     change += by[row, 4] * load + by[row, 5] * past_load
+                    change += by[row, 8] * wave + by[row, 9] * known
                 else:
                     change += by[row, column - 1] * slid + by[row, column + 1] * rate
                 gradient[row, column, place, term] = change

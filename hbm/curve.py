@@ -62,7 +62,8 @@ class Curve:
                     names.append(event.name)
                     told, _ = self.made(event.correction, event.name)
                     if _confirmed(event.name, told.multipliers):
-                        yield replace(told, parameter_error=event.error)
+                        error = told.error + event.aside
+                        yield replace(told, error=error, parameter_error=event.error)
                 changed = crossings(before.multipliers, after.multipliers)
                 after = after._replace(owes="fold" in names and not changed)
             yield made

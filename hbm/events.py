@@ -16,6 +16,7 @@ from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
 from hbm.crossings import Crossings
 from hbm.event_error import fold_error, peak_error
+from hbm.fold_place import fold_place
 from hbm.found import Found, in_order, unlocated
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome
@@ -39,6 +40,8 @@ class Event(NamedTuple):
     name: str
     error: float
     """of the parameter where it lies; NaN if nothing is known of it"""
+    aside: float = 0.0
+    """error of the amplitude, relative, of a fold that may lie aside on its curve"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,9 +74,12 @@ class Events:
             settled = self._settled(each, segment, metric)
             if settled is None:
                 continue
+            aside = 0.0
+            if each.name == "fold":
+                settled, aside = self._placed(each, settled, segment, metric)
             error = self._error(each, settled, segment, metric)
             if error is not None:
-                yield Event(settled, each.name, error + each.aside)
+                yield Event(settled, each.name, error + each.aside, aside)
         self.system.fourier = fourier
 
     def directed(self, settled: Settled, metric: Metric) -> Settled:
@@ -120,6 +126,33 @@ class Events:
         if not near or settled.outcome is not Outcome.CONVERGED:
             return None
         return replace(settled, tangent=located.tangent)
+
+    def _placed(
+        self, found: Found, settled: Correction, segment: Segment, metric: Metric
+    ) -> tuple[Correction, float]:
+        """Return a fold where it is reported to be, and what its amplitude may err by.
+
+        The latter is what the amplitude changes along the curve to where the fold is;
+        of what harmonics have moved it more of them move it as much less as they
+        change its amplitude less.
+        """
+        slopes = folds(segment.before), folds(segment.after)
+        bend = (slopes[1] - slopes[0]) / segment.length if segment.length else 0.0
+        if bend == 0.0:
+            return settled, 0.0
+
+        def settle(beside: Correction) -> Correction | None:
+            return self._settled(found._replace(point=beside), segment, metric)
+
+        place = fold_place(self.system, segment, settled, bend, settle)
+        estimate = self.system.estimate
+        if estimate is None or place.moved == place.left == 0.0:
+            return place.settled, 0.0
+        rest = min(1.0, estimate.error / max(estimate.change, 1e-300))
+        point, _, _ = self.system.report.kept(place.settled.point)
+        size = float(self.resolution.amplitudes([point]).max())
+        change = abs(self.growth(place.settled)) / size
+        return place.settled, change * (place.left + rest * abs(place.moved))
 
     def _peaks(
         self, before: Settled, after: Settled, metric: Metric

@@ -166,7 +166,7 @@ def found(
         )
         ends.append(events.directed(settled, np.ones_like))
     between = events.between(ends[0], ends[1], np.ones_like)
-    return [(name, located.point[line.component]) for located, name, _ in between]
+    return [(name, located.point[line.component]) for located, name, *_ in between]
 
 
 def test_rounding_is_no_growth_of_an_amplitude() -> None:

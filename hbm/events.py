@@ -145,9 +145,11 @@ class Events:
             return self._settled(found._replace(point=beside), segment, metric)
 
         place = fold_place(self.system, segment, settled, bend, settle)
-        estimate = self.system.estimate
-        if estimate is None or place.moved == place.left == 0.0:
+        if place.moved == place.left == 0.0:
             return place.settled, 0.0
+        estimate = self.system.estimate
+        if estimate is None:
+            return place.settled, math.inf
         rest = min(1.0, estimate.error / max(estimate.change, 1e-300))
         point, _, _ = self.system.report.kept(place.settled.point)
         size = float(self.resolution.amplitudes([point]).max())

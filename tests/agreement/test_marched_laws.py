@@ -24,7 +24,7 @@ def test_amplitudes_agree_within_half_a_percent(case: str) -> None:
 
     for response in (found[0], found[-1]):
         blocks = list(
-            march_periods(problem, response, periods=SETTLED, steps_per_period=1200)
+            march_periods(problem, response, periods=SETTLED, steps_per_period=400)
         )
         compared = agreement(problem, response, blocks)
 

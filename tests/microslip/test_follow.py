@@ -151,9 +151,9 @@ def test_an_interrupted_search_says_how_far_it_was(
 def test_a_negative_value_with_an_exponent_is_a_value(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["follow", "gap", "drive.x", "-5e-2", "1e-2", "--frequency", "4.5"]
+    words = ["follow", "gap", "drive.x", "-1.2e-2", "-1e-2", "--frequency", "4.5"]
 
     status = main([*words, "-o", str(tmp_path / "phase")])
 
     assert status == 0
-    assert "-0.05" in capsys.readouterr().out
+    assert "-0.012" in capsys.readouterr().out

@@ -155,6 +155,19 @@ def test_shown_points_hold_both_ends_and_the_largest(
     assert len(places) == 12
 
 
+def test_a_curve_that_comes_back_is_shown_as_far_as_it_went(
+    small_curve: ResponseCurve,
+) -> None:
+    there = np.linspace(125.0, 145.0, 250)
+    hertz = np.concatenate([there, there[::-1]])
+    curve = curve_with(small_curve, hertz, np.zeros(500))
+
+    shown = hertz[shown_points(curve, largest=123)]
+
+    assert (shown.min(), shown.max()) == (125.0, 145.0)
+    assert len(shown) == 12
+
+
 def test_curve_of_few_points_is_shown_whole(small_curve: ResponseCurve) -> None:
     assert shown_points(small_curve, largest=2) == [0, 1, 2, 3]
 

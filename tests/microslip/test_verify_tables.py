@@ -8,13 +8,20 @@ import pytest
 
 from microslip.commands.frc_tables import events, resolution, table
 from microslip.commands.verify_findings import Findings, verdict
-from microslip.commands.verify_tables import HELD, marches_said, sweep_rows, sweeps_said
+from microslip.commands.verify_tables import (
+    HELD,
+    marches_said,
+    orbit_row,
+    sweep_rows,
+    sweeps_said,
+)
 from microslip.studies.curve import Traced
 from microslip.studies.orbits import Verdict
 from microslip.studies.verify import SweepAgreement
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.static import StaticState
+from timedomain.comparison import Comparison
 from timedomain.verify import Agreement
 
 
@@ -120,6 +127,37 @@ def test_the_table_of_a_curve_is_in_the_units_of_its_head(
     forces = small_curve.normal_smallest[0].min(), small_curve.normal_largest[0].max()
     energy = 1e3 * small_curve.friction_energy[0]
     assert shown == pytest.approx([130.0, *probes, energy, *forces], rel=5e-3)
+
+
+def test_a_curve_that_came_back_is_told_from_the_one_that_follows(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz = 2.0 * np.pi * np.array([130.0, 131.0, 130.0, 134.0])
+    events_there = ("", "fold", "", "restart")
+    curve = dataclasses.replace(small_curve, frequency=hertz, event=events_there)
+    said = "what begins at 134.000000 Hz is a curve of its own: the one before came"
+
+    assert said in events(curve)
+    hertz[2] = 2.0 * np.pi * 132.0
+    assert said not in events(curve)
+
+
+@pytest.mark.parametrize(
+    ("unstable", "shown"), [(-1, ["-", "0.2000"]), (0, ["0.0000"])]
+)
+def test_a_multiplier_that_is_not_known_has_no_number(
+    unstable: int, shown: list[str]
+) -> None:
+    multipliers = np.empty(0, complex) if unstable < 0 else np.zeros(1, complex)
+    response = dataclasses.replace(unmoved(), multipliers=multipliers)
+    size = np.array([1e-3])
+    made = Comparison(
+        response, size, size, 1e-4, 1e-4, np.zeros(2), 0.0, 0.2, 1e-3, 1024
+    )
+
+    row = orbit_row(Verdict(response, "stable", made, ""))
+
+    assert row.split()[6 : 6 + len(shown)] == shown
 
 
 @pytest.mark.parametrize(("deviation", "status"), [(5e-4, 0), (0.5, 1)])

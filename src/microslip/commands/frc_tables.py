@@ -73,6 +73,12 @@ def events(curve: ResponseCurve) -> str:
                 f"{about(100.0 * curve.error[place], ' %')}"
             )
     lines += gap_lines(curve)
+    lines += [
+        f"what begins at {curve.frequency[place] / math.tau:.6f} Hz is a curve of its "
+        f"own: the one before came back to {curve.frequency[0] / math.tau:.6f} Hz"
+        for place, name in enumerate(curve.event)
+        if name == "restart" and curve.frequency[place - 1] == curve.frequency[0]
+    ]
     if not curve.peak.any():
         lines.append("nothing moves at any frequency: the scene has no drive")
     lines.append(_stability(curve))

@@ -39,13 +39,14 @@ def orbit_row(verdict: Verdict) -> str:
     if made is not None and not verdict.cause and not made.as_estimated:
         sign += ", beyond the estimates"
     sign += ", stability in doubt" if verdict.doubted else ""
+    unknown = verdict.response.unstable < 0
     if made is None:
         return f"{hertz:9.4f}  no orbit by shooting  {sign}, {verdict.whereabouts}"
     return (
         f"{hertz:9.4f} {1e3 * made.predicted[0]:10.6f} {1e3 * made.found[0]:10.6f}"
         f"  {made.difference:10.1e} {made.predicted_error:8.1e} {made.found_error:8.1e}"
-        f"   {made.multiplier:7.4f} {made.found_multiplier:8.4f}"
-        f"  {sign}, {verdict.whereabouts}"
+        f"   {'-' if unknown else f'{made.multiplier:.4f}':>7}"
+        f" {made.found_multiplier:8.4f}  {sign}, {verdict.whereabouts}"
     )
 
 

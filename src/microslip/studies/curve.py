@@ -163,7 +163,10 @@ def gathered(
 
 
 def shown_points(curve: ResponseCurve, largest: int, count: int = 11) -> list[int]:
-    """Return points evenly spread in frequency, and the one of largest amplitude."""
-    wanted = np.linspace(curve.frequency[0], curve.frequency[-1], count)
+    """Return points evenly spread in frequency, and the one of largest amplitude.
+
+    Over all that the curve covers: a part of it may run back to where it began.
+    """
+    wanted = np.linspace(curve.frequency.min(), curve.frequency.max(), count)
     places = {int(np.abs(curve.frequency - each).argmin()) for each in wanted}
     return sorted(places | {largest})

@@ -137,3 +137,7 @@ def test_a_close_up_shows_what_is_around_a_crowd(
     assert 1.4 < low < 1.5
     assert 1.6 < high < 1.7
     assert legend(axes) == ["stable", "point", "peak", "fold", "Neimark-Sacker"]
+
+
+def test_a_curve_without_points_has_no_crowd(small_curve: ResponseCurve) -> None:
+    assert crowd(_located(small_curve, [], ())) == []

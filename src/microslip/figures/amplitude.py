@@ -115,6 +115,8 @@ def close_up(axes: Axes, curve: ResponseCurve) -> None:
 def crowd(curve: ResponseCurve) -> list[int]:
     """Return the points that are located too closely together to be told apart."""
     places = [i for i, event in enumerate(curve.event) if event in MARKERS]
+    if not places:
+        return []
     at, size = abscissa(curve), _highest(curve)
     width, height = NEAR * np.ptp(at[np.isfinite(at)]), NEAR * np.nanmax(size)
     near = {

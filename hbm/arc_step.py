@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hbm.errors import PLACE, ContinuationError
+from hbm.errors import PLACE, REMEDY, ContinuationError
 from hbm.newton import (
     Correction,
     Linearised,
@@ -219,7 +219,6 @@ def lost(
     return ContinuationError(
         f"{what} at {PLACE}: {failed.outcome.value} "
         f"(residual {failed.residuals[-1]:.1e} after {failed.iterations} iterations, "
-        f"tolerance {control.tolerance:.1e}); more harmonics, more samples or a larger "
-        "threshold velocity make it smoother",
+        f"tolerance {control.tolerance:.1e}); {REMEDY}",
         where,
     )

@@ -10,6 +10,10 @@ from microslip_mechanics.errors import MicroslipError
 
 PLACE = "{place}"
 """stands for the place in the text of an error"""
+REMEDY = (
+    "another tolerance, more harmonics, more samples or, where friction has one, a "
+    "larger threshold velocity may help"
+)
 
 
 class ContinuationError(MicroslipError):

@@ -201,8 +201,8 @@ def test_a_curve_without_a_first_point_says_why() -> None:
         r"^no response is found at parameter 3: "
         r"no step along Newton's direction lowers the residual "
         r"\(residual 1\.0e\+00 after 0 iterations, tolerance 1\.0e-10\); "
-        r"more harmonics, more samples or a larger threshold velocity "
-        r"make it smoother$"
+        r"another tolerance, more harmonics, more samples or, where friction has one, "
+        r"a larger threshold velocity may help$"
     )
     with pytest.raises(ContinuationError, match=text):
         next(trace(nowhere, np.array([1e-3, 3.0]), 4.0, metric=even, control=CONTROL))

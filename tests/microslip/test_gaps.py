@@ -54,7 +54,7 @@ def test_a_branch_covers_no_gap_of_the_curve(small_curve: ResponseCurve) -> None
     ("ending", "begins", "said"),
     [
         ("complete", 1.018, "complete"),
-        ("complete", 1.022, "no curve is found between 1 and 1.022 of mass: more"),
+        ("complete", 1.022, "no curve is found between 1 and 1.022 of mass: another"),
         ("interrupted", 1.5, "interrupted"),
     ],
 )

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.errors import REMEDY
 from microslip_mechanics.response_curve import ResponseCurve
 
 NARROW = 0.01
@@ -22,8 +23,7 @@ def told(curve: ResponseCurve) -> ResponseCurve:
     if curve.ending != "complete" or uncovered(curve) <= NARROW:
         return curve
     missing = " and ".join(lines(curve))
-    remedy = "more harmonics, more samples or a larger threshold velocity may find it"
-    return replace(curve, ending=f"{missing}: {remedy}")
+    return replace(curve, ending=f"{missing}: {REMEDY}")
 
 
 def lines(curve: ResponseCurve) -> list[str]:

@@ -137,6 +137,9 @@ def test_a_close_up_shows_what_is_around_a_crowd(
     assert 1.4 < low < 1.5
     assert 1.6 < high < 1.7
     assert legend(axes) == ["stable", "point", "peak", "fold", "Neimark-Sacker"]
+    axes.clear()
+    close_up(axes, dataclasses.replace(curve, unstable=curve.unstable - 1.0))
+    assert legend(axes)[0] == "curve"  # nobody knows whether it is stable
 
 
 def test_a_curve_without_points_has_no_crowd(small_curve: ResponseCurve) -> None:

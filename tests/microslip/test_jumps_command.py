@@ -299,6 +299,7 @@ def test_the_picture_shows_curve_envelopes_and_delays(
     np.testing.assert_allclose(shown[0], [*peak[:2], np.nan, np.nan])
     np.testing.assert_allclose(shown[1], [np.nan, *peak[1:]])
     assert stable.get_linestyle() != unstable.get_linestyle()
+    assert stable.get_label() == "curve"  # of the first point it is not known
     for each in envelopes:
         np.testing.assert_allclose(np.asarray(each.get_ydata()), 1e-2 * hertz)
     assert len(envelopes) == 4

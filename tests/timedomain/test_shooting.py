@@ -389,8 +389,7 @@ def test_steps_are_rounded_up_to_whole_blocks() -> None:
 
 
 def test_a_search_without_time_is_given_up() -> None:
-    problem = linear()
-    options = ShootingOptions(seconds=1e-9)
+    problem, options = linear(), ShootingOptions(seconds=1e-9)
 
     with pytest.raises(ShootingError, match="out of time"):
         periodic_orbit(problem, FREQUENCY, start=still(problem), options=options)

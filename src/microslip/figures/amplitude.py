@@ -91,7 +91,7 @@ def close_up(axes: Axes, curve: ResponseCurve) -> None:
     at, size = abscissa(curve), _highest(curve)
     stable, _ = stretches(curve)
     line = np.where(stable, size, np.nan)
-    axes.plot(at, line, color=COLOURS[0], linewidth=WIDTH * 1.5, label="stable")
+    axes.plot(at, line, color=COLOURS[0], linewidth=WIDTH * 1.5, label=steady(curve))
     axes.plot(at, size, ".", color=COLOURS[0], markersize=4.0, label="point")
     _unstable(axes, curve)
     _events(axes, curve)
@@ -162,6 +162,11 @@ def stretches(curve: ResponseCurve) -> tuple[np.ndarray, np.ndarray]:
     reached[:-1] |= unstable[1:]
     reached[1:] |= unstable[:-1]
     return ~unstable, reached
+
+
+def steady(curve: ResponseCurve) -> str:
+    """Return the name of what is not unstable: stable, if the stability is known."""
+    return "curve" if (curve.unstable < 0).any() else "stable"
 
 
 def _unstable(axes: Axes, curve: ResponseCurve) -> None:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.abscissa import FREQUENCY, abscissa, parted
-from microslip.figures.amplitude import stretches
+from microslip.figures.amplitude import steady, stretches
 from microslip.figures.style import (
     COLOURS,
     STYLES,
@@ -69,8 +69,10 @@ def _envelopes(axes: Axes, curve: ResponseCurve, jumps: Sequence[JumpLine]) -> N
     whole = parted(curve)
     at, peak = abscissa(whole), 1e3 * whole.peak[:, 0]
     for shown, style, name in zip(
-        stretches(whole), STYLES, ("stable", "unstable"), strict=False
+        stretches(whole), STYLES, (steady(whole), "unstable"), strict=False
     ):
+        if not shown.any():
+            continue
         line = np.where(shown, peak, np.nan)
         axes.plot(at, line, style, color="k", lw=2 * WIDTH, label=name)
     for colour, jump in zip(COLOURS, jumps, strict=False):

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from hbm.adaptive import AdaptiveBalance
+from hbm.amplitude_growth import AmplitudeGrowth
 from hbm.arc_step import Metric
 from hbm.newton import Correction
-from hbm.resolution import PathResolution
 from hbm.segment import PRECISION, Segment, folds
 from microslip_mechanics.arrays import Array
 
@@ -83,8 +82,7 @@ def _distances(length: float) -> list[float]:
 
 def peak_error(
     system: AdaptiveBalance,
-    resolution: PathResolution,
-    growth: Callable[[Correction], float],
+    growth: AmplitudeGrowth,
     peak: Correction,
     bend: float,
     metric: Metric,
@@ -96,7 +94,7 @@ def peak_error(
 
     Parameters
     ----------
-    system, resolution
+    system
         Of the curve.
     growth
         Of the largest amplitude along the curve.
@@ -108,7 +106,7 @@ def peak_error(
         Of the curve.
     """
     point, _, error = system.report.kept(peak.point)
-    largest = float(resolution.amplitudes([point]).max())
+    largest = float(growth.largest(point)[0])
     doubt = math.sqrt(4.0 * error * largest / bend)
     finer, _ = system.report.reported(peak, metric(peak.point))
     return (doubt + abs(growth(finer)) / bend) * abs(folds(peak))

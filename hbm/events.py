@@ -13,22 +13,20 @@ from typing import NamedTuple
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
+from hbm.amplitude_growth import AmplitudeGrowth
 from hbm.arc_step import Metric
 from hbm.crossings import Crossings
 from hbm.event_error import fold_error, peak_error
-from hbm.fold_place import fold_place
-from hbm.found import Found, in_order, unlocated
+from hbm.fold_place import placed_fold
+from hbm.found import Found, found_between, in_order
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction, Outcome
-from hbm.resolution import PathResolution
 from hbm.segment import PRECISION, SURE, Segment, folds
 from hbm.settled import Settled, by_harmonics
 from hbm.step_control import StepControl
 
 STRICT, SHARP = 0.1, ("fold", "peak")
 """share of the error of a point that these events may have: they mark a frequency"""
-FLAT = 1e-13
-"""change of an amplitude, relative, that may be rounding"""
 ASIDE = 3e-3
 """part of a step by which a peak may be aside"""
 
@@ -49,11 +47,9 @@ class Events:
     """Finds them along a path."""
 
     system: AdaptiveBalance
-    resolution: PathResolution
+    growth: AmplitudeGrowth
     control: StepControl
     multipliers: Multipliers
-    limits: tuple[float, float]
-    """of the parameter, the least first"""
     recalls: bool
     """whether a contact has a memory"""
 
@@ -130,31 +126,12 @@ class Events:
     def _placed(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric
     ) -> tuple[Correction, float]:
-        """Return a fold where it is reported to be, and what its amplitude may err by.
-
-        The latter is what the amplitude changes along the curve to where the fold is;
-        of what harmonics have moved it more of them move it as much less as they
-        change its amplitude less.
-        """
-        slopes = folds(segment.before), folds(segment.after)
-        bend = (slopes[1] - slopes[0]) / segment.length if segment.length else 0.0
-        if bend == 0.0:
-            return settled, 0.0
+        """Return a fold where it is reported to be, and what its amplitude errs by."""
 
         def settle(beside: Correction) -> Correction | None:
             return self._settled(found._replace(point=beside), segment, metric)
 
-        place = fold_place(self.system, segment, settled, bend, settle)
-        if place.moved == place.left == 0.0:
-            return place.settled, 0.0
-        estimate = self.system.estimate
-        if estimate is None:
-            return place.settled, math.inf
-        rest = min(1.0, estimate.error / max(estimate.change, 1e-300))
-        point, _, _ = self.system.report.kept(place.settled.point)
-        size = float(self.resolution.amplitudes([point]).max())
-        change = abs(self.growth(place.settled)) / size
-        return place.settled, change * (place.left + rest * abs(place.moved))
+        return placed_fold(self.system, self.growth, segment, settled, settle)
 
     def _peaks(
         self, before: Settled, after: Settled, metric: Metric
@@ -177,9 +154,9 @@ class Events:
             self.system.fourier = max(before.fourier, after.fourier, key=by_harmonics)
         segment = self._segment(*ends, metric)
         located = segment.locate(self.growth, growth)
-        sizes = self.resolution.amplitudes([each.point for each in ends])
-        nearer = ends[int(sizes.max(axis=1).argmax())]
-        yield from self._found("peak", segment, located, nearer, growth)
+        sizes = self.growth.largest(*(each.point for each in ends))
+        nearer, fourier = ends[int(sizes.argmax())], self.system.fourier
+        yield from found_between("peak", segment, located, nearer, growth, fourier)
         self.system.fourier = solved
 
     def _folded(self, segment: Segment) -> Iterator[Found]:
@@ -193,28 +170,8 @@ class Events:
         located = segment.locate(folds, leaps=True)
         ends = segment.before, segment.after
         nearer = max(ends, key=lambda each: slopes[0] * each.point[-1])
-        yield from self._found("fold", segment, located, nearer, slopes)
-
-    def _found(
-        self,
-        name: str,
-        segment: Segment,
-        located: Correction | None,
-        nearer: Correction,
-        values: tuple[float, float],
-    ) -> Iterator[Found]:
-        """Yield a peak or a fold, at the ``nearer`` end if it is not located.
-
-        ``values``, at both ends, are those of what is zero there.
-        """
-        length, fourier = segment.length, self.system.fourier
-        if length <= 0.0:
-            return
-        bend = abs(values[1] - values[0]) / length
-        if located is None:
-            yield unlocated(name, segment, nearer, fourier, bend)
-        else:
-            yield Found(segment.place(located.point), name, located, fourier, bend)
+        fourier = self.system.fourier
+        yield from found_between("fold", segment, located, nearer, slopes, fourier)
 
     def _error(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric
@@ -224,8 +181,7 @@ class Events:
             return fold_error(self.system, segment, settled, found.bend)
         if found.name != "peak":
             return math.nan
-        seen = self.resolution, self.growth
-        return peak_error(self.system, *seen, settled, found.bend, metric)
+        return peak_error(self.system, self.growth, settled, found.bend, metric)
 
     def _changes(
         self, segment: Segment, before: Settled, after: Settled
@@ -235,28 +191,6 @@ class Events:
         for name, located in crossings.between(segment, before, after):
             place = segment.place(located.point)
             yield Found(place, name, located, self.system.fourier)
-
-    def growth(self, correction: Correction) -> float:
-        """Return the change of the largest amplitude along the curve."""
-        point, along = correction.point, correction.along
-        # Without contact the frequency is all that changes.
-        moved = slice(None, -1) if along[:-1].any() else slice(-1, None)
-        # At rest any change does: to both sides the amplitude is the same.
-        size = float(np.linalg.norm(point[moved])) or 1.0
-        small = 1e-6 * size / float(np.linalg.norm(along[moved]))
-        # Beyond an end of the range nothing is looked at.
-        least, most = self.limits
-        back, on = (
-            step if least <= point[-1] + step * along[-1] <= most else 0.0
-            for step in (-small, small)
-        )
-        if on == back:
-            return 0.0
-        sizes = self.resolution.amplitudes([point + back * along, point + on * along])
-        place = int(sizes[0].argmax())
-        change = float(sizes[1][place] - sizes[0][place])
-        rounding = FLAT * float(sizes[0][place])
-        return 2.0 * change / (on - back) if abs(change) > rounding else 0.0
 
 
 def _zero(growth: tuple[float, float]) -> float:

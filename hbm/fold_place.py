@@ -6,10 +6,12 @@ the amplitude does.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
 from hbm.adaptive import AdaptiveBalance
+from hbm.amplitude_growth import AmplitudeGrowth
 from hbm.newton import Correction
 from hbm.resolution_choice import MARKED
 from hbm.segment import PRECISION, Segment, folds
@@ -22,7 +24,7 @@ MOVES = 3
 """times that it is looked for along its curve"""
 
 
-class FoldPlace(NamedTuple):
+class _Place(NamedTuple):
     """A fold, settled where its curve folds as it is reported."""
 
     settled: Correction
@@ -32,39 +34,70 @@ class FoldPlace(NamedTuple):
     """arc by which it is aside still"""
 
 
-def fold_place(
+def placed_fold(
     system: AdaptiveBalance,
+    growth: AmplitudeGrowth,
     segment: Segment,
     settled: Correction,
-    bend: float,
     settle: Callable[[Correction], Correction | None],
-) -> FoldPlace:
-    """Return a fold moved along its curve to where that folds as it is reported.
+) -> tuple[Correction, float]:
+    """Return a fold where it is reported to be, and what its amplitude may err by.
 
-    It stays where nothing is corrected, where it has so many harmonics that it is
-    reported as it was settled, and where the corrected curve is not found beside it.
+    The latter, relative, is what the amplitude changes along the curve to where the
+    fold is; of what harmonics have moved it more of them move it as much less as they
+    change its amplitude less.
 
     Parameters
     ----------
     system
         At the resolution with which the fold was settled.
+    growth
+        Of the largest amplitude along the curve.
     segment
         The step in which it was found.
     settled
         The fold as it was located and settled.
-    bend
-        Change of :func:`~hbm.segment.folds` along the segment, with its sign.
     settle
         Settles another point of the curve as a fold; None if that fails.
     """
-    best = FoldPlace(settled)
+    slopes = folds(segment.before), folds(segment.after)
+    bend = (slopes[1] - slopes[0]) / segment.length if segment.length else 0.0
+    if bend == 0.0:
+        return settled, 0.0
+    place = _place(system, segment, settled, bend, settle)
+    if place.moved == place.left == 0.0:
+        return place.settled, 0.0
+    estimate = system.estimate
+    if estimate is None:
+        return place.settled, math.inf
+    rest = min(1.0, estimate.error / max(estimate.change, 1e-300))
+    point, _, _ = system.report.kept(place.settled.point)
+    change = abs(growth(place.settled)) / float(growth.largest(point)[0])
+    return place.settled, change * (place.left + rest * abs(place.moved))
+
+
+def _place(
+    system: AdaptiveBalance,
+    segment: Segment,
+    settled: Correction,
+    bend: float,
+    settle: Callable[[Correction], Correction | None],
+) -> _Place:
+    """Return a fold moved along its curve to where that folds as it is reported.
+
+    It stays where nothing is corrected, where it has so many harmonics that it is
+    reported as it was settled, and where the corrected curve is not found beside it.
+    ``bend`` is the change of :func:`~hbm.segment.folds` along the segment, with its
+    sign.
+    """
+    best = _Place(settled)
     known = _slope(system, segment, settled)
     if known is None or segment.after.turns:
         return best
     place, slope = 0.0, bend
     for _ in range(MOVES):
         step = -known / slope
-        best = FoldPlace(best.settled, place, abs(step))
+        best = _Place(best.settled, place, abs(step))
         moves = NEAR * segment.length < abs(step) < FARTHEST * segment.length
         if not moves:
             break
@@ -78,7 +111,7 @@ def fold_place(
             kept = settle(best.settled)  # what is reported is what was settled last
             return best._replace(settled=kept or best.settled)
         slope, place, known = (value - known) / step, place + step, value
-        best = FoldPlace(again, place, abs(known / slope))
+        best = _Place(again, place, abs(known / slope))
     return best
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from hbm.crossings import BRANCH
@@ -34,19 +34,27 @@ class Found(NamedTuple):
     nearer end then"""
 
 
-def unlocated(
-    name: str, segment: Segment, end: Correction, fourier: FourierBasis, bend: float
-) -> Found:
-    """Return what lies between two points, though those between do not converge.
+def found_between(
+    name: str,
+    segment: Segment,
+    located: Correction | None,
+    nearer: Correction,
+    values: tuple[float, float],
+    fourier: FourierBasis,
+) -> Iterator[Found]:
+    """Yield a peak or a fold of a segment, at the ``nearer`` end if it is not located.
 
-    It is taken for the point at one ``end``. From there the parameter changes by no
-    more than it does along the segment with the steepest slope of both ends, if those
-    between are not steeper.
+    ``values``, at both ends, are those of what is zero there; ``fourier`` is the
+    resolution with which it was located.
     """
-    steepest = max(abs(folds(each)) for each in (segment.before, segment.after))
     length = segment.length
-    place = 0.0 if end is segment.before else length
-    return Found(place, name, end, fourier, bend, steepest * length)
+    if length <= 0.0:
+        return
+    bend = abs(values[1] - values[0]) / length
+    if located is None:
+        yield _unlocated(name, segment, nearer, fourier, bend)
+    else:
+        yield Found(segment.place(located.point), name, located, fourier, bend)
 
 
 def in_order(found: Sequence[Found], segment: Segment, *, owed: bool) -> list[Found]:
@@ -69,3 +77,18 @@ def in_order(found: Sequence[Found], segment: Segment, *, owed: bool) -> list[Fo
     return [
         each for each in told if each.name != BRANCH or abs(folds(each.point)) > least
     ]
+
+
+def _unlocated(
+    name: str, segment: Segment, end: Correction, fourier: FourierBasis, bend: float
+) -> Found:
+    """Return what lies between two points, though those between do not converge.
+
+    It is taken for the point at one ``end``. From there the parameter changes by no
+    more than it does along the segment with the steepest slope of both ends, if those
+    between are not steeper.
+    """
+    steepest = max(abs(folds(each)) for each in (segment.before, segment.after))
+    length = segment.length
+    place = 0.0 if end is segment.before else length
+    return Found(place, name, end, fourier, bend, steepest * length)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
+from hbm.amplitude_growth import AmplitudeGrowth
 from hbm.continuation import correct_at
 from hbm.curve import Curve
 from hbm.effort import Effort
@@ -52,12 +53,12 @@ class Tracer:
         multipliers = Multipliers(
             resolution, motions, self.control, options.harmonics is not None
         )
+        least, most = sorted((options.start, options.end))
         events = Events(
             self.system,
-            resolution,
+            AmplitudeGrowth(resolution, (least, most)),
             self.control,
             multipliers,
-            limits=(min(options.start, options.end), max(options.start, options.end)),
             recalls=bool(remembers(points).any()),
         )
         self.curve = Curve(

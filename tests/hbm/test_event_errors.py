@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from hbm.event_error import fold_error
-from hbm.fold_place import FoldPlace
-from hbm.found import unlocated
+from hbm.found import found_between
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
@@ -123,7 +122,7 @@ def test_what_lies_between_points_that_do_not_converge_is_told_as_roughly(
 ) -> None:
     finest = marked("gap", error=FINEST)
     monkeypatch.setattr(Segment, "locate", lambda *_, **__: None)
-    monkeypatch.setattr("hbm.events.fold_place", lambda *seen: FoldPlace(seen[2]))
+    monkeypatch.setattr("hbm.events.placed_fold", lambda *seen: (seen[3], 0.0))
 
     rough = marked("gap", error=1e-3)
 
@@ -207,7 +206,8 @@ def test_what_is_not_located_is_aside_by_no_more_than_is_told(
     graph = Graph(lambda x: 1.0 - x**2, lambda x: -2.0 * x)
     segment = graph.segment(before, graph.at(after))
 
-    found = unlocated("fold", segment, segment.after, FourierBasis(1, 8), 1.0)
+    ends, fourier = (folds(segment.before), folds(segment.after)), FourierBasis(1, 8)
+    (found,) = found_between("fold", segment, None, segment.after, ends, fourier)
 
     # the fold lies at p = 1, that far beyond the point
     assert after**2 <= found.aside < 0.15

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import polynomial
 
+from hbm.amplitude_growth import AmplitudeGrowth
 from hbm.events import Events
 from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Outcome
@@ -143,10 +144,9 @@ def found(
     multipliers: Any = known
     events = Events(
         system,
-        resolution,
+        AmplitudeGrowth(resolution, (0.0, 1.0)),
         StepControl(),
         multipliers,
-        limits=(0.0, 1.0),
         recalls=recalls,
     )
     ends = []
@@ -173,15 +173,13 @@ def test_rounding_is_no_growth_of_an_amplitude() -> None:
     sizes = np.array([[1.0], [1.0 + 4e-16]])
     resolution: Any = SimpleNamespace(amplitudes=lambda _: sizes)
     none: Any = None
-    events = Events(
-        none, resolution, StepControl(), none, limits=(0.0, 1.0), recalls=False
-    )
+    growth = AmplitudeGrowth(resolution, (0.0, 1.0))
     point = np.array([1.0, 0.5])
     solved = Correction(point, point, none, Outcome.CONVERGED, (0.0,), point)
 
-    assert events.growth(solved) == 0.0
+    assert growth(solved) == 0.0
     sizes[1] += 1e-10
-    assert events.growth(solved) > 0.0
+    assert growth(solved) > 0.0
 
 
 def crossing(known: Known, circle: Array) -> list[float]:

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from hbm.condensed import Loading
 from hbm.dynamic_stiffness import dynamic_stiffness, returned_load, stiffness_slope
-from hbm.stuck_poles import split, stuck_poles
+from hbm.stuck_motions import stuck_motions
+from hbm.stuck_poles import stuck_poles
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 
@@ -22,8 +23,9 @@ WIDE = 12
 class CondensedStructure:
     """Dynamic stiffness seen by the relative coordinates y, and the way back to u.
 
-    The motion is u = T y + N z, where z is what moves while all contacts stick; z is
-    eliminated exactly at each frequency. Poles and residues of the stuck structure are
+    The motion is u = T y + N z + R w, where z is what moves while all contacts stick
+    and w what nothing holds; z is eliminated exactly at each frequency, w is not
+    coupled with y. Poles and residues of the stuck structure are
     computed once, so that a frequency costs two products of rank × poles.
     """
 
@@ -49,6 +51,8 @@ class CondensedStructure:
     """motion per modal coordinate of z, shape (dofs, poles)"""
     participation: ComplexArray
     """modal coordinate per load, shape (poles, dofs)"""
+    unheld: Array
+    """motions that loads alone move, of unit mass, shape (dofs, motions)"""
     coupled: NDArray[np.int64]
     """poles that y excites"""
     gyroscopic: bool = False
@@ -80,6 +84,7 @@ class CondensedStructure:
             self.static[:, kept],
             self.modes[:, used],
             self.participation[used],
+            self.unheld,
             np.flatnonzero(reach[used] > 1e-10),
             self.gyroscopic,
         )
@@ -171,7 +176,11 @@ class CondensedStructure:
         s = variable[:, None]
         into = s * (relative @ self.viscous.T) + s**2 * (relative @ self.inertial.T)
         modal = (force @ self.participation.T - into) / (s - self.poles)
-        return relative @ self.static.T + modal @ self.modes.T
+        moved: ComplexArray = relative @ self.static.T + modal @ self.modes.T
+        if self.unheld.size:
+            mobility = np.divide(1.0, s**2, np.zeros_like(s), where=s != 0.0)
+            moved += mobility * (force @ self.unheld) @ self.unheld.T  # no mean
+        return moved
 
 
 def condense(problem: Problem, selection: Array) -> CondensedStructure:
@@ -180,11 +189,11 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
     Raises
     ------
     ValueError
-        If the structure is sparse or can move freely while all contacts stick, or if
-        its damping makes two of its poles coincide.
+        If the structure is sparse, is driven away or moves freely against damping
+        while all contacts stick, or if damping makes two of its poles coincide.
     """
     structure = problem.structure.dense
-    static, free = split(structure.stiffness, selection)
+    static, free, unheld = stuck_motions(structure, selection)
     poles, shapes, forcing = stuck_poles(
         *(free.T @ matrix @ free
           for matrix in (structure.mass, structure.damping, structure.stiffness))
@@ -203,6 +212,7 @@ def condense(problem: Problem, selection: Array) -> CondensedStructure:
         static,
         free @ shapes,
         forcing @ free.T,
+        unheld,
         np.arange(poles.size),
         structure.gyroscopic,
     )

@@ -13,6 +13,7 @@ from scipy.optimize import linear_sum_assignment
 
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.structure import Structure
+from microslip_mechanics.undamped_modes import undamped_modes
 
 ALIKE = 0.9
 """of the shapes before and after a step that is not divided (MAC)"""
@@ -49,10 +50,10 @@ def eigenpairs(
     The shapes have unit length in the mass matrix. The damping may be any matrix; of
     the stiffness, which may be indefinite, the symmetric part counts.
     """
-    squares, modes = scipy.linalg.eigh((stiffness + stiffness.T) / 2.0, mass)
+    squares, modes = undamped_modes((stiffness + stiffness.T) / 2.0, mass)
     size = np.abs(squares)
     # The state (Ω q, q̇) keeps large and small frequencies on one scale.
-    scale = np.sqrt(np.maximum(size, 1e-12 * size.max(initial=0.0)))
+    scale = np.sqrt(np.maximum(size, 1e-12 * (size.max(initial=0.0) or 1.0)))
     zero = np.zeros_like(modes)
     state = np.block(
         [

@@ -104,7 +104,8 @@ def _split(
     rigidity = scipy.linalg.eigvalsh(stuck)
     if rigidity.size and rigidity[0] <= 1e-12 * rigidity[-1]:
         raise ValueError(
-            "a sector can move freely while all contacts stick: clamp it somewhere"
+            "a sector can move freely while all contacts stick: hold it by a spring, a "
+            "soft one perhaps"
         )
     direct = np.linalg.pinv(selection)
     static = direct - free @ np.linalg.solve(stuck, free.conj().T @ stiffness @ direct)

@@ -19,7 +19,7 @@ from hbm.aft import AlternatingFrequencyTime
 from hbm.carried import carried
 from hbm.carried_step import Structure
 from hbm.recalled import recalled_multipliers
-from hbm.stuck_poles import split
+from hbm.stuck_motions import stuck_motions
 from hbm.tangents import StepTangents, step_tangents
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.memory import remembers
@@ -148,7 +148,7 @@ def small_motions(problem: Problem) -> SmallMotions:
     """Return the structure of a problem for small motions about any orbit."""
     basis, selection = problem.interface.relative_motion()
     structure = problem.structure.dense
-    static, free = split(structure.stiffness, selection)
+    static, free, _ = stuck_motions(structure, selection)
     stuck = [free.T @ matrix @ free for matrix in (structure.stiffness, structure.mass)]
     squares, shapes = scipy.linalg.eigh(*stuck)
     inertia = static.T @ structure.mass @ static

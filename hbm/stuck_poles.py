@@ -1,34 +1,11 @@
-"""What moves of a structure while all of its contacts stick, and its poles."""
+"""Poles of a structure whose contacts all stick."""
 
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg
 
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.undamped_modes import undamped_modes
-
-
-def split(stiffness: Array, selection: Array) -> tuple[Array, Array]:
-    """Return T (static response to y = selection u) and N (motion with y = 0).
-
-    Raises
-    ------
-    ValueError
-        If the structure can move freely while all contacts stick.
-    """
-    free = np.ascontiguousarray(
-        scipy.linalg.null_space(selection) if selection.size else np.eye(len(stiffness))
-    )
-    stuck = free.T @ stiffness @ free
-    rigidity, _ = undamped_modes(stuck)
-    if (rigidity <= 0.0).any():
-        raise ValueError(
-            "the structure can move freely while all contacts stick: clamp it somewhere"
-        )
-    direct = np.linalg.pinv(selection)
-    static = direct - free @ np.linalg.solve(stuck, free.T @ stiffness @ direct)
-    return static, free
 
 
 def stuck_poles(

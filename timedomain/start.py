@@ -16,6 +16,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.segments import factors_over
 from microslip_mechanics.static import static_equilibrium
+from timedomain.driftless import driftless
 from timedomain.state import State
 
 LOOP = 4096
@@ -44,7 +45,8 @@ def loaded(problem: Problem, history: LoadHistory) -> Start:
     """Return rest under what loads a structure when a march begins, but its drive.
 
     These are what is there of the preload, and contacts under a force of their own.
-    Where they balance at zero displacement, on a hilltop too, that is the place.
+    Where they balance at zero displacement, on a hilltop too, that is the place. What
+    nothing holds has the velocity with which it does not drift.
 
     Raises
     ------
@@ -52,10 +54,11 @@ def loaded(problem: Problem, history: LoadHistory) -> Start:
         If the preload has no static equilibrium.
     """
     grown = float(history.segments().preload[0, 0])
-    there, begin = replace(problem, preload=grown * problem.preload), at_rest(problem)
-    if not first_state(there, Dwell(1.0, 1.0), begin).acceleration.any():
+    there, still = replace(problem, preload=grown * problem.preload), at_rest(problem)
+    begin = replace(still, velocity=driftless(problem, history))
+    if not first_state(there, Dwell(1.0, 1.0), still).acceleration.any():
         return begin
-    return Start(static_equilibrium(there).displacement, begin.velocity)
+    return replace(begin, displacement=static_equilibrium(there).displacement)
 
 
 def force_scale(problem: Problem, start: Start) -> float:

@@ -156,7 +156,8 @@ def stuck_structure(structure: Structure, selection: Array) -> StuckStructure:
     found = factors(stiffness)
     if found is None:
         raise ValueError(
-            "the structure can move freely while all contacts stick: clamp it somewhere"
+            "the structure can move freely while all contacts stick: hold it by a "
+            "spring, a soft one perhaps, or give dense matrices"
         )
     static = direct
     for _ in range(2):  # once more, for what rounding leaves

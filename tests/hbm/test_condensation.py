@@ -6,12 +6,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from contact_tables import contact_points
+from free_structures import MASSES, chain
 from hbm.condensation import CondensedStructure, condense
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.problem import Problem
 from rigs import rig_problem
 from small_problems import cantilever, oscillator, sliding_block
 
@@ -29,6 +27,9 @@ def with_damping(factor: float) -> Problem:
     )
 
 
+UNCLAMPED = "nothing clamps it"
+"""has no static response"""
+
 PROBLEMS: dict[str, Callable[[], Problem]] = {
     "full": rig_problem,
     "A": lambda: rig_problem(model="A"),
@@ -39,12 +40,23 @@ PROBLEMS: dict[str, Callable[[], Problem]] = {
     "no rope": lambda: rig_problem(rope=None),
     "beam without contact": cantilever,
     "nothing but a contact": lambda: sliding_block(damping=3.0),
+    UNCLAMPED: chain,
 }
 
 
-@pytest.fixture(name="problem", params=PROBLEMS)
-def _problem(request: pytest.FixtureRequest) -> Problem:
-    return PROBLEMS[request.param]()
+@pytest.fixture(name="which", params=PROBLEMS)
+def _which(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+@pytest.fixture(name="problem")
+def _problem(which: str) -> Problem:
+    return PROBLEMS[which]()
+
+
+@pytest.fixture(name="hertz")
+def _hertz(which: str) -> Array:
+    return HERTZ[1:] if which == UNCLAMPED else HERTZ
 
 
 def condensed(problem: Problem) -> tuple[CondensedStructure, Array]:
@@ -88,9 +100,11 @@ def relative_error(value: ComplexArray, exact: ComplexArray) -> float:
     )
 
 
-def test_dynamic_stiffness_is_that_of_the_full_matrices(problem: Problem) -> None:
+def test_dynamic_stiffness_is_that_of_the_full_matrices(
+    problem: Problem, hertz: Array
+) -> None:
     structure, selection = condensed(problem)
-    variable = 2j * np.pi * HERTZ
+    variable = 2j * np.pi * hertz
 
     stiffness = structure.dynamic_stiffness(variable)
 
@@ -100,10 +114,12 @@ def test_dynamic_stiffness_is_that_of_the_full_matrices(problem: Problem) -> Non
         assert relative_error(value, -holding) < 5e-10  # measured 5e-11
 
 
-def test_load_is_what_holds_the_contacts_in_place(problem: Problem) -> None:
+def test_load_is_what_holds_the_contacts_in_place(
+    problem: Problem, hertz: Array
+) -> None:
     structure, selection = condensed(problem)
-    variable = 2j * np.pi * HERTZ
-    force = random_complex(len(HERTZ), problem.structure.dofs)
+    variable = 2j * np.pi * hertz
+    force = random_complex(len(hertz), problem.structure.dofs)
 
     load, _ = structure.loading(force)(variable)
 
@@ -112,11 +128,11 @@ def test_load_is_what_holds_the_contacts_in_place(problem: Problem) -> None:
         assert relative_error(value, holding) < 1e-8  # measured 7e-10
 
 
-def test_motion_is_that_of_the_full_matrices(problem: Problem) -> None:
+def test_motion_is_that_of_the_full_matrices(problem: Problem, hertz: Array) -> None:
     structure, selection = condensed(problem)
-    variable = 2j * np.pi * HERTZ
-    force = random_complex(len(HERTZ), problem.structure.dofs)
-    relative = 1e-4 * random_complex(len(HERTZ), len(selection))
+    variable = 2j * np.pi * hertz
+    force = random_complex(len(hertz), problem.structure.dofs)
+    relative = 1e-4 * random_complex(len(hertz), len(selection))
 
     motion = structure.motion(variable, relative, force)
 
@@ -152,21 +168,52 @@ def test_slopes_are_those_of_differences_on_a_small_circle(problem: Problem) -> 
         np.testing.assert_allclose(load_slope[0], expected, rtol=0, atol=2e-9 * unit)
 
 
-def test_a_structure_that_is_free_when_its_contacts_stick_is_refused() -> None:
-    still = np.zeros((2, 2))
-    pair = Problem(
-        Structure(np.eye(2), still, still, ("left", "right")),
-        Interface(contact_points(), np.array([[1.0, -1.0], [0, 0], [0, 0]]), ("gap",)),
-        preload=np.array([1.0, -1.0]),
-        drive=np.zeros(2),
-        probes=Probes(("left",), np.array([[1.0, 0.0]])),
+def test_what_nothing_holds_answers_loads_alone() -> None:
+    problem = chain()
+    structure, _ = condensed(problem)
+    unheld = structure.unheld[:, 0]
+
+    # all of it moves alike, as one mass of 5 kg, and neither friction nor springs do
+    assert structure.unheld.shape == (4, 1)
+    np.testing.assert_allclose(np.abs(unheld), 1.0 / np.sqrt(5.0), rtol=1e-12)
+    rows = np.zeros((1, len(structure.stiffness)), complex)
+    moved = structure.motion(np.array([2j]), rows, np.ones((1, 4), complex))
+    centre = float((np.array(MASSES) @ moved[0]).real) / 5.0
+    assert centre == pytest.approx(4.0 / (5.0 * 2j**2).real)
+
+
+def test_a_mean_load_moves_nothing_that_nothing_holds() -> None:
+    structure, _ = condensed(chain())
+    force = np.ones((1, 4), complex)
+    rows = np.zeros((1, len(structure.stiffness)), complex)
+
+    mean = structure.motion(np.zeros(1, complex), rows, force)
+
+    assert np.abs(np.array(MASSES) @ mean[0]) < 1e-15
+
+
+def test_damping_of_what_nothing_holds_is_refused() -> None:
+    problem = chain()
+    dragging = np.diag([1e-3, 0.0, 0.0, 0.0])
+    dragged = dataclasses.replace(
+        problem.structure, damping=problem.structure.damping + dragging
     )
 
     text = (
-        r"^the structure can move freely while all contacts stick: clamp it somewhere$"
+        r"^the structure can move freely while all contacts stick, and is damped in "
+        r"doing so: hold it by a spring, a soft one perhaps, or do not damp that$"
     )
     with pytest.raises(ValueError, match=text):
-        condensed(pair)
+        condensed(dataclasses.replace(problem, structure=dragged))
+
+
+def test_a_stiffness_that_drives_away_is_refused() -> None:
+    problem = chain()
+    driven = problem.structure.stiffness - 0.1 * np.diag(MASSES)
+    structure = dataclasses.replace(problem.structure, stiffness=driven)
+
+    with pytest.raises(ValueError, match=r"^the stiffness of the structure drives it"):
+        condensed(dataclasses.replace(problem, structure=structure))
 
 
 def test_a_critically_damped_mode_is_refused() -> None:

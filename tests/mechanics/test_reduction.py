@@ -160,7 +160,10 @@ def test_a_mechanism_is_refused() -> None:
         Probes(("left",), np.array([[1.0, 0.0]])),
     )
 
-    text = "the structure can move freely while all contacts stick: clamp it somewhere"
+    text = (
+        "the structure can move freely while all contacts stick: hold it by a spring, "
+        "a soft one perhaps, or give dense matrices"
+    )
     with pytest.raises(ValueError, match=f"^{re.escape(text)}$"):
         reduced(pair, 100.0)
 

@@ -19,6 +19,7 @@ from microslip_mechanics.sine_test import SineTest, Tone
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.checkpoint import at_end
+from timedomain.driftless import undragged_motions
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
 from timedomain.step_doubling import CAUTION
@@ -77,14 +78,25 @@ def released(
 
 
 def _let_go(problem: Problem, state: Checkpoint) -> Start:
-    """Return the motion at the end of a march, with what contacts remember."""
+    """Return the motion at the end of a march, with what contacts remember.
+
+    What nothing holds is let go at rest, where it began: it does not drift away.
+    """
+    unheld = undragged_motions(problem)
     try:
-        return at_end(problem, state)
+        start = at_end(problem, state)
     except ValueError:
         raise SceneError(
             "the motion does not tell what the contacts of the scene remember: give "
             "the scene of its file"
         ) from None
+    drift = unheld @ unheld.T @ problem.structure.dense.mass
+    displacement = start.displacement - drift @ start.displacement
+    return replace(
+        start,
+        displacement=displacement,
+        velocity=start.velocity - drift @ start.velocity,
+    )
 
 
 def measured(

@@ -15,6 +15,7 @@ from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
+from timedomain.driftless import driftless, undragged_motions
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
 from timedomain.step_doubling import rows_between
@@ -65,7 +66,7 @@ def dwelling(
     options = _options(loads, march, period)
     rest = static_equilibrium(problem).displacement
     ruler = _Ruler(problem, frequency, rest)
-    start = Start(rest, np.zeros_like(rest))
+    start = Start(rest, driftless(problem, replace(loads, duration=period)))
     blocks = integrate(problem, loads, options, start=start, block=period)
     for block in blocks:
         told = np.full(len(block.time), frequency), np.ones(len(block.time))
@@ -89,7 +90,10 @@ class _Ruler:
     """Measures how far a motion is from repeating itself."""
 
     def __init__(self, problem: Problem, frequency: float, rest: Array) -> None:
-        self._root = np.linalg.cholesky(problem.structure.dense.mass).T
+        mass = problem.structure.dense.mass
+        self._root = np.linalg.cholesky(mass).T
+        self._unheld = undragged_motions(problem)
+        self._momenta = self._unheld.T @ mass
         self._frequency, self._rest = frequency, rest
         self._before = np.zeros(2 * rest.size)
         self._moved: list[float] = []
@@ -98,7 +102,9 @@ class _Ruler:
         """Return the estimated distance from the steady state, relative."""
         if state is None:
             return math.inf
-        place = self._frequency * (self._root @ (state.displacement - self._rest))
+        moved = state.displacement - self._rest
+        moved -= self._unheld @ (self._momenta @ moved)  # where it is does not matter
+        place = self._frequency * (self._root @ moved)
         here = np.concatenate([place, self._root @ state.velocity])
         self._moved.append(float(np.linalg.norm(here - self._before)))
         self._before = here

@@ -58,7 +58,7 @@ def refine(
             share = piece + 2.0
             near, far, blur = -0.5 * (1.0 - share), -0.5 * share, 1.0 / 6.0
         else:
-            share, weight = _node(events, piece, nodes, before, change, grade)
+            share, weight = node(events, piece, nodes, before, change, grade)
             near, far, blur = weight * (1.0 - share), weight * share, 0.0
         near, far, blur = part * near, part * far, part * blur
         write_motion(point, displacement, velocity, place, after, share, work)
@@ -74,7 +74,7 @@ def refine(
 
 
 @inner_kernel
-def _node(
+def node(
     events: Array, piece: int, nodes: int, before: float, change: float, grade: int
 ) -> tuple[float, float]:
     """Return the share and the weight of a node, of ``nodes`` between two events.

@@ -118,6 +118,16 @@ def contact_power(
     return friction, (force[0] - spring) * velocity[0]
 
 
+@bare_kernel
+def damping_power(
+    points: ContactPoints, point: int, displacement: float, velocity: float
+) -> float:
+    """Return the power [W] that normal damping takes out of a normal motion."""
+    force, _, _ = normal_response(points, point, displacement, velocity)
+    spring, _ = spring_response(points, point, displacement)
+    return float((force - spring) * velocity)
+
+
 @inner_kernel
 def _friction(
     points: ContactPoints, point: int, first: float, second: float

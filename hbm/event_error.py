@@ -86,11 +86,12 @@ def peak_error(
     peak: Correction,
     bend: float,
     metric: Metric,
-) -> float:
-    """Return the error of a peak's parameter.
+) -> tuple[float, float]:
+    """Return the error of a peak's parameter, and what its amplitude errs by for it.
 
-    As far as errors of amplitudes leave open which is the largest, and as far as it
-    lies elsewhere where it is resolved more finely.
+    The parameter errs as far as errors of amplitudes leave open which is the largest,
+    and as far as it lies elsewhere where it is resolved more finely. The latter costs
+    amplitude too, relative.
 
     Parameters
     ----------
@@ -109,4 +110,6 @@ def peak_error(
     largest = float(growth.largest(point)[0])
     doubt = math.sqrt(4.0 * error * largest / bend)
     finer, _ = system.report.reported(peak, metric(peak.point))
-    return (doubt + abs(growth(finer)) / bend) * abs(folds(peak))
+    steep = abs(growth(finer))
+    aside = 0.5 * steep**2 / bend / largest
+    return (doubt + steep / bend) * abs(folds(peak)), aside

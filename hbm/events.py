@@ -39,7 +39,7 @@ class Event(NamedTuple):
     error: float
     """of the parameter where it lies; NaN if nothing is known of it"""
     aside: float = 0.0
-    """error of the amplitude, relative, of a fold that may lie aside on its curve"""
+    """error of the amplitude, relative, as the event may lie aside on its curve"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,12 +70,9 @@ class Events:
             settled = self._settled(each, segment, metric)
             if settled is None:
                 continue
-            aside = 0.0
-            if each.name == "fold":
-                settled, aside = self._placed(each, settled, segment, metric)
-            error = self._error(each, settled, segment, metric)
-            if error is not None:
-                yield Event(settled, each.name, error + each.aside, aside)
+            told = self._told(each, settled, segment, metric)
+            if told is not None:
+                yield told
         self.system.fourier = fourier
 
     def directed(self, settled: Settled, metric: Metric) -> Settled:
@@ -173,15 +170,21 @@ class Events:
         fourier = self.system.fourier
         yield from found_between("fold", segment, located, nearer, slopes, fourier)
 
-    def _error(
+    def _told(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric
-    ) -> float | None:
-        """Return the error of an event's parameter; None if it is no event."""
+    ) -> Event | None:
+        """Return a settled event with its errors; None if it is no event."""
+        error: float | None
+        error, aside, bend = math.nan, 0.0, found.bend
         if found.name == "fold":
-            return fold_error(self.system, segment, settled, found.bend)
-        if found.name != "peak":
-            return math.nan
-        return peak_error(self.system, self.growth, settled, found.bend, metric)
+            settled, aside = self._placed(found, settled, segment, metric)
+            error = fold_error(self.system, segment, settled, bend)
+        elif found.name == "peak":
+            seen = self.system, self.growth
+            error, aside = peak_error(*seen, settled, bend, metric)
+        if error is None:
+            return None
+        return Event(settled, found.name, error + found.aside, aside)
 
     def _changes(
         self, segment: Segment, before: Settled, after: Settled

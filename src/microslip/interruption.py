@@ -36,18 +36,27 @@ def heeded() -> Iterator[None]:
     """Let an interruption come again that was lost where nothing can be raised.
 
     While kernels compile, a signal is handled in functions that LLVM calls, from which
-    an exception does not come back: Python reports it, and goes on.
+    an exception does not come back: Python reports it, and goes on. What fails for want
+    of what such a function should have done is an interruption too.
     """
-    before = sys.unraisablehook
+    before, lost = sys.unraisablehook, list[Timer]()
 
-    def hook(lost: sys.UnraisableHookArgs) -> None:
-        if lost.exc_type is KeyboardInterrupt:  # not one that ends a part of the work
-            Timer(LATER, _thread.interrupt_main).start()
+    def hook(seen: sys.UnraisableHookArgs) -> None:
+        if seen.exc_type is KeyboardInterrupt:  # not one that ends a part of the work
+            lost.append(Timer(LATER, _thread.interrupt_main))
+            lost[-1].daemon = True
+            lost[-1].start()
         else:
-            before(lost)
+            before(seen)
 
     sys.unraisablehook = hook
     try:
         yield
+    except Exception:
+        if lost:
+            raise KeyboardInterrupt from None
+        raise
     finally:
         sys.unraisablehook = before
+        for again in lost:
+            again.cancel()

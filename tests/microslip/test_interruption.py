@@ -314,6 +314,21 @@ def test_an_interruption_that_a_foreign_call_loses_comes_again() -> None:
         signal.signal(signal.SIGINT, before)
 
 
+def test_what_fails_for_a_lost_interruption_is_one() -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    def run() -> None:
+        with heeded():
+            ctypes.CFUNCTYPE(None)(interrupted)()
+            raise RuntimeError("no compiled object yet")
+
+    with pytest.raises(KeyboardInterrupt):
+        run()
+
+    time.sleep(0.1)  # nothing comes later
+
+
 def test_what_else_a_foreign_call_loses_is_reported(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -81,3 +81,32 @@ def test_commands_that_trace_a_curve_take_it(
 
     assert (status, error) == (0, "")
     assert re.search(shown, output)
+
+
+@pytest.mark.usefixtures("no_picture")
+def test_frc_tells_what_its_error_does_not_count(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "joint.toml"
+    joint = """
+[structure.reduction]
+highest = "50 Hz"
+[[element]]
+name = "joint"
+law = "iwan"
+between = ["x", "ground"]
+slip_force = 2
+stiffness = 300
+chi = -0.5
+beta = 0.5
+sliders = 5
+"""
+    path.write_text(LINEAR + joint + EXPERIMENTS, encoding="utf-8")
+
+    status, output, error = run("frc", str(path), "--set", "curve.harmonics=1")
+
+    assert (status, error) == (0, "")
+    reduction, sliders = output.splitlines()[-2:]
+    assert reduction.startswith("not in it: the reduction to modes up to 50 Hz, ")
+    assert sliders == (
+        "not in it: element joint is 5 sliders, whose force is up to 4.5e-02 of "
+        "slip_force above its law's: twice as many have a quarter of that"
+    )

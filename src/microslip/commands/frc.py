@@ -90,7 +90,7 @@ def _run(options: argparse.Namespace) -> int:
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in frc_tables.barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")
-    print(frc_tables.resolution(traced.curve))
+    print(frc_tables.resolution(traced.curve), *frc_tables.uncounted(scene), sep="\n")
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
     return arguments.ended(traced.curve.ending)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from microslip.commands.columns import about, decimal, headed, tabled, titled
 
 if TYPE_CHECKING:
+    from microslip.scene_tables import Scene
     from microslip.studies.curve import Traced
     from microslip_mechanics.response_curve import ResponseCurve
     from microslip_mechanics.static import StaticState
@@ -137,3 +138,28 @@ def resolution(curve: ResponseCurve) -> str:
         f"{curve.harmonics.min():.0f} to {curve.harmonics.max():.0f} harmonics, "
         f"{curve.samples.min():.0f} to {curve.samples.max():.0f} samples"
     )
+
+
+def uncounted(scene: Scene) -> list[str]:
+    """Return what of a scene's model that error does not count, a line each."""
+    from microslip.scenes.systems.tables import System
+    from microslip_mechanics.laws.iwan import Iwan
+
+    if not isinstance(scene.rig, System):
+        return []
+    lines = []
+    reduction = scene.rig.structure.reduction
+    if reduction is not None:
+        lines.append(
+            f"not in it: the reduction to modes up to {reduction.highest:g} Hz, beyond "
+            "which harmonics may lie: see whether the curve changes with a higher "
+            "structure.reduction.highest"
+        )
+    for name, law in scene.rig.element.items():
+        if isinstance(law, Iwan):
+            lines.append(
+                f"not in it: element {name} is {law.sliders} sliders, whose force is "
+                f"up to {law.backbone_error:.1e} of slip_force above its law's: twice "
+                "as many have a quarter of that"
+            )
+    return lines

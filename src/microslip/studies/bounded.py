@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import faulthandler
 import math
 import multiprocessing
 import signal
@@ -179,6 +180,7 @@ def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
     """Work on items until the other end closes."""
     # the interruption is the parent's to handle: it ends this process
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    faulthandler.enable()  # a process that dies says where
     warnings.simplefilter("error", RuntimeWarning)
     with contextlib.suppress(EOFError, ConnectionError):
         prepare()

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from hbm.cell import Samples, Work
 from hbm.refinement import refine
+from hbm.release import lets_go, released
 from hbm.symmetry import Symmetry
 from hbm.transitions import EVENTS, faded, graded, locate, passes, steepness
 from microslip_mechanics.arrays import Array
@@ -87,22 +88,30 @@ def sample(
         wide = faded(points, point)
         touch, slides = edge(points, point), rubs(points, point)
         steep, near = steepness(points, point), 0.0
+        goes, parts = lets_go(points, point), False
         for place in range(seen):
             after = place + 1 if place + 1 < displacement.shape[1] else 0
             if steep > 1:
                 near = graded(
                     displacement[row, place] - touch, displacement[row, after] - touch
                 )
-            if near == 0.0 and not passes(
-                displacement,
-                velocity,
-                row,
-                place,
-                after,
-                touch,
-                slides,
-                threshold,
-                wide,
+            if goes:
+                share = released(points, point, displacement, velocity, place, after)
+                parts = share > 0.0
+            if (
+                near == 0.0
+                and not parts
+                and not passes(
+                    displacement,
+                    velocity,
+                    row,
+                    place,
+                    after,
+                    touch,
+                    slides,
+                    threshold,
+                    wide,
+                )
             ):
                 continue
             found = locate(points, point, displacement, velocity, place, after, events)

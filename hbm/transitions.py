@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from hbm.release import lets_go, released
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import edge, rubs
 from microslip_mechanics.contact.points import (
@@ -18,8 +19,9 @@ from microslip_mechanics.contact.points import (
 )
 from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
 
-EVENTS = 10
-"""most within a cell: two crossings of each of four speeds, one turn, one touch"""
+EVENTS = 11
+"""most within a cell: two crossings of each of four speeds, one turn, one touch, one
+release"""
 FADING = 3.0
 """Stribeck speeds past the threshold at which an event is placed as well"""
 STEEPEST = 4
@@ -129,6 +131,11 @@ def locate(
     if (before > 0.0) != (behind > 0.0):
         found += 1
         events[found] = before / (before - behind)
+    if lets_go(points, point):
+        share = released(points, point, displacement, velocity, place, after)
+        if share > 0.0:
+            found += 1
+            events[found] = share
     events[0], events[found + 1] = 0.0, 1.0
     _rise(events, found)
     return found

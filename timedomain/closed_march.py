@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +21,9 @@ LOOSE = 10.0
 """times as much, of the gap where a direction is left out of the changes"""
 ROUNDING = 1e-13
 """of a state"""
+LEAP = 1e-3
+"""largest change, over the vibration, that may be left where none brings end and
+beginning closer together: forces that jump as faces touch make a march of steps leap"""
 NEUTRAL = 1e-10
 """of the largest singular value of 1 − Φ: below it a direction stays where it is"""
 
@@ -44,6 +47,8 @@ class ClosedMarch:
     gap: float
     """distance of end and beginning, over the vibration"""
     iterations: int
+    left: float = 0.0
+    """last change, over the vibration, if that brought them no closer"""
 
 
 def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedMarch:
@@ -67,21 +72,26 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
         sensitivity = sensitivity_of(carried, period)
         slope = gap_slope(carried, period, sensitivity)
         change, neutral = _change(slope, gap)
-        accepted = CLOSED * _vibration(carried, period)
-        accepted += ROUNDING * float(np.linalg.norm(state))
-        apart = float(np.linalg.norm(gap))
-        if np.linalg.norm(change) <= accepted:
+        vibration = _vibration(carried, period)
+        accepted = CLOSED * vibration + ROUNDING * float(np.linalg.norm(state))
+        apart, size = float(np.linalg.norm(gap)), float(np.linalg.norm(change))
+        found = ClosedMarch(
+            carried, state, period, sensitivity.monodromy, neutral,
+            apart / max(accepted / CLOSED, 1e-300), iteration,
+        )  # fmt: skip
+        if size <= accepted:
             if neutral and apart > LOOSE * accepted:
                 raise ShootingError(
                     f"{_at(carried)}: each period moves by {apart / accepted:.1e} of "
                     "what is accepted a body that nothing holds: hold it by a spring"
                 )
-            share = apart / max(accepted / CLOSED, 1e-300)
-            return ClosedMarch(
-                carried, state, period, sensitivity.monodromy, neutral, share,
-                iteration,
-            )  # fmt: skip
-        state, marched = _closer(carried, state, change, marched, until)
+            return found
+        try:
+            state, marched = _closer(carried, state, change, marched, until)
+        except ShootingError:
+            if size > LEAP * vibration:
+                raise
+            return replace(found, left=size / vibration)
     raise ShootingError(
         f"{_at(carried)} does not converge in {ITERATIONS} iterations: "
         "give a closer start or more steps"

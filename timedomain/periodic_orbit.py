@@ -51,6 +51,8 @@ class PeriodicOrbit:
     """of Newton, in both marches"""
     gap: float
     """distance of end and beginning of the finer march, over the vibration"""
+    left: float
+    """change that is left where a march of steps leaps, over the vibration"""
 
     @property
     def amplitude(self) -> Array:
@@ -63,11 +65,12 @@ class PeriodicOrbit:
 
         How far they are from those of half the steps, three times as much as
         extrapolation moves them: it gains nothing where friction turns over within a
-        step.
+        step. To that comes three times what is left where the march leaps.
         """
         fine = _amplitude(self.coefficients - self.moved, self.rows)
         away = np.abs(self.amplitude - fine).max(initial=0.0)
-        return float(3.0 * away / max(self.amplitude.max(initial=0.0), 1e-300))
+        steps = float(away / max(self.amplitude.max(initial=0.0), 1e-300))
+        return 3.0 * (steps + self.left)
 
 
 def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
@@ -97,6 +100,7 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
         fine.map.steps,
         coarse.iterations + fine.iterations,
         fine.gap,
+        max(coarse.left, fine.left),
     )
 
 

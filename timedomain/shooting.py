@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -102,7 +102,14 @@ def periodic_orbit(
     coarse = _first(problem, frequency, start, chosen, near, until)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
-        fine = _found(finer, coarse.state, near, until)
+        try:
+            fine = _found(finer, coarse.state, near, until)
+        except ShootingError:
+            if 4 * finer.steps > chosen.most or time.process_time() > until:
+                raise
+            more = replace(chosen, steps=2 * finer.steps)
+            coarse = _first(problem, frequency, start, more, near, until)
+            continue
         orbit = extrapolated(coarse, fine)
         if orbit.error <= chosen.error or 2 * finer.steps > chosen.most:
             return orbit

@@ -79,7 +79,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.modes import ModeError, followed
 
-    data, picture = arguments.outputs(options, "modes")
+    data, picture = arguments.outputs(options, "modes", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
     lowest, highest = options.range or (scene.curve.lowest, scene.curve.highest)
     chosen = _chosen(options)

@@ -69,7 +69,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.pole_question import Question
     from microslip.studies.poles import linearised
 
-    data, picture = arguments.outputs(options, "poles")
+    data, picture = arguments.outputs(options, "poles", ".csv", ".png")
     frequency = options.frequency and math.tau * options.frequency
     question = Question(options.scene, tuple(options.overrides), options.key, frequency)
     values = options.values or question.usual_values()

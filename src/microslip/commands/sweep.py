@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from microslip.commands import arguments
+from microslip.commands.places import demand_place
 from microslip.commands.sweep_tables import energy_table, estimates, extremes
 
 if TYPE_CHECKING:
@@ -122,7 +123,9 @@ def _places(options: argparse.Namespace) -> tuple[Path, Path]:
             f"-o {options.output}: a march goes on in the file that --resume names: "
             "leave -o out"
         )
-    return options.resume, options.resume.with_suffix(".png")
+    picture = options.resume.with_suffix(".png")
+    demand_place(picture)
+    return options.resume, picture
 
 
 def _begun(

@@ -47,7 +47,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.track import tracked
 
-    data, picture = arguments.outputs(options, "track")
+    data, picture = arguments.outputs(options, "track", ".csv", ".png")
     for value in options.values:
         loaded = load_scene(
             options.scene, [*options.overrides, f"{options.key}={value}"]

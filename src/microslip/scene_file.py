@@ -99,11 +99,7 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
         raise SceneError(
             f"--set {override}: give table.key=value, such as contact.sigma=3e-7"
         )
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
-        parsed = {}
-    value = parsed["value"] if len(parsed) == 1 else text.strip()
+    value = _value(text)
     place = document
     for table in tables:
         place = _inner(place, table, override)
@@ -116,6 +112,20 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
     if isinstance(held, dict) and AMPLITUDE in held and not isinstance(value, dict):
         value = {**held, AMPLITUDE: value}
     place[key] = value
+
+
+def _value(text: str) -> typing.Any:  # noqa: ANN401  (whatever TOML may hold)
+    """Return a value of the command line: TOML, a number such as .5 or 5., a text."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        parsed = {}
+    if len(parsed) == 1:
+        return parsed["value"]
+    try:
+        return float(text)
+    except ValueError:
+        return text.strip()
 
 
 def _inner(place: dict[str, typing.Any], table: str, override: str) -> typing.Any:  # noqa: ANN401

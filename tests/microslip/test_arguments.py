@@ -172,3 +172,20 @@ def test_a_file_that_cannot_be_written_is_told_before_the_work(
     else:
         assert " is a folder and cannot be written: give the name of a file" in said.err
     assert not [each for each in Path().iterdir() if each.is_file()]
+
+
+def test_the_effort_of_a_search_that_is_not_wanted_is_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["frc", "duffing", "--effort", "2"]) == 2
+
+    assert capsys.readouterr().err.startswith("microslip: --effort 2: it is that of")
+
+
+def test_a_scene_that_ends_like_a_folder_is_told_as_it_was_given(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["explain", "two-blades/"]) == 2
+
+    said = "there is no scene file two-blades/, and no built-in scene of that name: do"
+    assert f"microslip: {said} you mean two-blades?" in capsys.readouterr().err

@@ -73,7 +73,7 @@ def _run(options: argparse.Namespace) -> int:
         ending = "interrupted"
     if found:
         _keep(options, found, exact, data.with_suffix(".csv"), picture)
-    return arguments.ended(ending)
+    return arguments.ended(ending, kept=bool(found))
 
 
 def _keep(

@@ -87,9 +87,10 @@ def _run(options: argparse.Namespace) -> int:
         ):
             print(_line(each), flush=True)
     except KeyboardInterrupt:
-        return arguments.ended("interrupted")
+        return arguments.ended("interrupted", kept=bool(found))
     finally:
-        _write(options, picture, chosen, found)
+        if found:
+            _write(options, picture, chosen, found)
     return _verdict(found, 0.0 if options.quick else SHARE)
 
 

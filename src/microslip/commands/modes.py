@@ -189,6 +189,8 @@ def _keep(
             [point.amplitude for point in mode.points],
             [point.frequency / math.tau for point in mode.points],
             [point.damping for point in mode.points],
+            max(point.frequency_error * point.frequency for point in mode.points)
+            / math.tau,
         )
         for mode in modes
         if mode.points

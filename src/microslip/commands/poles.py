@@ -137,10 +137,11 @@ def _keep(
     _write(table, options.key, found, lines)
     limits = {name: limit_lines(found, name, span) for name in ("free", "stuck")}
     values = [each.value for each in found]
-    places, key, _ = axis(options.key, values, [question.at(value) for value in values])
+    scenes = [question.at(value) for value in values]
+    places, key, names = axis(options.key, values, scenes)
     key = "friction coefficient µd" if options.key == "friction" else key
     title = arguments.title(options)
-    save_figure(picture, poles_figure(places, lines, limits, span, key, title))
+    save_figure(picture, poles_figure(places, lines, limits, span, key, title, names))
     print(f"table in {table}, picture in {picture}")
 
 

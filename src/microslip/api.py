@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from os import PathLike
+from typing import TYPE_CHECKING
 
-from microslip.errors import GivenError
 from microslip.experiments import HERTZ, LONGEST, Curve, March, check_samples
+from microslip.function_arguments import check_apart, checked, named, read, texts_of
 from microslip.quantity import quantity
-from microslip.table import read_table
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.response_curve import ResponseCurve
     from microslip_mechanics.time_history import TimeHistory
+
+
+REMEDY = (
+    "give a longer time_step, a larger store_every, a shorter duration or ramp, or "
+    "lower frequencies"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +33,7 @@ class Swept:
     ramp: float = quantity("s", lowest=0.0, highest=LONGEST)
 
 
-def scene(source: str, overrides: Sequence[str] = ()) -> Problem:
+def scene(source: str | PathLike[str], overrides: Sequence[str] = ()) -> Problem:
     """Return the problem of a built-in scene, or of a scene file.
 
     Parameters
@@ -46,8 +51,8 @@ def scene(source: str, overrides: Sequence[str] = ()) -> Problem:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
 
-    several = [overrides] if isinstance(overrides, str) else overrides
-    return problem_of(load_scene(source, several))
+    several = texts_of("microslip.scene", source, overrides)
+    return problem_of(load_scene(str(source), several))
 
 
 def curve(
@@ -82,7 +87,7 @@ def curve(
     from microslip.studies.curve import trace_curve
 
     name = "microslip.curve"
-    wanted: Curve = _read(
+    wanted: Curve = read(
         name,
         Curve,
         lowest=lowest,
@@ -92,9 +97,9 @@ def curve(
         samples=samples,
     )
     check_samples(f"{name}:", wanted)
-    _check_apart(name, wanted.lowest, wanted.highest)
-    given = _checked(name, problem)
-    with _named(name):
+    check_apart(name, wanted.lowest, wanted.highest)
+    given = checked(name, problem)
+    with named(name):
         return trace_curve(given, wanted).curve
 
 
@@ -131,69 +136,20 @@ def sweep(
         If an argument is of no use, or if the first steps fail; else ``ending`` says
         how the march ends.
     """
+    from microslip.studies.march_size import demand_end
     from microslip.studies.sweep import march_sweep
     from microslip_mechanics.excitation import SweptSine
+    from timedomain.options import MarchOptions
 
     name = "microslip.sweep"
-    march: March = _read(name, March, time_step=time_step, store_every=store_every)
-    swept: Swept = _read(
+    march: March = read(name, March, time_step=time_step, store_every=store_every)
+    swept: Swept = read(
         name, Swept, lowest=lowest, highest=highest, duration=duration, ramp=ramp
     )
-    _check_apart(name, swept.lowest, swept.highest)
+    check_apart(name, swept.lowest, swept.highest)
     begin, end = swept.ramp, swept.ramp + swept.duration
     history = SweptSine(begin, begin, end, end, swept.lowest, swept.highest)
-    given = _checked(name, problem)
-    with _named(name):
+    given = checked(name, problem)
+    with named(name):
+        demand_end(history, MarchOptions(march.time_step, march.store_every), REMEDY)
         return march_sweep(given, history, march)
-
-
-@contextlib.contextmanager
-def _named(function: str) -> Iterator[None]:
-    """Make errors of values, such as those of a free body, ones of a function."""
-    try:
-        yield
-    except ValueError as error:
-        raise GivenError(f"{function}: {error}") from None
-
-
-def _read(function: str, table: type, **values: object) -> Any:  # noqa: ANN401
-    """Return the arguments of a function as the keys of a scene's table are read."""
-    given = {
-        name: value.item() if hasattr(value, "item") else value
-        for name, value in values.items()
-        if value is not None
-    }
-    return read_table(function, "", table, given)
-
-
-def _check_apart(function: str, lowest: float, highest: float) -> None:
-    """Check that two frequencies [Hz] are a range.
-
-    Raises
-    ------
-    GivenError
-        If they are the same.
-    """
-    if lowest == highest:
-        raise GivenError(
-            f"{function}: lowest and highest are both {lowest:g} Hz: give two "
-            "different frequencies"
-        )
-
-
-def _checked(function: str, problem: Problem) -> Problem:
-    """Return a problem.
-
-    Raises
-    ------
-    GivenError
-        If it is none.
-    """
-    from microslip_mechanics.problem import Problem
-
-    if not isinstance(problem, Problem):
-        raise GivenError(
-            f"{function}: problem = {problem!r}: give what microslip.system or "
-            "microslip.scene returns"
-        )
-    return problem

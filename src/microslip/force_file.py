@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 
 COLUMNS = "give time [s] and force [N], two numbers in each line"
 
+POINT = ", with a decimal point, as a comma separates the two"
+DECIMAL_COMMA = re.compile(r"\d,\d.*[;\s]|[;\s].*\d,\d")
+"""in a line that is separated otherwise"""
+
 
 @dataclass(frozen=True, slots=True)
 class Force:
@@ -51,7 +55,8 @@ def read_force(path: Path) -> Force:
         row = _row(text)
         named = header and not re.match(r"[-+.\d]|nan\b|inf", text, re.IGNORECASE)
         if row is None and not named:
-            raise SceneError(f"{path}, line {number}: {_cut(text)}: {COLUMNS}")
+            hint = f"{COLUMNS}{POINT if DECIMAL_COMMA.search(text) else ''}"
+            raise SceneError(f"{path}, line {number}: {_cut(text)}: {hint}")
         header = False
         if row is not None:
             _demand_later(path, number, row[0], rows[-1][0] if rows else None)

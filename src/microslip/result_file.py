@@ -86,7 +86,8 @@ def _told(path: Path) -> Iterator[None]:
         ) from None
     except (TypeError, ValueError, KeyError, AttributeError, IndexError):
         raise WrongFileError(
-            f"{path} is not a result file: give what frc or sweep wrote"
+            f"{path} is not a result file: give what frc, follow, "
+            "sweep, dwell or decay wrote"
         ) from None
 
 

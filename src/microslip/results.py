@@ -31,7 +31,8 @@ def save(result: Result, path: str | PathLike[str]) -> None:
     from microslip import store
 
     _check(result, "microslip.save")
-    store.save(Path(path), store.Stored(result, "", "microslip.save"))
+    place = _path(path, "microslip.save")
+    store.save(place, store.Stored(result, "", "microslip.save"))
 
 
 def load(path: str | PathLike[str]) -> Result:
@@ -44,7 +45,7 @@ def load(path: str | PathLike[str]) -> Result:
     """
     from microslip import result_file
 
-    return result_file.load(Path(path)).result
+    return result_file.load(_path(path, "microslip.load")).result
 
 
 def figure(result: Result, title: str = "") -> Figure:
@@ -63,6 +64,24 @@ def figure(result: Result, title: str = "") -> Figure:
 
     _check(result, "microslip.figure")
     return result_figure(result, title)
+
+
+def _path(path: str | PathLike[str], function: str) -> Path:
+    """Return a path.
+
+    Raises
+    ------
+    GivenError
+        If it is none.
+    """
+    from microslip.errors import GivenError
+
+    try:
+        return Path(path)
+    except TypeError:
+        raise GivenError(
+            f"{function}: path = {path!r}: give the path of a file"
+        ) from None
 
 
 def _check(result: Result, function: str) -> None:

@@ -54,7 +54,7 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
     if source in BUILT_IN and not path.is_file():
         text = built_in_text(source)
     else:
-        text = _read(path)
+        text = _read(source)
     try:
         document = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
@@ -77,17 +77,17 @@ def _with_force(path: Path, scene: Scene, name: str) -> Scene:
     return dataclasses.replace(scene, force=force, text=text)
 
 
-def _read(path: Path) -> str:
+def _read(source: str) -> str:
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return Path(source).read_text(encoding="utf-8-sig")
     except (FileNotFoundError, NotADirectoryError):
-        hint = meant(str(path), BUILT_IN).replace("give one", "give a path, or one")
+        hint = meant(source, BUILT_IN).replace("give one", "give a path, or one")
         raise SceneError(
-            f"there is no scene file {path}, and no built-in scene of that name{hint}"
+            f"there is no scene file {source}, and no built-in scene of that name{hint}"
         ) from None
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
-        raise SceneError(f"{path} cannot be read: {reason}") from None
+        raise SceneError(f"{source} cannot be read: {reason}") from None
 
 
 def _apply(document: dict[str, typing.Any], override: str) -> None:
@@ -99,11 +99,7 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
         raise SceneError(
             f"--set {override}: give table.key=value, such as contact.sigma=3e-7"
         )
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
-        parsed = {}
-    value = parsed["value"] if len(parsed) == 1 else text.strip()
+    value = _value(text)
     place = document
     for table in tables:
         place = _inner(place, table, override)
@@ -116,6 +112,20 @@ def _apply(document: dict[str, typing.Any], override: str) -> None:
     if isinstance(held, dict) and AMPLITUDE in held and not isinstance(value, dict):
         value = {**held, AMPLITUDE: value}
     place[key] = value
+
+
+def _value(text: str) -> typing.Any:  # noqa: ANN401  (whatever TOML may hold)
+    """Return a value of the command line: TOML, a number such as .5 or 5., a text."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        parsed = {}
+    if len(parsed) == 1:
+        return parsed["value"]
+    try:
+        return float(text)
+    except ValueError:
+        return text.strip()
 
 
 def _inner(place: dict[str, typing.Any], table: str, override: str) -> typing.Any:  # noqa: ANN401

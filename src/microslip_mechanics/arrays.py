@@ -18,3 +18,13 @@ Matrix: TypeAlias = Any
 def largest(values: Array | ComplexArray) -> float:
     """Return the largest modulus of values of any shape, zero if there are none."""
     return float(np.abs(values).max(initial=0.0))
+
+
+def numbers_of(given: object) -> Array:
+    """Return finite real numbers as an array; one of shape (0,) if they are none."""
+    try:
+        found: Array = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        return np.empty(0)
+    plain = np.asarray(given).dtype.kind in "iuf"
+    return found if plain and np.isfinite(found).all() else np.empty(0)

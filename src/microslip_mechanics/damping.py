@@ -10,7 +10,7 @@ import scipy.sparse
 from numpy.typing import ArrayLike
 from scipy.sparse.linalg import LinearOperator
 
-from microslip_mechanics.arrays import Matrix
+from microslip_mechanics.arrays import Matrix, numbers_of
 from microslip_mechanics.factors import indefinite_factors
 from microslip_mechanics.given_matrices import check_like, square_matrix
 from microslip_mechanics.hysteretic import Hysteretic
@@ -62,7 +62,7 @@ class Damping:
             return none
         bare = Structure(mass, none, stiffness, names)
         if self.rayleigh is not None:
-            if np.shape(self.rayleigh) != (2,):
+            if numbers_of(self.rayleigh).shape != (2,):
                 raise ValueError(
                     f"rayleigh_damping = {self.rayleigh!r}: give two numbers, of the "
                     "mass [1/s] and of the stiffness [s]"
@@ -70,6 +70,10 @@ class Damping:
             return Rayleigh(*self.rayleigh).matrix(bare)
         if self.loss_factor is not None:
             _check_all(bare, "loss_factor")
+            if numbers_of(self.loss_factor).shape != ():
+                raise ValueError(
+                    f"loss_factor = {self.loss_factor!r}: give a number such as 0.01"
+                )
             return Hysteretic(self.loss_factor).viscous(bare.dofs).matrix(bare)
         return ModalDamping(self._ratios(bare)).matrix(bare)
 
@@ -83,8 +87,13 @@ class Damping:
 
     def _ratios(self, bare: Structure) -> tuple[float, ...]:
         """Return the ratio of each mode that has one."""
-        single = np.asarray(self.ratio).ndim == 0
-        ratios = np.atleast_1d(np.asarray(self.ratio, dtype=float))
+        given = numbers_of(self.ratio)
+        if not given.size or given.ndim > 1:
+            raise ValueError(
+                f"damping_ratio = {self.ratio!r}: give a number such as 0.01, a share "
+                "of critical damping, or a list of them"
+            )
+        single, ratios = given.ndim == 0, np.atleast_1d(given)
         for ratio in ratios:
             if not 0.0 <= ratio < 1.0:
                 raise ValueError(

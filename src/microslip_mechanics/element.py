@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import inspect
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,6 +37,22 @@ class Element:
     """of area contacts: one or two"""
     name: str = ""
 
+    def __post_init__(self) -> None:
+        """Check that the law is one."""
+        if isinstance(self.law, type):
+            kind = self.law.__name__
+            keys = ", ".join(
+                f"{key}=…" for key in inspect.signature(self.law).parameters
+            )
+            raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+                f"Element: {kind} is a class: give {kind}({keys})"
+            )
+        if not (hasattr(self.law, "rows") and hasattr(self.law, "takes")):
+            raise ValueError(
+                f"Element: law = {self.law!r}: give a law with its numbers, such as "
+                "microslip.CubicSpring(cubic=2e6)"
+            )
+
     def directions(self) -> dict[str, Sequence[Pair]]:
         """Return the pairs that are given, by key."""
         given: dict[str, Sequence[Pair]] = {}
@@ -57,6 +74,10 @@ def interface_of(elements: Sequence[Element], names: tuple[str, ...]) -> Interfa
     ValueError
         With the element, its key and a remedy.
     """
+    if isinstance(elements, (Element, str)) or not isinstance(elements, Iterable):
+        raise ValueError(  # noqa: TRY004  (as above)
+            f"elements = {elements!r}: give a list of microslip.Element"
+        )
     for place, each in enumerate(elements, start=1):
         if not isinstance(each, Element):
             raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)

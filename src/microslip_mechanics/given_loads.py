@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.arrays import Array, ComplexArray, numbers_of
 from microslip_mechanics.engine_order import engine_order
 from microslip_mechanics.forms import place_of
 from microslip_mechanics.structure import Structure
@@ -45,9 +45,14 @@ class BaseMotion:
 
     def __post_init__(self) -> None:
         """Check that there is a direction."""
-        if np.shape(self.direction) != (3,) or not np.any(self.direction):
+        direction = numbers_of(self.direction)
+        if direction.shape != (3,) or not direction.any():
             raise ValueError(
                 f"base: direction {self.direction}: give three numbers, not all zero"
+            )
+        if numbers_of(self.acceleration).shape != ():
+            raise ValueError(
+                f"base: acceleration {self.acceleration}: give a finite number [m/s²]"
             )
 
     @property
@@ -98,6 +103,30 @@ def driven(
     if base is not None:
         total += base.load(structure)
     return total if total.imag.any() else total.real
+
+
+def preloaded(
+    preload: Mapping[str, float], names: tuple[str, ...], sets: Sets
+) -> Array:
+    """Return the static load [N], shape (dofs,).
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown or a force is not a finite real number.
+    """
+    if not isinstance(preload, Mapping):
+        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+            f"preload = {preload!r}: give static forces [N] by degree of freedom, such "
+            f"as {{{names[0]!r}: 1.0}}"
+        )
+    for name, force in preload.items():
+        if isinstance(force, numbers.Complex) and not isinstance(force, numbers.Real):
+            raise ValueError(  # noqa: TRY004  (as above)
+                f"preload of {name} is {force}: give a real number, a static force has "
+                "no phase"
+            )
+    return loads(preload, names, sets, "preload").real
 
 
 def _wave(name: str, given: object) -> tuple[float, float]:

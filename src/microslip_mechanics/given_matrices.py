@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import scipy.sparse
@@ -59,9 +59,15 @@ def _check_entries(matrix: Array, what: str) -> None:
 
 def dof_names(given: Sequence[str] | None, count: int) -> tuple[str, ...]:
     """Return the names of the degrees of freedom."""
-    names = tuple(given) if given is not None else ()
     if given is None:
         return tuple(f"x{place}" for place in range(1, count + 1))
+    names = tuple(given) if isinstance(given, Iterable) else (given,)
+    none = next((name for name in names if not isinstance(name, str)), None)
+    if none is not None:
+        raise ValueError(
+            f"names of degrees of freedom: {none!r} is no text: give a list of texts, "
+            "such as ['x1', 'x2']"
+        )
     if len(names) != count:
         raise ValueError(
             f"there are {len(names)} names, but mass has shape ({count}, {count}): "

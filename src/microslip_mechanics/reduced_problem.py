@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.given_loads import Sets
 from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.quantity import Quantity
 from microslip_mechanics.reduced_structure import (
     ReducedStructure,
     craig_bampton,
@@ -25,12 +26,17 @@ MOST = 100
 """loaded degrees of freedom up to which they are kept by themselves"""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class ReducedProblem:
     """A problem for the solvers, and the structure from which it came."""
 
     problem: Problem
     reduction: ReducedStructure
+
+    def __repr__(self) -> str:
+        """Return what kind of problem it is, in a line."""
+        whole = self.reduction.whole.dofs
+        return f"<ReducedProblem: of {whole} degrees of freedom; {self.problem!r}>"
 
     def error(self, hertz: float) -> float:
         """Return the relative error of the stiffness at what is kept, at a frequency.
@@ -45,7 +51,7 @@ class ReducedProblem:
 
 def reduced_problem(
     problem: Problem,
-    highest: float,
+    highest: float | str,
     *,
     method: Method = "craig-bampton",
     keep: Sequence[str] = (),
@@ -58,7 +64,7 @@ def reduced_problem(
     problem
         Of a sparse or dense structure.
     highest
-        Modes are kept up to this frequency [Hz].
+        Modes are kept up to this frequency [Hz]; it may be a text such as "5 kHz".
     method
         Modes of the structure held at what is kept (Craig, Bampton 1968), or its own
         modes with static corrections (MacNeal 1971, Rubin 1975).
@@ -77,10 +83,14 @@ def reduced_problem(
         raise ValueError(
             f"method {method!r} is unknown: give one of {', '.join(get_args(Method))}"
         )
-    if not 0.0 < highest < math.inf:
-        raise ValueError(f"modes up to {highest:g} Hz: give a positive frequency")
+    if not isinstance(problem, Problem):
+        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+            f"reduced_problem: problem = {problem!r}: give what microslip.system or "
+            "microslip.scene returns"
+        )
+    limit = 2.0 * math.pi * _hertz(highest)
     kept = _kept(problem, selected(problem.structure.names, keep, sets or {}))
-    made = METHODS[method](problem.structure, kept, 2.0 * math.pi * highest)
+    made = METHODS[method](problem.structure, kept, limit)
     rows = made.rows(problem.interface.displacement)
     return ReducedProblem(
         Problem(
@@ -92,6 +102,14 @@ def reduced_problem(
         ),
         made,
     )
+
+
+def _hertz(highest: float | str) -> float:
+    """Return a frequency [Hz] that may be a text with a unit."""
+    try:
+        return Quantity("Hz", 0.0, math.inf, positive=True).read(highest)
+    except ValueError as error:
+        raise ValueError(f"reduced_problem: highest = {highest!r}: {error}") from None
 
 
 def _kept(problem: Problem, wanted: NDArray[np.int64]) -> NDArray[np.int64]:

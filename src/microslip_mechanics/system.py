@@ -18,7 +18,7 @@ from microslip_mechanics.given_loads import (
     EngineOrder,
     Sets,
     driven,
-    loads,
+    preloaded,
 )
 from microslip_mechanics.given_matrices import (
     check_like,
@@ -99,9 +99,11 @@ hysteretic.Hysteretic`).
     structure = Structure(masses, lossy.of(masses, elastic, known), elastic, known)
     return Problem(
         structure,
-        interface_of(elements or (), known),
-        preload=loads(preload or {}, known, groups, "preload").real,
-        drive=driven(drive or {}, structure, groups, engine_order, base),
+        interface_of(() if elements is None else elements, known),
+        preload=preloaded({} if preload is None else preload, known, groups),
+        drive=driven(
+            {} if drive is None else drive, structure, groups, engine_order, base
+        ),
         probes=_probes(probes, known),
     )
 

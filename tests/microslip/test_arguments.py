@@ -138,3 +138,54 @@ def test_a_folder_that_cannot_be_written_to_is_told_before_the_work(
 
     said = f"microslip: the folder {tmp_path} cannot be written to: give another one"
     assert capsys.readouterr().err.startswith(said)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "grid duffing --csv d",
+        "tables --csv d",
+        "frc duffing -o curve",
+        "track duffing drive.x 1 2 -o table",
+        "sweep duffing -o curve",
+        f"frc duffing -o {'long' * 75}",
+        f"grid duffing --csv {'long' * 75}.csv",
+    ],
+)
+def test_a_file_that_cannot_be_written_is_told_before_the_work(
+    words: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for folder in ("d", "curve.png", "table.csv"):
+        Path(folder).mkdir()
+
+    assert main(words.split()) == 2
+
+    said = capsys.readouterr()
+    assert said.out == ""
+    if "long" in words:
+        assert said.err.startswith("microslip: longlonglong")
+        assert "… cannot be written: File name too long: give another name" in said.err
+    else:
+        assert " is a folder and cannot be written: give the name of a file" in said.err
+    assert not [each for each in Path().iterdir() if each.is_file()]
+
+
+def test_the_effort_of_a_search_that_is_not_wanted_is_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["frc", "duffing", "--effort", "2"]) == 2
+
+    assert capsys.readouterr().err.startswith("microslip: --effort 2: it is that of")
+
+
+def test_a_scene_that_ends_like_a_folder_is_told_as_it_was_given(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["explain", "two-blades/"]) == 2
+
+    said = "there is no scene file two-blades/, and no built-in scene of that name: do"
+    assert f"microslip: {said} you mean two-blades?" in capsys.readouterr().err

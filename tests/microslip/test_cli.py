@@ -168,6 +168,18 @@ def test_sweep_is_written_drawn_and_told(
         assert float(line) == pytest.approx(history.of(name)[-1], rel=1e-4)
     assert "closing error" in output
     assert f"{len(history.time)} times in quick-sweep.nc" in output
+    assert "normal force [N], least and most\n  B1 " in output
+
+
+@pytest.mark.usefixtures("no_picture")
+def test_what_has_no_normal_force_is_not_told_one(run: Run) -> None:
+    short = [f"--set=sweep.{key}=0.01" for key in ("end", "duration")]
+
+    status, output, _ = run("sweep", "jenkins", *short)
+
+    assert status == 0
+    assert "largest displacement [mm]" in output
+    assert "normal force" not in output
 
 
 @pytest.mark.usefixtures("no_picture")

@@ -174,3 +174,17 @@ def test_a_dwell_of_few_periods_counts_them_and_says_what_is_unknown(
     assert [text.get_text() for text in distance.texts] == [
         "not known after so few periods"
     ]
+
+
+@pytest.mark.parametrize("command", ["dwell", "decay"])
+def test_a_scene_without_drive_has_no_steady_motion(
+    command: str, run: Run, tmp_path: Path
+) -> None:
+    words = ("two-blades", "--set", "model=A", "--set", "excitation.force=0")
+    place = ("--frequency", "136.2", "-o", str(tmp_path / "still"))
+
+    status, printed, error = run(command, *words, *place)
+
+    assert (status, printed) == (2, "")
+    assert "nothing moves at any frequency: the scene has no drive" in error
+    assert not list(tmp_path.iterdir())

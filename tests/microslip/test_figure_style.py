@@ -3,7 +3,7 @@
 import pytest
 from matplotlib.figure import Figure
 
-from microslip.figures.style import headline, plain_logarithmic
+from microslip.figures.style import called, headline, plain_logarithmic
 
 
 @pytest.mark.parametrize(
@@ -41,3 +41,20 @@ def test_a_long_title_stays_within_the_picture() -> None:
     title = figure.texts[0].get_window_extent()
     assert title.x0 >= 0.0
     assert title.x1 <= figure.bbox.x1
+
+
+@pytest.mark.parametrize(
+    ("face", "contacts", "title"),
+    [
+        ("B", ["B1", "B2"], "face B"),
+        ("B", ["B"], "face B"),
+        ("cubic", ["cubic"], "element cubic"),
+        ("spring", ["spring2"], "element spring2"),
+        ("shoe", ["shoe-1", "shoe-2"], "element shoe"),
+        ("element", ["element-1"], "element-1"),
+    ],
+)
+def test_titles_tell_faces_from_elements(
+    face: str, contacts: list[str], title: str
+) -> None:
+    assert called(face, contacts) == title

@@ -56,6 +56,16 @@ def test_two_columns_are_read_with_or_without_a_header(
         ("t,F\n", "0 lines with numbers"),
         ("t,F\n0,1\n", "1 lines with numbers"),
         ("t,F\nt,F\n0,1\n1,1", "line 2: 't,F': give time"),
+        (
+            "0,1;1\n1;1",
+            "line 1: '0,1;1': give time [s] and force [N], two numbers in "
+            "each line, with a decimal point",
+        ),
+        (
+            "0 0\n0,5 1,5",
+            "line 2: '0,5 1,5': give time [s] and force [N], two numbers "
+            "in each line, with a decimal point",
+        ),
         ("0,1\n1,2,3\n", "line 2: '1,2,3': give time"),
         ("0,1\n1\n", "line 2: '1': give time"),
         ("0,1\n1,\n", "line 2: '1,': give time"),

@@ -134,8 +134,8 @@ def test_a_table_that_cannot_be_written_is_told_in_one_line(
 ) -> None:
     (tmp_path / "modes.csv").mkdir()
 
-    status, _, error = two_modes(tmp_path, capsys)
+    status, output, error = two_modes(tmp_path, capsys)
 
-    assert status == 1
-    assert error.startswith(f"microslip: {tmp_path / 'modes.csv'} cannot be")
+    assert (status, output) == (2, "")
+    assert error.startswith(f"microslip: {tmp_path / 'modes.csv'} is a folder and")
     assert error.count("\n") == 1

@@ -81,6 +81,9 @@ def test_every_key_of_the_tables_stands_in_the_built_in_text() -> None:
     ("override", "table", "key", "value"),
     [
         ("blade.length=0.3", "blade", "length", 0.3),
+        ("blade.length=.3", "blade", "length", 0.3),
+        ("blade.length=+3.e-1", "blade", "length", 0.3),
+        ("rope.stiffness=5.", "rope", "stiffness", 5.0),
         ("blade.length=300 mm", "blade", "length", 0.3),
         ('blade.length="300 mm"', "blade", "length", 0.3),
         ("blade.length = 300 mm", "blade", "length", 0.3),

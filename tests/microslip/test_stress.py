@@ -356,6 +356,21 @@ def test_an_interrupted_matrix_keeps_table_and_picture(
     assert (tmp_path / "two-blades-stress.png").stat().st_size > 10_000
 
 
+def test_a_matrix_interrupted_before_a_case_ended_writes_nothing(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object, **__: object) -> Iterator[Tried]:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(stress, "tried", interrupted)
+
+    status, _, error = run("stress", "two-blades", "--quick")
+
+    assert status == 130
+    assert error == "microslip: interrupted; no file is written\n"
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize(
     ("outcome", "status"), [(Outcome.HONEST, 0), (Outcome.DISAGREES, 1)]
 )

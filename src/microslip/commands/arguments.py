@@ -9,14 +9,10 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from microslip.errors import GivenError
+from microslip.commands.places import demand_place, is_folder
 
 MOST_ROWS = 100_000
 """of a time history that a picture shows; a longer one is thinned"""
-
-
-class OutputError(GivenError):
-    """Results have no place to go."""
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
@@ -61,22 +57,26 @@ def _place(text: str) -> Path:
     return Path(text)
 
 
-def outputs(options: argparse.Namespace, suffix: str) -> tuple[Path, Path]:
+def outputs(
+    options: argparse.Namespace, suffix: str, *endings: str
+) -> tuple[Path, Path]:
     """Return the paths of data and picture, in a folder that exists.
 
     In a folder that is given itself they have the names that they have here.
+    ``endings`` are those of the files to be written, .nc and .png if left out.
 
     Raises
     ------
     OutputError
-        If there is no folder or it is closed: better before the work than after it.
+        If one of them cannot be written.
     """
     chosen: Path = options.output or Path()
-    if chosen.is_dir():
+    if is_folder(chosen):
         chosen /= f"{Path(options.scene).stem}-{suffix}"
     elif chosen.suffix in {".nc", ".png", ".csv"}:
         chosen = chosen.with_suffix("")
-    demand_folder(chosen)
+    for ending in endings or (".nc", ".png"):
+        demand_place(chosen.with_name(f"{chosen.name}{ending}"))
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
 
 
@@ -88,16 +88,16 @@ def add_table(parser: argparse.ArgumentParser) -> None:
 
 
 def table(options: argparse.Namespace) -> Path | None:
-    """Return the path of the table, if there is to be one, in a folder that exists.
+    """Return the path of the table, if there is to be one.
 
     Raises
     ------
     OutputError
-        If it does not.
+        If it cannot be written.
     """
     chosen: Path | None = options.csv
     if chosen is not None:
-        demand_folder(chosen)
+        demand_place(chosen)
     return chosen
 
 
@@ -172,21 +172,3 @@ def _quantity(
         return Quantity(unit, lowest, highest, positive=lowest == 0.0).read(value)
     except ValueError as error:
         raise argparse.ArgumentTypeError(f"{text} {error}") from None
-
-
-def demand_folder(path: Path) -> None:
-    """Refuse a path in a folder that does not exist, or cannot be written to.
-
-    Raises
-    ------
-    OutputError
-        If it does not: better before the work than after it.
-    """
-    if not path.parent.is_dir():
-        raise OutputError(
-            f"there is no folder {path.parent} to write to: make it first"
-        )
-    if not os.access(path.parent, os.W_OK | os.X_OK):
-        raise OutputError(
-            f"the folder {path.parent} cannot be written to: give another one"
-        )

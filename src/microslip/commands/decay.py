@@ -67,7 +67,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.store import save_figure, save_table
     from microslip.studies.decay import liveliest, measured, unmeasured
 
-    data, picture = arguments.outputs(options, "decay")
+    data, picture = arguments.outputs(options, "decay", ".nc", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     chosen = _chosen(options, problem)

@@ -93,13 +93,24 @@ def dwelled(
     """March a dwell into a file; return it, the distances from steady and its ending.
 
     The file ends as "complete" only if the motion became steady.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no drive: what rounding moves is never steady.
     """
     from microslip.progress import shown
+    from microslip.quantity import SceneError
     from microslip.recording import Recording
     from microslip.studies.dwell import dwelling
     from microslip.studies.sweep import kept
     from microslip_mechanics.time_history import joined
 
+    if not problem.drive.any():
+        raise SceneError(
+            f"{scene.source}: nothing moves at any frequency: the scene has no drive, "
+            "give it one"
+        )
     recording = Recording(data, scene.text, options.command)
     blocks: list[TimeHistory] = []
     distances: list[float] = []

@@ -51,7 +51,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.folds import FoldError, NoFoldsError, followed_folds
     from microslip.studies.parameter import parameter
 
-    data, picture = arguments.outputs(options, "folds")
+    data, picture = arguments.outputs(options, "folds", ".csv", ".png")
     along = parameter(
         options.scene, options.overrides, options.key, options.first, options.last
     )

@@ -47,7 +47,6 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument(
         "--effort",
         type=arguments.positive,
-        default=1.0,
         metavar="TIMES",
         help="work that the search for detached curves may take, over the usual: at "
         "each frequency 2000 evaluations with 31 harmonics, and fifty times that to "
@@ -79,6 +78,11 @@ def _run(options: argparse.Namespace) -> int:
             f"--tolerance {options.tolerance}: the scene fixes curve.harmonics = "
             f"{scene.curve.harmonics}: leave one of them out"
         )
+    if options.effort is not None and not options.detached:
+        raise SceneError(
+            f"--effort {options.effort:g}: it is that of the search for detached "
+            "curves: give --detached too, or leave it out"
+        )
     traced = _traced(options, scene)
     save(data, Stored(traced.curve, scene.text, options.command))
     save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
@@ -101,7 +105,7 @@ def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
     from microslip.rigs import problem_of, sector_of, unpruned_of
     from microslip.studies.curve import Wanted, trace_curve, trace_sector
 
-    wanted = Wanted(options.branches, options.detached, options.effort)
+    wanted = Wanted(options.branches, options.detached, options.effort or 1.0)
     watch, searching = watched(scene.curve), search_watched(scene.curve)
     sector = None if options.unpruned else sector_of(scene)
     if sector is not None:

@@ -62,9 +62,9 @@ def _run(options: argparse.Namespace) -> int:
         ):
             print(_line(attempt), flush=True)
     except KeyboardInterrupt:
-        return arguments.ended("interrupted")
+        return arguments.ended("interrupted", kept=bool(found and table))
     finally:
-        if table is not None:
+        if found and table is not None:
             _write(table, found)
     whole = sum(attempt.whole for attempt in found)
     print(f"{whole} of {len(found)} curves are traced from end to end")

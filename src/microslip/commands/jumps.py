@@ -70,7 +70,7 @@ def _run(options: argparse.Namespace) -> int:
 
     if options.rates is not None and len(set(options.rates)) < LEAST:
         raise SceneError(f"--rates: give at least {LEAST} different ones")
-    _, picture = arguments.outputs(options, "jumps")
+    _, picture = arguments.outputs(options, "jumps", ".png")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     traced = trace_curve(problem, scene.curve, frc.watched(scene.curve))

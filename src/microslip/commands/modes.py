@@ -79,7 +79,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.modes import ModeError, followed
 
-    data, picture = arguments.outputs(options, "modes")
+    data, picture = arguments.outputs(options, "modes", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
     lowest, highest = options.range or (scene.curve.lowest, scene.curve.highest)
     chosen = _chosen(options)
@@ -189,6 +189,8 @@ def _keep(
             [point.amplitude for point in mode.points],
             [point.frequency / math.tau for point in mode.points],
             [point.damping for point in mode.points],
+            max(point.frequency_error * point.frequency for point in mode.points)
+            / math.tau,
         )
         for mode in modes
         if mode.points

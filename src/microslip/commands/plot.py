@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from microslip.commands import arguments
+from microslip.commands.places import demand_place
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -35,7 +36,7 @@ def _run(options: argparse.Namespace) -> int:
 
     stored = load(options.file, arguments.MOST_ROWS)
     picture = options.output or options.file.with_suffix(".png")
-    arguments.demand_folder(picture)
+    demand_place(picture)
     title = f"{options.file.name}: {stored.command}"
     save_figure(picture, result_figure(stored.result, title))
     print(f"picture in {picture}")

@@ -69,7 +69,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.pole_question import Question
     from microslip.studies.poles import linearised
 
-    data, picture = arguments.outputs(options, "poles")
+    data, picture = arguments.outputs(options, "poles", ".csv", ".png")
     frequency = options.frequency and math.tau * options.frequency
     question = Question(options.scene, tuple(options.overrides), options.key, frequency)
     values = options.values or question.usual_values()
@@ -137,10 +137,11 @@ def _keep(
     _write(table, options.key, found, lines)
     limits = {name: limit_lines(found, name, span) for name in ("free", "stuck")}
     values = [each.value for each in found]
-    places, key, _ = axis(options.key, values, [question.at(value) for value in values])
+    scenes = [question.at(value) for value in values]
+    places, key, names = axis(options.key, values, scenes)
     key = "friction coefficient µd" if options.key == "friction" else key
     title = arguments.title(options)
-    save_figure(picture, poles_figure(places, lines, limits, span, key, title))
+    save_figure(picture, poles_figure(places, lines, limits, span, key, title, names))
     print(f"table in {table}, picture in {picture}")
 
 

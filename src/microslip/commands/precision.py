@@ -51,7 +51,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.precision_methods import settings
     from microslip.studies.precision_reference import reference
 
-    data, picture = arguments.outputs(options, "precision")
+    data, picture = arguments.outputs(options, "precision", ".csv", ".png")
     case = case_of(load_scene(options.scene, options.overrides), options.frequency)
     exact = reference(case, QUICK if options.quick else BUDGET)
     print(f"{case.frequency / math.tau:.6g} Hz; " + precision_tables.reference(exact))
@@ -73,7 +73,7 @@ def _run(options: argparse.Namespace) -> int:
         ending = "interrupted"
     if found:
         _keep(options, found, exact, data.with_suffix(".csv"), picture)
-    return arguments.ended(ending)
+    return arguments.ended(ending, kept=bool(found))
 
 
 def _keep(

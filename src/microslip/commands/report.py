@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
+from microslip.commands.places import OutputError, demand_place
 from microslip.commands.report_parts import PARTS
 from microslip.commands.report_sections import section_of, words_of
 from microslip.page import DONE, LEFT_OUT, STOPPED, Section, page
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from microslip.scene_tables import Scene
 
 LIBRARIES = ("numpy", "scipy", "numba", "pyfftw", "matplotlib")
+PAGE = "index.html"
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -87,9 +89,10 @@ def _folder(options: argparse.Namespace) -> Path:
         chosen.mkdir(exist_ok=True)
     except OSError as error:
         reason = error.strerror or error
-        raise arguments.OutputError(
+        raise OutputError(
             f"there is no folder {chosen} to write to: {reason}"
         ) from None
+    demand_place(chosen / PAGE)
     return chosen
 
 
@@ -156,7 +159,7 @@ def _write(folder: Path, options: argparse.Namespace, sections: list[Section]) -
     """
     from microslip.store import told
 
-    path = folder / "index.html"
+    path = folder / PAGE
     made = time.strftime("%Y-%m-%d %H:%M %Z")
     about = f"microslip report, {made}"
     with told(path):

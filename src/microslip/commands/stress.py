@@ -65,7 +65,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.studies.stress import tried
     from microslip.studies.stress_cases import cases
 
-    _, picture = arguments.outputs(options, "stress")
+    _, picture = arguments.outputs(options, "stress", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
     chosen = cases(scene, quick=options.quick)
     seconds = options.seconds or (QUICK if options.quick else LONGEST)
@@ -87,9 +87,10 @@ def _run(options: argparse.Namespace) -> int:
         ):
             print(_line(each), flush=True)
     except KeyboardInterrupt:
-        return arguments.ended("interrupted")
+        return arguments.ended("interrupted", kept=bool(found))
     finally:
-        _write(options, picture, chosen, found)
+        if found:
+            _write(options, picture, chosen, found)
     return _verdict(found, 0.0 if options.quick else SHARE)
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from microslip.commands import arguments
+from microslip.commands.places import demand_place
 from microslip.commands.sweep_tables import energy_table, estimates, extremes
 
 if TYPE_CHECKING:
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from microslip.recording import Recording
     from microslip.scene_tables import Scene
     from microslip_mechanics.envelope import Envelope
+    from microslip_mechanics.problem import Problem
     from microslip_mechanics.time_history import Checkpoint, TimeHistory
 
 
@@ -74,7 +76,7 @@ def _run(options: argparse.Namespace) -> int:
     with recording:
         ending = kept(watched(loads.duration)(blocks), recording.keep)
         recording.end(ending)
-    closed = _show(options, data, picture)
+    closed = _show(options, problem, data, picture)
     unit = "cycles" if envelope else "times"
     print(f"{recording.rows} {unit} in {data}, picture in {picture}")
     if options.tolerance and beyond_motion(problem.interface.points):
@@ -122,7 +124,9 @@ def _places(options: argparse.Namespace) -> tuple[Path, Path]:
             f"-o {options.output}: a march goes on in the file that --resume names: "
             "leave -o out"
         )
-    return options.resume, options.resume.with_suffix(".png")
+    picture = options.resume.with_suffix(".png")
+    demand_place(picture)
+    return options.resume, picture
 
 
 def _begun(
@@ -150,7 +154,9 @@ def _begun(
     return recording, end.checkpoint, envelope
 
 
-def _show(options: argparse.Namespace, data: Path, picture: Path) -> bool:
+def _show(
+    options: argparse.Namespace, problem: Problem, data: Path, picture: Path
+) -> bool:
     """Print and draw what the file holds; return whether its energies balance."""
     from microslip.figures.result import result_figure
     from microslip.result_file import load
@@ -160,7 +166,10 @@ def _show(options: argparse.Namespace, data: Path, picture: Path) -> bool:
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)
     save_figure(picture, result_figure(result, arguments.title(options)))
     print(energy_table(result))
-    print("\n".join([*estimates(result), *extremes(result)]))
+    normals = problem.interface.displacement[::3]
+    pairs = zip(problem.interface.names, normals, strict=True)
+    pressed = [name for name, normal in pairs if normal.any()]
+    print("\n".join([*estimates(result), *extremes(result, pressed)]))
     return closes(result)
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from microslip_mechanics.envelope import Envelope
     from microslip_mechanics.time_history import TimeHistory
 
@@ -40,8 +42,11 @@ def estimates(result: TimeHistory | Envelope) -> list[str]:
     return [*lines, peak]
 
 
-def extremes(result: TimeHistory | Envelope) -> list[str]:
-    """Return lines of the extremes of displacements, velocities and forces."""
+def extremes(result: TimeHistory | Envelope, pressed: Sequence[str]) -> list[str]:
+    """Return lines of the extremes of displacements, velocities and forces.
+
+    ``pressed`` are the contacts that have normal forces at all.
+    """
     from microslip_mechanics.envelope import Envelope
 
     if isinstance(result, Envelope):
@@ -55,8 +60,11 @@ def extremes(result: TimeHistory | Envelope) -> list[str]:
         far = 1e3 * max(abs(each[:, place]).max() for each in moved)
         fast = abs(moving[:, place]).max()
         lines.append(f"  {name:20s} {far:12.6g} {fast:12.6g}")
-    lines.append("normal force [N], least and most")
+    if pressed:
+        lines.append("normal force [N], least and most")
     for place, name in enumerate(result.contacts):
+        if name not in pressed:
+            continue
         least, most = normal[0][:, place].min(), normal[1][:, place].max()
         lines.append(f"  {name:20s} {least:12.6g} {most:12.6g}")
     if result.divided:

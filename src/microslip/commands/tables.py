@@ -50,7 +50,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument(
         "--quick",
         action="store_true",
-        help="do not march again with half the time step (no estimate of its error)",
+        help="do not march again with half the time step (the error of the "
+        "energy is then estimated from a march with twice the step)",
     )
     parser.set_defaults(run=_run)
 

@@ -47,7 +47,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.track import tracked
 
-    data, picture = arguments.outputs(options, "track")
+    data, picture = arguments.outputs(options, "track", ".csv", ".png")
     for value in options.values:
         loaded = load_scene(
             options.scene, [*options.overrides, f"{options.key}={value}"]
@@ -72,7 +72,7 @@ def _run(options: argparse.Namespace) -> int:
     torn = sum(each.ending != "complete" for each in found)
     if torn and ending == "complete":
         ending = f"{torn} of {len(found)} curves are not whole"
-    return arguments.ended(ending)
+    return arguments.ended(ending, kept=bool(found))
 
 
 def _lines(each: Tracked) -> str:
@@ -133,5 +133,14 @@ def _keep(
             if event is not highest
         ]
     title = arguments.title(options)
-    save_figure(picture, track_figure(peaks, others, label, title, names))
+    errors = [
+        event.frequency_error / math.tau
+        for each in found
+        for event in each.events
+        if math.isfinite(event.frequency_error)
+    ]
+    save_figure(
+        picture,
+        track_figure(peaks, others, label, title, names, max(errors, default=0.0)),
+    )
     print(f"table in {table}, picture in {picture}")

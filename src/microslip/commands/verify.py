@@ -89,7 +89,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip_mechanics.contact.memory import beyond_motion
 
-    _, picture = arguments.outputs(options, "verify")
+    _, picture = arguments.outputs(options, "verify", ".png")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     if not problem.drive.any():

@@ -10,6 +10,7 @@ from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
+    called,
     faces,
     foremost,
     framed,
@@ -77,7 +78,8 @@ def normal_force(axes: Axes, envelope: Envelope, face: str, places: list[int]) -
             linewidth=WIDTH,
             label=envelope.contacts[place],
         )
-    framed(axes, x=TIME, y="force [N]", title=f"Normal forces, face {face}")
+    where = called(face, [envelope.contacts[place] for place in places])
+    framed(axes, x=TIME, y="force [N]", title=f"Normal forces, {where}")
     axes.legend(frameon=False, loc="upper left")
 
 

@@ -12,6 +12,7 @@ from microslip.figures.style import (
     WIDTH,
     framed,
     headline,
+    widened,
 )
 
 
@@ -26,6 +27,8 @@ class ModeLine:
     """[Hz]"""
     damping: Sequence[float]
     """ratio"""
+    error: float = 0.0
+    """largest of the frequencies, estimated [Hz]"""
 
 
 def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
@@ -48,6 +51,7 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
         for axes in (left, right):
             axes.set_xscale("log")
     left.ticklabel_format(axis="y", useOffset=False)
+    widened(left, max((line.error for line in lines), default=0.0))
     ratios = [ratio for line in lines for ratio in line.damping]
     if ratios and min(ratios) > 0.0:
         right.set_ylim(0.0, 108.0 * max(ratios))

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from microslip.figures.style import (
@@ -16,11 +18,14 @@ from microslip.figures.style import (
     headline,
     literal,
     plain_logarithmic,
+    widened,
 )
 from microslip_mechanics.arrays import Array, ComplexArray
 
 LIMITS = {"free": ":", "stuck": "--"}
 """lines of the poles without friction and without sliding"""
+BESIDE = 0.3
+"""half the length of a limit at a value without neighbours"""
 NOTHING = complex(np.nan, np.nan)
 
 
@@ -31,6 +36,7 @@ def poles_figure(
     span: tuple[float, float],
     key: str,
     title: str,
+    names: Sequence[str] = (),
 ) -> Figure:
     """Draw frequency and damping against the parameter, and the paths of the poles.
 
@@ -46,6 +52,8 @@ def poles_figure(
         Range that the frequencies must be in to be shown [rad/s].
     key, title
         What the parameter and the picture are called.
+    names
+        Of values that are no numbers: no line joins these.
     """
     figure = Figure(figsize=(12.0, 4.2), layout="constrained")
     frequency, damping, path = figure.subplots(1, 3)
@@ -54,23 +62,53 @@ def poles_figure(
     shown = np.where(_inside(branches, span), branches, NOTHING)[order]
     for number, branch in enumerate(shown.T):
         colour = COLOURS[number % len(COLOURS)]
-        line = {"color": colour, "linewidth": 1.5 * WIDTH, "markersize": 3.0}
-        frequency.plot(where, _hertz(branch), "-o", **line)
-        damping.plot(where, _ratio(branch), "-o", **line)
-        path.plot(_positive(-branch.real), _hertz(branch), "-o", **line)
-    for name, style in LIMITS.items():
+        line = {
+            "color": colour,
+            "linewidth": 1.5 * WIDTH,
+            "marker": "o",
+            "markersize": 3.0,
+        }
+        line["linestyle"] = "" if names else "-"
+        frequency.plot(where, _hertz(branch), **line)
+        damping.plot(where, _ratio(branch), **line)
+        path.plot(_positive(-branch.real), _hertz(branch), **line)
+    for name in LIMITS:
         lines = np.where(_inside(limits[name], span), limits[name], NOTHING)[order]
-        line = {"color": "0.35", "linewidth": WIDTH, "linestyle": style}
         for axes, heights in ((frequency, _hertz(lines)), (damping, _ratio(lines))):
-            drawn = axes.plot(where, heights, **line)
-            if drawn:
-                drawn[0].set_label(name)
-    _finish(frequency, damping, path, where, key)
+            _limit(axes, where, heights, name, apart=bool(names))
+    _finish(frequency, damping, path, where, key, names)
+    for axes in (frequency, path):
+        axes.ticklabel_format(axis="y", useOffset=False)
+        widened(axes)
     headline(figure, title)
     return figure
 
 
-def _finish(frequency: Axes, damping: Axes, path: Axes, where: Array, key: str) -> None:
+def _limit(axes: Axes, where: Array, heights: Array, name: str, *, apart: bool) -> None:
+    """Draw a limit against the parameter: a line, or one beside each value."""
+    line: dict[str, Any] = {"color": "0.35", "linewidth": WIDTH}
+    line["linestyle"] = LIMITS[name]
+    drawn: list[Line2D] = []
+    if where.size > 1 and not apart:
+        drawn = axes.plot(where, heights, **line)
+    elif apart:
+        for place, row in zip(where, heights, strict=True):
+            ends = place - BESIDE, place + BESIDE
+            drawn += [axes.plot(ends, [y, y], **line)[0] for y in row[np.isfinite(row)]]
+    else:
+        drawn = [axes.axhline(y, **line) for y in heights[np.isfinite(heights)]]
+    if np.isfinite(heights).any():
+        drawn[0].set_label(name)
+
+
+def _finish(
+    frequency: Axes,
+    damping: Axes,
+    path: Axes,
+    where: Array,
+    key: str,
+    names: Sequence[str],
+) -> None:
     """Scale, name and frame the panels."""
     damping.set_yscale("log")
     path.set_xscale("log")
@@ -80,8 +118,12 @@ def _finish(frequency: Axes, damping: Axes, path: Axes, where: Array, key: str) 
         path, x="rate of decay [1/s]", y="frequency [Hz]", title="Paths of the poles"
     )
     for axes in (frequency, damping):
-        _scale(axes, where)
-        axes.legend(frameon=False)
+        if names:
+            axes.set_xticks(range(len(names)), [literal(name) for name in names])
+        else:
+            _scale(axes, where)
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(frameon=False)
     for axes in (frequency, damping, path):
         axes.margins(x=0.04)
     plain_logarithmic(path.xaxis)

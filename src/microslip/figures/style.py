@@ -40,6 +40,21 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
 
 
+FLAT = 1e-6
+"""of its data, that an axis shows at least: less is rounding"""
+
+
+def widened(axes: Axes, error: float = 0.0) -> None:
+    """Widen a vertical axis that would show nothing but the ``error`` of its data."""
+    low, high = axes.dataLim.intervaly
+    if not np.isfinite([low, high]).all():
+        return
+    least = max(2.0 * error, FLAT * max(abs(low), abs(high)))
+    if high - low < least:
+        middle = 0.5 * (low + high)
+        axes.set_ylim(middle - 0.55 * least, middle + 0.55 * least)
+
+
 LETTERS = 11.0
 """of a title in an inch"""
 LONG = 150.0
@@ -135,6 +150,14 @@ def faces(contacts: Iterable[str]) -> dict[str, list[int]]:
     for place, name in enumerate(contacts):
         found.setdefault(name.rstrip("0123456789").rstrip("-"), []).append(place)
     return found
+
+
+def called(face: str, contacts: Sequence[str]) -> str:
+    """Return what titles call the points of a face, or of the element of that name."""
+    if len(face) == 1:
+        return f"face {face}"
+    name = contacts[0] if len(contacts) == 1 else face
+    return name if name.startswith("element") else f"element {name}"
 
 
 def headline(figure: Figure, title: str) -> None:

@@ -13,6 +13,7 @@ from microslip.figures.style import (
     COLOURS,
     WIDTH,
     alike,
+    called,
     faces,
     foremost,
     framed,
@@ -117,7 +118,8 @@ def normal_force(
             label=", ".join(history.contacts[place] for place in group),
             rasterized=True,
         )
-    framed(axes, x=TIME, y="force [N]", title=f"Normal forces, face {face}")
+    where = called(face, [history.contacts[place] for place in places])
+    framed(axes, x=TIME, y="force [N]", title=f"Normal forces, {where}")
     for line in axes.legend(frameon=False, loc="upper left").get_lines():
         line.set_linewidth(2.0)
 

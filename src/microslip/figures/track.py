@@ -17,6 +17,7 @@ from microslip.figures.style import (
     headline,
     literal,
     plain_logarithmic,
+    widened,
 )
 
 MANY = 10
@@ -31,6 +32,7 @@ def track_figure(
     key: str,
     title: str,
     names: Sequence[str] = (),
+    error: float = 0.0,
 ) -> Figure:
     """Draw amplitude and frequency of the highest peak, and the other events.
 
@@ -44,6 +46,8 @@ def track_figure(
         What the parameter and the picture are called.
     names
         Of values that are no numbers: no line joins these.
+    error
+        Largest of the frequencies, estimated [Hz].
     """
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
@@ -71,6 +75,7 @@ def track_figure(
         else:
             _ticks(axes, values)
     right.ticklabel_format(axis="y", useOffset=False)
+    widened(right, error)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
     sizes = [1e3 * amplitude for *_, amplitude in peaks]
     left.set_ylim(0.0, 1.06 * max(sizes) if sizes else None)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from microslip_mechanics.arrays import numbers_of
 from microslip_mechanics.contact.points import TWO_SIDED, PointLaw
 from microslip_mechanics.laws.row import ALONG, BETWEEN, Counts, Row, along
 from microslip_mechanics.quantity import check_quantities, quantity
@@ -23,20 +23,25 @@ class PolynomialSpring:
 
     def __post_init__(self) -> None:
         """Check powers and coefficients."""
+        if not isinstance(self.coefficients, Mapping):
+            raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+                f"polynomial-spring: coefficients = {self.coefficients!r}: give one "
+                "for each power, such as {3: 2e6}"
+            )
         if not self.coefficients:
             raise ValueError(
                 "polynomial-spring: coefficients are empty: give some, such as {3: 2e6}"
             )
         for power, value in self.coefficients.items():
+            if numbers_of([power, value]).shape != (2,):
+                raise ValueError(
+                    f"polynomial-spring: coefficient {value!r} of power {power!r}: "
+                    "give two finite numbers, such as {3: 2e6}"
+                )
             if not 1.0 <= power <= 20.0:
                 raise ValueError(
                     f"polynomial-spring: power {power:g}: give 1 to 20; a constant "
                     "force is a preload"
-                )
-            if not math.isfinite(value):
-                raise ValueError(
-                    f"polynomial-spring: coefficient {value} of power {power:g} is not "
-                    "finite: give a finite number"
                 )
 
     @property

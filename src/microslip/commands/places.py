@@ -1,0 +1,62 @@
+"""Places of results: whether they can be written is told before the work."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from microslip.errors import GivenError
+
+
+class OutputError(GivenError):
+    """Results have no place to go."""
+
+
+def is_folder(path: Path) -> bool:
+    """Return whether there is a folder of this name.
+
+    Raises
+    ------
+    OutputError
+        If there can be nothing of this name.
+    """
+    try:
+        return path.is_dir()
+    except OSError as error:
+        raise _refused(path, error) from None
+
+
+def demand_place(path: Path) -> None:
+    """Refuse a file that cannot be written: better before the work than after it.
+
+    Raises
+    ------
+    OutputError
+        If its folder does not exist or is closed, a folder has its name, or its name is
+        too long.
+    """
+    if not is_folder(path.parent):
+        raise OutputError(
+            f"there is no folder {path.parent} to write to: make it first"
+        )
+    if is_folder(path):
+        raise OutputError(
+            f"{path} is a folder and cannot be written: give the name of a file"
+        )
+    if not os.access(path.parent, os.W_OK | os.X_OK):
+        raise OutputError(
+            f"the folder {path.parent} cannot be written to: give another one"
+        )
+    try:
+        there = path.exists()
+    except OSError as error:
+        raise _refused(path, error) from None
+    if there and not os.access(path, os.W_OK):
+        raise OutputError(f"{path} cannot be written to: give another name")
+
+
+def _refused(path: Path, error: OSError) -> OutputError:
+    reason = error.strerror or error
+    name = f"{path.name[:40]}…" if len(path.name) > 40 else path.name
+    where = path.with_name(name) if path.name else path
+    return OutputError(f"{where} cannot be written: {reason}: give another name")

@@ -1,0 +1,94 @@
+"""Arguments of the functions of plain Python, checked and named."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Sequence
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from microslip.errors import GivenError
+from microslip.quantity import SceneError
+from microslip.table import read_table
+
+if TYPE_CHECKING:
+    from microslip_mechanics.problem import Problem
+
+
+def texts_of(function: str, source: object, overrides: object) -> Sequence[str]:
+    """Return the overrides of a scene, of which there may be one.
+
+    Raises
+    ------
+    GivenError
+        If they, or the source, are no texts.
+    """
+    if not isinstance(source, (str, PathLike)):
+        raise GivenError(
+            f"{function}: source = {source!r}: give the name of a built-in scene, or "
+            "the path of a scene file"
+        )
+    several = [overrides] if isinstance(overrides, str) else overrides
+    if not isinstance(several, Sequence) or not all(
+        isinstance(each, str) for each in several
+    ):
+        raise GivenError(
+            f"{function}: overrides = {overrides!r}: give texts table.key=value, such "
+            'as "drive.x=0.2"'
+        )
+    return several
+
+
+@contextlib.contextmanager
+def named(function: str) -> Iterator[None]:
+    """Make errors of values, such as those of a free body, ones of a function."""
+    try:
+        yield
+    except (ValueError, SceneError) as error:
+        raise GivenError(f"{function}: {error}") from None
+
+
+def read(function: str, table: type, **values: object) -> Any:  # noqa: ANN401
+    """Return the arguments of a function as the keys of a scene's table are read."""
+    given = {name: _plain(value) for name, value in values.items() if value is not None}
+    return read_table(function, "", table, given)
+
+
+def _plain(value: Any) -> object:  # noqa: ANN401  (whatever is given)
+    """Return numbers of numpy as those of Python."""
+    if not hasattr(value, "tolist"):
+        return value
+    return value.item() if getattr(value, "size", 0) == 1 else value.tolist()
+
+
+def check_apart(function: str, lowest: float, highest: float) -> None:
+    """Check that two frequencies [Hz] are a range.
+
+    Raises
+    ------
+    GivenError
+        If they are the same.
+    """
+    if lowest == highest:
+        raise GivenError(
+            f"{function}: lowest and highest are both {lowest:g} Hz: give two "
+            "different frequencies"
+        )
+
+
+def checked(function: str, problem: Problem) -> Problem:
+    """Return a problem.
+
+    Raises
+    ------
+    GivenError
+        If it is none.
+    """
+    from microslip_mechanics.problem import Problem
+
+    if not isinstance(problem, Problem):
+        raise GivenError(
+            f"{function}: problem = {problem!r}: give what microslip.system or "
+            "microslip.scene returns"
+        )
+    return problem

@@ -1,0 +1,82 @@
+"""Pictures of few values: names on the axis, limits that are seen, no rounding."""
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+
+from microslip.figures.modes import ModeLine, modes_figure
+from microslip.figures.poles import poles_figure
+from microslip.figures.style import widened
+from microslip.figures.track import track_figure
+from microslip_mechanics.arrays import ComplexArray
+
+SPAN = (1.0, 1e3)
+
+
+def poles(*values: complex) -> ComplexArray:
+    return np.array(values, dtype=complex)[:, None]
+
+
+@pytest.mark.parametrize(
+    ("values", "error", "span"),
+    [
+        ([135.0, 135.0 + 1e-12], 0.0, 1.1 * 1e-6 * 135.0),
+        ([135.0, 135.0 + 1e-12], 1e-2, 1.1 * 2e-2),
+    ],
+)
+def test_an_axis_does_not_show_rounding(
+    axes: Axes, values: list[float], error: float, span: float
+) -> None:
+    axes.plot(values)
+
+    widened(axes, error)
+
+    assert np.ptp(axes.get_ylim()) == pytest.approx(span, rel=1e-3)
+
+
+def test_an_axis_that_shows_more_stays(axes: Axes) -> None:
+    axes.plot([1.0, 2.0])
+    before = axes.get_ylim()
+
+    widened(axes, 1e-3)
+
+    assert axes.get_ylim() == before
+
+
+def test_poles_of_named_values_stand_at_their_names() -> None:
+    pole, stuck = poles(-1 + 100j, -1 + 100j), poles(-1 + 110j, -2 + 120j)
+    limits = {"free": pole, "stuck": stuck}
+
+    figure = poles_figure([0.0, 1.0], pole, limits, SPAN, "model", "", ["A", "B"])
+
+    frequency, damping, path = figure.axes
+    for axes in (frequency, damping):
+        assert [label.get_text() for label in axes.get_xticklabels()] == ["A", "B"]
+    assert all(line.get_linestyle() == "None" for line in path.lines)
+    drawn = [line for line in frequency.lines if line.get_color() == "0.35"]
+    for line, ends in zip(drawn, [(-0.3, 0.3), (0.7, 1.3)] * 2, strict=True):
+        assert np.asarray(line.get_xdata()).tolist() == pytest.approx(list(ends))
+
+
+def test_limits_of_one_value_are_drawn_across() -> None:
+    limits = {"free": poles(-1 + 90j), "stuck": poles(complex(np.nan, np.nan))}
+
+    figure = poles_figure([0.3], poles(-1 + 100j), limits, SPAN, "friction", "")
+
+    frequency = figure.axes[0]
+    (line,) = (line for line in frequency.lines if line.get_label() == "free")
+    assert np.asarray(line.get_xdata()).tolist() == [0, 1]  # of the width
+    labels = frequency.get_legend_handles_labels()[1]
+    assert labels == ["free"]
+
+
+def test_frequencies_that_do_not_change_have_a_readable_axis() -> None:
+    hertz = [135.0, 135.0 + 3e-14]
+    flat = ModeLine("mode", [1e-3, 2e-3], hertz, [0.01, 0.01])
+    peaks = [(0.0, hertz[0], 1e-3), (1.0, hertz[1], 1e-3)]
+
+    mode, _ = modes_figure([flat], "").axes
+    _, tracked = track_figure(peaks, [], "model", "", ["A", "B"], 0.006).axes
+
+    assert np.ptp(mode.get_ylim()) == pytest.approx(1.1 * 1e-6 * 135.0, rel=1e-3)
+    assert np.ptp(tracked.get_ylim()) == pytest.approx(1.1 * 0.012, rel=1e-3)

@@ -1,0 +1,141 @@
+"""Calls of plain Python that make no sense: one line with a remedy for each."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import microslip
+
+SPRING = microslip.CubicSpring(cubic=1.0)
+CHAIN: dict[str, Any] = {"mass": [1.0, 1.0], "stiffness": [[2.0, -1.0], [-1.0, 1.0]]}
+
+
+@pytest.fixture(scope="module")
+def duffing() -> Any:
+    return microslip.scene("duffing")
+
+
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        (
+            {"preload": {"x1": 3 + 4j}},
+            r"preload of x1 is \(3\+4j\): give a real number",
+        ),
+        ({"preload": [1.0]}, r"preload = \[1\.0\]: give static forces \[N\] by degree"),
+        ({"preload": np.ones(2)}, "preload = array"),
+        ({"drive": np.ones(2)}, "drive = array"),
+        (
+            {"elements": microslip.Element(SPRING, ("x1", "ground"))},
+            r"elements = Element\(.*: give a list of microslip.Element",
+        ),
+        ({"elements": 3}, "elements = 3: give a list"),
+        ({"names": [1, "x"]}, "names of degrees of freedom: 1 is no text"),
+        ({"names": 3}, "names of degrees of freedom: 3 is no text"),
+        ({"damping_ratio": "1 %"}, "damping_ratio = '1 %': give a number such as 0.01"),
+        ({"damping_ratio": ["a"]}, r"damping_ratio = \['a'\]: give a number"),
+        ({"loss_factor": "1 %"}, "loss_factor = '1 %': give a number such as 0.01"),
+        ({"rayleigh_damping": ("a", 1)}, r"rayleigh_damping = \('a', 1\): give two"),
+    ],
+)
+def test_arguments_of_a_system_that_are_of_no_use_are_named(
+    given: dict[str, Any], text: str
+) -> None:
+    with pytest.raises(ValueError, match=f"^{text}"):
+        microslip.system(**CHAIN, **given)
+
+
+def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
+    return lambda: getattr(microslip, name)(*given, **more)
+
+
+@pytest.mark.parametrize(
+    ("made", "text"),
+    [
+        (call("Element", "jenkins"), "Element: law = 'jenkins': give a law with its"),
+        (
+            call("Element", microslip.Jenkins, between=("x1", "ground")),
+            r"Element: Jenkins is a class: give Jenkins\(stiffness=…, limit=…\)",
+        ),
+        (call("PolynomialSpring", [1, 2]), r"polynomial-spring: .* = \[1, 2\]: give"),
+        (
+            call("PolynomialSpring", {"a": 1}),
+            "polynomial-spring: .* of power 'a': give",
+        ),
+        (call("PolynomialSpring", {3: "b"}), "polynomial-spring: coefficient 'b' of"),
+        (call("BaseMotion", [0, 0, math.nan], 1), "base: direction .*: give three"),
+        (call("BaseMotion", "xyz", 1), "base: direction xyz: give three numbers"),
+        (call("BaseMotion", [0, 0, 1], math.nan), "base: acceleration nan: give a"),
+        (call("reduced_problem", 3, 5e3), "reduced_problem: problem = 3: give what"),
+    ],
+)
+def test_what_is_no_law_motion_or_problem_is_told(
+    made: Callable[[], object], text: str
+) -> None:
+    with pytest.raises(ValueError, match=f"^{text}"):
+        made()
+
+
+@pytest.mark.parametrize(
+    ("made", "text"),
+    [
+        (call("scene", None), "scene: source = None: give the name of a built-in"),
+        (call("scene", "duffing", 3), "scene: overrides = 3: give texts table.key"),
+        (call("scene", "duffing", [None]), r"scene: overrides = \[None\]: give texts"),
+        (call("load", None), "load: path = None: give the path of a file"),
+    ],
+)
+def test_what_is_no_scene_or_path_is_told(
+    made: Callable[[], object], text: str
+) -> None:
+    with pytest.raises(microslip.MicroslipError, match=rf"^microslip\.{text}"):
+        made()
+
+
+def test_a_scene_may_be_a_path(tmp_path: Path) -> None:
+    from microslip.scene_file import built_in_text
+
+    path = tmp_path / "mine.toml"
+    path.write_text(built_in_text("duffing"), encoding="utf-8")
+
+    assert microslip.scene(path).probes.names == ("x",)
+
+
+def test_a_result_is_saved_to_a_path_alone(duffing: Any) -> None:
+    march = microslip.sweep(duffing, 4.0, 5.0, duration=0.1, time_step=1e-2)
+
+    with pytest.raises(microslip.MicroslipError, match="save: path = 3: give the path"):
+        microslip.save(march, 3)  # type: ignore[arg-type]
+
+
+def test_a_frequency_is_one_number(duffing: Any) -> None:
+    given: Any = np.array([4.0, 5.0])
+
+    text = r"curve: lowest = \[4\.0, 5\.0\]: is not a number"
+    with pytest.raises(microslip.MicroslipError, match=text):
+        microslip.curve(duffing, given, 7.0)
+
+
+def test_a_sweep_that_would_not_end_names_its_arguments(duffing: Any) -> None:
+    text = r"^microslip\.sweep: a march of .*: give a longer time_step, a larger store"
+    with pytest.raises(microslip.MicroslipError, match=text):
+        microslip.sweep(duffing, 4.0, 5.0, duration=1e9, time_step=1e-6)
+
+
+def test_modes_are_kept_up_to_a_frequency_with_a_unit() -> None:
+    problem = microslip.system(**CHAIN)
+
+    plain = microslip.reduced_problem(problem, 0.2, keep=["x1"])
+    units = microslip.reduced_problem(problem, "2e-4 kHz", keep=["x1"])
+
+    assert units.problem.structure.names == plain.problem.structure.names
+    with pytest.raises(ValueError, match="highest = '5 kg': has the wrong unit"):
+        microslip.reduced_problem(problem, "5 kg", keep=["x1"])
+    assert repr(plain).startswith(
+        "<ReducedProblem: of 2 degrees of freedom; <Problem: "
+    )
+    assert "\n" not in repr(plain)

@@ -126,10 +126,11 @@ def test_results_tell_what_they_are_in_a_line(
     assert small_history.ending in lines[1]
 
 
-def test_a_body_that_nothing_holds_is_told_as_an_error_of_microslip() -> None:
+def test_a_body_that_only_a_dashpot_holds_is_told_as_an_error_of_microslip() -> None:
     free = microslip.system(
         mass=[1.0, 1.0],
         stiffness=[[100.0, -100.0], [-100.0, 100.0]],
+        damping=[[1.0, 0.0], [0.0, 0.0]],
         drive={"x1": 0.5},
     )
 

@@ -14,6 +14,9 @@ PROBE = FourierBasis(5, 64)
 BESIDE = (0.9, 1.0, 1.1)
 """frequencies over the given one, at each of which the drive must reach a coordinate:
 next to a resonance rounding stands out, but not at all of them"""
+FAINT = 1e-12
+"""of the largest load of the drive, below which what reaches a coordinate is rounding:
+a drive in phase does not move the sectors of a disk against each other"""
 
 
 def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
@@ -28,7 +31,8 @@ def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
     still[0] = problem.rest
     at_rest = contact(still, frequency)
     amplitude = _stuck(problem, frequency)
-    driven = [_large(_load(problem, share * frequency)) for share in BESIDE]
+    faint = FAINT * largest(problem.force[1])
+    driven = [_large(_load(problem, share * frequency), faint) for share in BESIDE]
     active = np.zeros(still.shape, dtype=bool)
     active[1:3] = np.logical_and.reduce(driven)
     coupling = _coupling(problem, frequency)
@@ -102,10 +106,10 @@ def _stuck(problem: RelativeProblem, frequency: float) -> float:
     return max(largest(moved), 1e-12)
 
 
-def _large(values: Array | ComplexArray) -> NDArray[np.bool_]:
-    """Return what stands out from rounding."""
+def _large(values: Array | ComplexArray, faint: float = 0.0) -> NDArray[np.bool_]:
+    """Return what stands out from rounding, which may be as large as ``faint``."""
     size = np.abs(values)
-    large: NDArray[np.bool_] = size > 1e-10 * size.max(initial=0.0)
+    large: NDArray[np.bool_] = size > max(faint, 1e-10 * size.max(initial=0.0))
     return large
 
 

@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.active import extended, moving, symmetric
+from hbm.errors import PLACE, ContinuationError
 from hbm.fourier import FourierBasis
 from hbm.parametric import ParametricBalance
 from hbm.relative import RelativeProblem, relative_problem
 from hbm.rigid import with_pushes
 from hbm.stability import SmallMotions, small_motions
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState, static_equilibrium
 
@@ -64,7 +66,13 @@ class AlongParameter:
 
         Steps along a curve may lead beyond the range, where there may be no problem.
         """
-        return self._at(float(np.clip(parameter, *self._limits)))
+        parameter = float(np.clip(parameter, *self._limits))
+        if parameter not in self._past:
+            while len(self._past) >= PAST:
+                self._past.pop(next(iter(self._past)))
+            whole = self._whole(parameter)
+            self._past[parameter] = whole.restricted(self._kept, self._odd)
+        return self._past[parameter], self._frequency
 
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
@@ -73,7 +81,7 @@ class AlongParameter:
     def balance(self, fourier: FourierBasis) -> ParametricBalance:
         """Return harmonic balance at one resolution."""
         return ParametricBalance(
-            self._at, fourier, self.mask(fourier.harmonics), self.unit, self._limits
+            self.at, fourier, self.mask(fourier.harmonics), self.unit, self._limits
         )
 
     def unit(self, parameter: float) -> float:
@@ -85,23 +93,29 @@ class AlongParameter:
 
     def motions(self, parameter: float) -> SmallMotions:
         """Return the structure for small motions."""
-        problem = self._problem_at(parameter)
+        problem = self._problem(parameter)
         if self._motions is None or not _alike(problem, self._motions[0]):
             self._motions = problem, small_motions(problem)
         return self._motions[1]
 
-    def _at(self, parameter: float) -> tuple[RelativeProblem, float]:
-        """Return the problem at any value, and the frequency."""
-        if parameter not in self._past:
-            while len(self._past) >= PAST:
-                self._past.pop(next(iter(self._past)))
-            whole = self._whole(parameter)
-            self._past[parameter] = whole.restricted(self._kept, self._odd)
-        return self._past[parameter], self._frequency
+    def _problem(self, parameter: float) -> Problem:
+        """Return the problem at a value of the range, or its end.
+
+        Raises
+        ------
+        ContinuationError
+            If there is none.
+        """
+        parameter = float(np.clip(parameter, *self._limits))
+        try:
+            return self._problem_at(parameter)
+        except (MicroslipError, ValueError) as error:
+            text = f"there is no problem at {PLACE}: {error}"
+            raise ContinuationError(text, parameter) from error
 
     def _whole(self, parameter: float) -> RelativeProblem:
         """Return the problem at one value, in all relative coordinates."""
-        problem = self._problem_at(parameter)
+        problem = self._problem(parameter)
         known = rest = None
         if self._last is not None:
             earlier, known, rest = self._last

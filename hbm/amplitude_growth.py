@@ -12,6 +12,9 @@ from microslip_mechanics.arrays import Array
 
 FLAT = 1e-13
 """change of an amplitude, relative, that may be rounding"""
+EQUAL = 1e-9
+"""difference of amplitudes, relative, up to which either may be the largest: one of
+them stands for all, on both sides of a peak"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +42,7 @@ class AmplitudeGrowth:
         if on == back:
             return 0.0
         sizes = self.resolution.amplitudes([point + back * along, point + on * along])
-        place = int(sizes[0].argmax())
+        place = int((sizes[0] >= (1.0 - EQUAL) * sizes[0].max()).argmax())
         change = float(sizes[1][place] - sizes[0][place])
         rounding = FLAT * float(sizes[0][place])
         return 2.0 * change / (on - back) if abs(change) > rounding else 0.0

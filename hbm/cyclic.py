@@ -25,7 +25,8 @@ def cyclic_response(
     """Yield the periodic responses of one sector along a frequency response curve.
 
     The other sectors move like it, each ahead of the one before by ``problem.lead``.
-    Floquet multipliers are not computed: a disturbance need not travel like that.
+    Energies are those that all of them take out. Floquet multipliers are not computed:
+    a disturbance need not travel like that.
 
     Raises
     ------
@@ -38,7 +39,17 @@ def cyclic_response(
     path = along_sector(problem, options.start, options.end, pruned=options.pruned)
     tracer = Tracer(standing, path, replace(options, stability=False))
     with one_thread(), placed(hertz):
-        yield from tracer.responses()
+        for each in tracer.responses():
+            yield _of_all(each, problem.sectors)
+
+
+def _of_all(response: PeriodicResponse, sectors: int) -> PeriodicResponse:
+    """Return the response of one sector with the energies of all."""
+    return replace(
+        response,
+        friction_energy=sectors * response.friction_energy,
+        damping_energy=sectors * response.damping_energy,
+    )
 
 
 def along_sector(

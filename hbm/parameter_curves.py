@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
 
 from hbm.along_parameter import AlongParameter
 from hbm.fold_curve import FoldCurve, FoldPoint
@@ -36,8 +39,11 @@ def parameter_response(
     """
     path = AlongParameter(problem_at, frequency, options.start, options.end)
     tracer = Tracer(_driven(problem_at, options), path, options)
+    least, most = sorted((options.start, options.end))
     with one_thread():
-        yield from tracer.responses()
+        for response in tracer.responses():  # rounding may leave the range at its ends
+            inside = float(np.clip(response.parameter, least, most))
+            yield replace(response, parameter=inside)
 
 
 def fold_curve(

@@ -25,6 +25,8 @@ REMEMBERED = 60
 """points behind the last one, by which the way to a corner is known"""
 CORNERS = 30
 """that a piece may turn round before it is given up"""
+AHEAD = (0.0, 1e-3, 1e-2)
+"""arc lengths beyond the point behind a corner at which the curve is taken up again"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +162,7 @@ class Pieces:
         way: deque[Correction] = deque(maxlen=REMEMBERED)
         for corner in range(CORNERS + 1):
             try:
-                for correction in self._traced(guess, heading, direction):
+                for correction in self._taken_up(guess, heading, direction):
                     joined = correction.joined or direction is not None
                     way.append(replace(correction, joined=joined, turns=turns))
                     yield way[-1]
@@ -176,6 +178,25 @@ class Pieces:
                 guess, direction, turns = turned
             else:
                 return
+
+    def _taken_up(
+        self, guess: Array, heading: float, direction: Array | None
+    ) -> Iterator[Correction]:
+        """Yield the corrections from a guess, behind a corner in a ``direction``.
+
+        With more harmonics the corner may lie a little further on: what is before it
+        has a tangent along which the parameter goes back, and is passed over.
+        """
+        if direction is None:
+            yield from self._traced(guess, heading, None)
+            return
+        for ahead in AHEAD:
+            traced = self._traced(guess + ahead * direction, heading, direction)
+            first = next(traced)
+            if first.along[-1] * direction[-1] >= 0.0:
+                break
+        yield first
+        yield from traced
 
     def _traced(
         self, guess: Array, heading: float, direction: Array | None

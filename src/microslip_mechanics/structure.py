@@ -15,6 +15,9 @@ from microslip_mechanics.quantity import LARGEST
 MATRICES = ("mass", "damping", "stiffness")
 LIGHTEST = 1e-15
 """mass over stiffness, over the largest one, below which rounding takes all of it"""
+LOOSE = 1e-12
+"""stiffness over the largest one, below which nothing but a contact that vanishes may
+hold a mass: it moves as a free one does, and says nothing of the others"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +125,8 @@ class Structure:
         slow = np.divide(mass, held, out=np.full(mass.size, np.nan), where=held > 0.0)
         if np.isnan(slow).all():
             return
-        light, heavy = int(np.nanargmin(slow)), int(np.nanargmax(slow))
+        firm = np.where(held > LOOSE * held.max(), slow, np.nan)
+        light, heavy = int(np.nanargmin(slow)), int(np.nanargmax(firm))
         if 0.0 < slow[light] < LIGHTEST * slow[heavy]:
             raise ValueError(
                 f"mass of {self.names[light]} is {mass[light]:g} beside "

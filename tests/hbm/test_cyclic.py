@@ -13,7 +13,12 @@ from hbm.periodic_response import periodic_response
 from memory_problems import JENKINS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.points import COULOMB, PointLaw, contact_table
+from microslip_mechanics.contact.points import (
+    COULOMB,
+    TWO_SIDED,
+    PointLaw,
+    contact_table,
+)
 from microslip_mechanics.cyclic import Coupling, CyclicProblem
 from microslip_mechanics.problem import Probes
 from microslip_mechanics.response import PeriodicResponse
@@ -23,6 +28,7 @@ from microslip_mechanics.structure import Structure
 COULOMB_LAW = PointLaw(
     friction=COULOMB, dynamic=0.3, threshold=0.05, constant_load=True, load=1.0
 )
+DAMPER = replace(COULOMB_LAW, normal=TWO_SIDED, damping=0.02)
 HARMONICS = 5
 
 
@@ -36,7 +42,7 @@ def bladed_disk(sectors: int, engine_order: int, law: PointLaw) -> CyclicProblem
     tie = np.zeros((4, 4))
     tie[0, 0] = -disk
     own, following = np.zeros((2, 3, 4))
-    own[1, 3], following[1, 3] = 1.0, -1.0
+    own[:2, 3], following[:2, 3] = 1.0, -1.0
     return CyclicProblem(
         sectors,
         engine_order,
@@ -80,8 +86,9 @@ def around(problem: CyclicProblem, response: PeriodicResponse) -> Array:
         (6, 1, COULOMB_LAW),
         (4, 2, JENKINS),
         (3, 3, JENKINS),
+        (6, 1, DAMPER),
     ],
-    ids=["jenkins", "odd number", "coulomb", "standing wave", "in phase"],
+    ids=["jenkins", "odd number", "coulomb", "standing wave", "in phase", "damper"],
 )
 def test_sector_moves_like_the_disk(
     sectors: int, engine_order: int, law: PointLaw
@@ -114,6 +121,10 @@ def test_sector_moves_like_the_disk(
         assert solved.coefficients == pytest.approx(
             whole, abs=1e-9 * np.abs(whole).max()
         )
+        for name in ("friction_energy", "damping_energy"):
+            found, expected = getattr(point, name), getattr(solved, name)
+            assert found == pytest.approx(expected, rel=1e-6, abs=1e-9)
+    assert (curve[-1].damping_energy > 1e-6) == (law is DAMPER)
 
 
 def test_mistuning_breaks_the_symmetry() -> None:

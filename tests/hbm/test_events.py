@@ -182,6 +182,17 @@ def test_rounding_is_no_growth_of_an_amplitude() -> None:
     assert growth(solved) > 0.0
 
 
+def test_the_first_of_equal_amplitudes_stands_for_all() -> None:
+    sizes = np.array([[1.0, 1.0 + 1e-15], [1.1, 0.9]])
+    resolution: Any = SimpleNamespace(amplitudes=lambda _: sizes)
+    none: Any = None
+    growth = AmplitudeGrowth(resolution, (0.0, 1.0))
+    point = np.array([1.0, 0.5])
+    solved = Correction(point, point, none, Outcome.CONVERGED, (0.0,), point)
+
+    assert growth(solved) > 0.0
+
+
 def crossing(known: Known, circle: Array) -> list[float]:
     """Return where a combination (1, sum, product) vanishes between 0 and 1."""
     combined = circle[1] * known.path[:, 0] + circle[2] * known.path[:, 1]

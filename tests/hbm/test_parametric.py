@@ -12,6 +12,7 @@ from hbm.options import CurveOptions
 from hbm.parameter_curves import parameter_response
 from hbm.step_control import StepControl
 from microslip.quantity import SceneError
+from microslip.studies.curve import gathered
 from microslip.studies.parameter import parameter
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
@@ -38,6 +39,32 @@ def test_a_curve_ends_where_there_is_no_problem_any_more(
 
     assert curve[0].parameter == start
     assert curve[-1].parameter == end
+
+
+@pytest.mark.parametrize("value", [-1e-24, 1.0 + 2e-16])
+def test_rounding_may_leave_the_range(value: float) -> None:
+    path = AlongParameter(limited, FREQUENCY, 1.0, 0.0)
+    fourier = FourierBasis(1, 64)
+    point = np.append(np.zeros(fourier.coefficients * path.rank), value)
+
+    balance, inner = path.balance(fourier).at_frequency(point)
+
+    assert np.isfinite(balance.residual(inner)).all()
+    assert path.motions(value).mass.size
+
+
+def test_what_is_traced_before_there_is_no_problem_is_kept() -> None:
+    def broken(value: float) -> Problem:
+        if 0.01 < value < 0.3:
+            raise ValueError("the limit is broken")
+        return limited(value)
+
+    options = CurveOptions(1.0, 0.0, harmonics=3, stability=False)
+    curve, ending = gathered(parameter_response(broken, FREQUENCY, options))
+
+    assert curve[0].parameter == 1.0
+    assert ending.startswith("there is no problem at parameter 0.")
+    assert ending.endswith(": the limit is broken")
 
 
 @pytest.mark.parametrize("value", [-0.02, 0.0, 0.3, 1.0, 1.02])

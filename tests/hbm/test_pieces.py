@@ -297,3 +297,24 @@ def test_a_rig_whose_coarse_responses_differ_has_a_first_point() -> None:
     first = next(curve)
     assert first.frequency == TURN * 125.0
     assert first.error < options.error
+
+
+@pytest.mark.parametrize(("corner", "ahead"), [(0.2999, 0.0), (0.304, 1e-2)])
+def test_behind_a_corner_a_piece_does_not_lead_back(
+    corner: float, ahead: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The corner, where the point is settled, may lie beyond the one that was found."""
+
+    def trace(
+        system: Square, start: Array, _: float, **__: Any
+    ) -> Iterator[Correction]:
+        residual, linearised = system(start)
+        along = np.array([0.0, 1.0 if start[-1] > corner else -1.0])
+        yield Correction(start, residual, linearised, Outcome.CONVERGED, (0.0,), along)
+
+    monkeypatch.setattr("hbm.pieces.trace", trace)
+    begin, along = np.array([1.0, 0.3]), np.array([0.0, 1.0])
+
+    (found,) = pieces(0.0, 1.0)._taken_up(begin, 1.0, along)
+
+    assert found.point[-1] == pytest.approx(0.3 + ahead)

@@ -76,6 +76,21 @@ def test_a_step_that_touches_slides_from_there_on(friction: int) -> None:
             assert found[:, axis] == pytest.approx(slope, rel=1e-7, abs=1e-7), axis
 
 
+@pytest.mark.parametrize(("beyond", "sticks"), [(1e-14, True), (1e-6, False)])
+def test_what_slips_by_rounding_sticks(beyond: float, sticks: bool) -> None:
+    moved, moving = np.zeros((2, 65, 1, 3))
+    moved[:, 0, 0] = 0.4
+    moved[:, 0, 1] = 0.1 * (1.0 - np.cos(np.linspace(0.0, 2.0 * np.pi, 65)))
+    sliders = Sliders.of(contact_table([SHOE]), EVERY)
+    limit = 40.0 * 60.0 * (0.4 - 0.3)  # the load, times the friction coefficient
+    first = np.array([limit * (1.0 + beyond) - 8.0 * 0.2, 0.0])
+
+    slides = slides_of(sliders, moved, moving, first, 1.0)
+
+    assert slides.stuck.tolist() == [sticks, sticks]
+    assert (slides.traction_past[1:] == np.eye(2)).all() == sticks
+
+
 def test_tractions_err_with_the_square_of_the_steps_where_a_point_touches() -> None:
     # where in its step the touch lies is an accident: the worst of some counts
     depths = np.linspace(0.0, 0.1, 21)

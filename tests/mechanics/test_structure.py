@@ -33,6 +33,16 @@ def test_singular_stiffness_and_no_damping_are_accepted() -> None:
     assert loose.dofs == 2
 
 
+def test_a_mass_that_rounding_takes_is_refused_but_not_for_a_vanishing_spring() -> None:
+    light = np.diag([1e-17, 1.0])
+
+    with pytest.raises(ValueError, match="mass of a is 1e-17 beside 1 of b"):
+        structure(mass=light, stiffness=np.eye(2))
+    vanishing = structure(mass=np.diag([1e-6, 1e-2]), stiffness=np.diag([1e9, 1e-7]))
+
+    assert vanishing.dofs == 2
+
+
 @pytest.mark.parametrize("name", MATRICES)
 def test_matrix_of_another_shape_is_refused(name: str) -> None:
     message = (

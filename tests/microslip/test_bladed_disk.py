@@ -55,6 +55,17 @@ def test_sector_and_disk_have_the_same_curve(law: str, limit: str) -> None:
         assert curve.frequency[end] == other.frequency[end]
         expected = np.full(6, curve.amplitude[end, 0])
         assert other.amplitude[end] == pytest.approx(expected, rel=1e-6)
+        energy = curve.friction_energy[end]
+        assert energy == pytest.approx(other.friction_energy[end], rel=1e-5, abs=1e-12)
+
+
+def test_a_disk_driven_in_phase_is_linear_and_has_one_peak() -> None:
+    scene = scene_of("drive.engine_order=6", WHOLE)
+
+    curve = trace_curve(problem_of(scene), scene.curve).curve
+
+    assert curve.ending == "complete"
+    assert [event for event in curve.event if event] == ["peak"]
 
 
 def test_stuck_tips_are_springs() -> None:

@@ -95,6 +95,12 @@ def test_other_scenes_are_asked_for_a_key_that_they_have(
         Question(scene, (), FRICTION).usual_values()
 
 
+def test_contacts_that_nothing_presses_are_answered_too() -> None:
+    _, (free,) = asked(["0"], "preload.force")
+
+    assert free.ending == "complete"
+
+
 def test_more_drive_turns_the_stuck_mode_into_sliding_ones() -> None:
     _, (weak, strong) = asked(["0.01", "1"], "excitation.force")
 
@@ -104,14 +110,15 @@ def test_more_drive_turns_the_stuck_mode_into_sliding_ones() -> None:
     assert 0.01 < strong.linear.error < 0.3
 
 
+@pytest.mark.parametrize("failure", [ContinuationError, ValueError])
 def test_a_value_without_a_response_leaves_a_gap(
-    monkeypatch: pytest.MonkeyPatch,
+    failure: type[Exception], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls = itertools.count()
 
     def failing(*arguments: object) -> object:
         if next(calls) == 1:
-            raise ContinuationError("stuck: try less")
+            raise failure("stuck: try less")
         return one_harmonic_response(*arguments)  # type: ignore[arg-type]
 
     monkeypatch.setattr(study, "one_harmonic_response", failing)

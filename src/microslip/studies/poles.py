@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from hbm.dense_problem import RESOLVED
 from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
-from hbm.errors import ContinuationError
 from hbm.one_harmonic import amplitudes, one_harmonic_error, one_harmonic_response
 from hbm.poles import NONE, followed, poles
 from microslip.rigs import problem_of
 from microslip.scene_tables import Scene
 from microslip.studies.pole_question import Question
 from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction import reduced
 from microslip_mechanics.response import PeriodicResponse
@@ -56,19 +56,27 @@ def linearised(question: Question, values: Sequence[str]) -> Iterator[Linearised
     """Yield the linearised scene for each value; a failure is a result too."""
     for value in values:
         scene = question.at(value)
-        problem, limits = problem_of(scene), limits_of(scene)
-        if problem.structure.sparse:
-            problem = reduced(problem, RESOLVED * limits[1]).problem
-        rest = static_equilibrium(problem)
         try:
-            response = one_harmonic_response(problem, rest, limits, question.frequency)
-        except ContinuationError as cause:
+            yield Linearised(value, "complete", _answer(question, scene))
+        except (MicroslipError, ValueError) as cause:
             yield Linearised(value, str(cause), None)
-            continue
-        error = one_harmonic_error(
-            problem, rest, response, limits, scene.curve.tolerance
-        )
-        yield Linearised(value, "complete", _linear(problem, rest, response, error))
+
+
+def _answer(question: Question, scene: Scene) -> Linear:
+    """Return the linearised scene at one value.
+
+    Raises
+    ------
+    MicroslipError, ValueError
+        If there is none.
+    """
+    problem, limits = problem_of(scene), limits_of(scene)
+    if problem.structure.sparse:
+        problem = reduced(problem, RESOLVED * limits[1]).problem
+    rest = static_equilibrium(problem)
+    response = one_harmonic_response(problem, rest, limits, question.frequency)
+    error = one_harmonic_error(problem, rest, response, limits, scene.curve.tolerance)
+    return _linear(problem, rest, response, error)
 
 
 def _linear(

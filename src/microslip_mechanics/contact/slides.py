@@ -21,6 +21,10 @@ from microslip_mechanics.contact.points import ELASTIC, ContactPoints
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.jit import kernel
 
+ROUNDING = 1e-9
+"""change of a traction by slipping in a step, over the limit, that is none: what is
+left of it where periods are marched until tractions repeat themselves"""
+
 
 class Slides(NamedTuple):
     """Tractions at all times of a motion, the beginning included, and derivatives."""
@@ -68,9 +72,9 @@ def slides_of(
     if sliders.count:
         recalling = np.flatnonzero(remembers(sliders.points))
         _follow(sliders.points, recalling, moved, moving, tractions, limits, by, load)
+    sticking = _sticking(sliders.points, moved, tractions, limits)
+    _stick(sliders.points, sticking, by)
     motion, past, kept = _derivatives(sliders, by, load, frequency)
-    never = (kept[1:] == np.eye(sliders.count)).all(axis=(0, 2))
-    stuck = never & (sliders.points.friction[sliders.point] == ELASTIC)
     held = tractions[1:].mean(axis=0)
     shares = _shares(tractions[1:], limits[1:], held)
     return Slides(
@@ -79,7 +83,7 @@ def slides_of(
         motion,
         past,
         kept,
-        stuck,
+        sticking[sliders.point],
         (shares[:, None] * held)[sliders.point, sliders.axis],
     )
 
@@ -115,6 +119,29 @@ def _follow(
                     by[place, point],
                 )  # fmt: skip
             before = press
+
+
+def _sticking(
+    points: ContactPoints, moved: Array, tractions: Array, limits: Array
+) -> NDArray[np.bool_]:
+    """Return at which points elastic friction never slips, but for rounding.
+
+    That a varying load has left just within its limit at one time still sticks.
+    """
+    pull = points.tangential[:, None] * np.diff(moved[:, :, 1:], axis=0)
+    slips = np.linalg.norm(np.diff(tractions, axis=0) - pull, axis=2)
+    elastic = points.friction == ELASTIC
+    small = slips.max(axis=0) <= ROUNDING * limits.max(axis=0)
+    sticks: NDArray[np.bool_] = elastic & small & np.all(limits[1:] > 0.0, axis=0)
+    return sticks
+
+
+def _stick(points: ContactPoints, sticking: NDArray[np.bool_], by: Array) -> None:
+    """Write the derivatives of what sticks."""
+    by[1:, sticking] = 0.0
+    for axis in range(2):
+        by[1:, sticking, axis, axis] = points.tangential[sticking]
+        by[1:, sticking, axis, 6 + axis] = 1.0
 
 
 def _derivatives(

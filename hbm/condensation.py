@@ -23,10 +23,10 @@ WIDE = 12
 class CondensedStructure:
     """Dynamic stiffness seen by the relative coordinates y, and the way back to u.
 
-    The motion is u = T y + N z + R w, where z is what moves while all contacts stick
+    The motion is u = T y + N z + Ψ w, where z is what moves while all contacts stick
     and w what nothing holds; z is eliminated exactly at each frequency, w is not
-    coupled with y. Poles and residues of the stuck structure are
-    computed once, so that a frequency costs two products of rank × poles.
+    coupled with y. Poles and residues of the stuck structure are computed once, so
+    that a frequency costs two products of rank × poles.
     """
 
     stiffness: Array

@@ -20,7 +20,7 @@ class StuckMotions(NamedTuple):
     free: Array
     """N: what moves against stiffness while y = 0, (dofs, free)"""
     unheld: Array
-    """R: what nothing holds while y = 0, of unit mass, (dofs, unheld); neither y nor z
+    """Ψ: what nothing holds while y = 0, of unit mass, (dofs, unheld); neither y nor z
     moves it"""
 
 

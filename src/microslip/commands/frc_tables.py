@@ -142,11 +142,13 @@ def resolution(curve: ResponseCurve) -> str:
 
 def uncounted(scene: Scene) -> list[str]:
     """Return what of a scene's model that error does not count, a line each."""
-    from microslip.scenes.systems.tables import System
+    from microslip.scenes.bladed_disk.tables import BladedDisk
+    from microslip.scenes.two_blades.tables import TwoBlades
+
+    if isinstance(scene.rig, TwoBlades | BladedDisk):
+        return []
     from microslip_mechanics.laws.iwan import Iwan
 
-    if not isinstance(scene.rig, System):
-        return []
     lines = []
     reduction = scene.rig.structure.reduction
     if reduction is not None:

@@ -20,7 +20,7 @@ def test_orbits_are_found_where_the_force_jumps_as_faces_touch() -> None:
         elements=[Element(stop, between=("x1", "ground"))],
         drive={"x1": 2.0 / 3.0},
     )
-    start, end = 2.0 * np.pi * 7.55, 2.0 * np.pi * 8.0
+    start, end = 2.0 * np.pi * 7.82, 2.0 * np.pi * 7.95
     rest = static_equilibrium(problem)
     points = frequency_response(problem, rest, CurveOptions(start, end))
 

@@ -109,9 +109,12 @@ def test_jacobian_is_exactly_the_multiplication_by_the_tangents(
 def test_without_events_the_tangents_are_those_of_the_law_at_each_sample(
     law: str,
 ) -> None:
-    # Pressed so that all touch, moved too slowly to slide.
+    # Pressed so that all touch and none lets go, moved too slowly to slide.
     points = every_combination(FRICTION_LAWS[law])
-    points = points._replace(threshold=np.full_like(points.threshold, 1e4))
+    points = points._replace(
+        threshold=np.full_like(points.threshold, 1e4),
+        clamped=np.zeros_like(points.clamped),
+    )
     rows = 3 * len(points.load)
     basis = np.eye(rows)
     motion = np.random.default_rng(5).standard_normal((SIZE, rows))

@@ -44,7 +44,7 @@ def test_a_dashpot_between_faces_takes_out_what_its_arc_says(aside: float) -> No
 
 
 def test_damping_that_grows_as_a_root_is_seen_as_well() -> None:
-    fine = taken(1 << 15, exponent=0.25, aside=1.0)
+    fine = taken(1 << 12, exponent=0.25, aside=1.0)
 
     assert taken(128, exponent=0.25, aside=1.0) == pytest.approx(
         fine, rel=5e-3

@@ -20,13 +20,13 @@ def test_orbits_are_found_where_the_force_jumps_as_faces_touch() -> None:
         elements=[Element(stop, between=("x1", "ground"))],
         drive={"x1": 2.0 / 3.0},
     )
-    start, end = 2.0 * np.pi * 7.82, 2.0 * np.pi * 7.95
+    start, end = 2.0 * np.pi * 7.84, 2.0 * np.pi * 7.9
     rest = static_equilibrium(problem)
     points = frequency_response(problem, rest, CurveOptions(start, end))
 
     # those that no change of the first state brings to close within rounding too
     found = [compared(problem, each) for each in points if not each.event]
 
-    assert len(found) > 12
+    assert len(found) > 5
     assert all(each.agrees for each in found)
     assert np.mean([each.as_estimated for each in found]) > 0.95

@@ -88,31 +88,20 @@ def sample(
         wide = faded(points, point)
         touch, slides = edge(points, point), rubs(points, point)
         steep, near = steepness(points, point), 0.0
-        goes, parts = lets_go(points, point), False
+        goes = lets_go(points, point)
         for place in range(seen):
             after = place + 1 if place + 1 < displacement.shape[1] else 0
             if steep > 1:
                 near = graded(
                     displacement[row, place] - touch, displacement[row, after] - touch
                 )
-            if goes:
-                share = released(points, point, displacement, velocity, place, after)
-                parts = share > 0.0
-            if (
-                near == 0.0
-                and not parts
-                and not passes(
-                    displacement,
-                    velocity,
-                    row,
-                    place,
-                    after,
-                    touch,
-                    slides,
-                    threshold,
-                    wide,
-                )
-            ):
+            parts = goes and (
+                released(points, point, displacement, velocity, place, after) > 0.0
+            )
+            if near == 0.0 and not parts and not passes(
+                displacement, velocity, row, place, after, touch, slides, threshold,
+                wide,
+            ):  # fmt: skip
                 continue
             found = locate(points, point, displacement, velocity, place, after, events)
             if found > 0 or near > 0.0:

@@ -9,6 +9,7 @@ import scipy.linalg
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.structure import Structure
+from microslip_mechanics.undamped_modes import undamped_modes
 from microslip_mechanics.unheld import dragged, unheld_motions
 
 
@@ -44,5 +45,11 @@ def stuck_motions(structure: Structure, selection: Array) -> StuckMotions:
     seen = np.vstack([selection, momenta])
     free = scipy.linalg.null_space(seen) if seen.size else np.eye(structure.dofs)
     held, direct = free.T @ stiffness, np.linalg.pinv(selection)
-    static = direct - free @ np.linalg.solve(held @ free, held @ direct)
+    stuck = held @ free
+    if (undamped_modes(stuck)[0] < 0.0).any():
+        raise ValueError(
+            "the stiffness of the structure drives it away while all contacts stick: "
+            "it has a negative eigenvalue; hold that motion by a spring"
+        )
+    static = direct - free @ np.linalg.solve(stuck, held @ direct)
     return StuckMotions(static - unheld @ (momenta @ static), free, unheld)

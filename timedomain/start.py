@@ -10,8 +10,10 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.memory import pressed, remembers
+from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.excitation import Dwell, LoadHistory
+from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.segments import factors_over
@@ -132,10 +134,7 @@ def _contacts(interface: Interface, start: Start) -> tuple[Array, Array, Array, 
     past = np.zeros((interface.count, 4, 2))
     past[:, 0], past[:, 2] = moved[:, 1:], moving[:, 1:]
     for point in range(interface.count):
-        press, _, _ = pressed(
-            interface.points, point, moved[point, 0], moving[point, 0]
-        )
-        past[point, 3] = press
+        _press(interface.points, point, moved[point, 0], moving[point, 0], past[point])
         contact_force(
             interface.points, point, moved[point], moving[point], forces[point], *unused
         )
@@ -143,3 +142,12 @@ def _contacts(interface: Interface, start: Start) -> tuple[Array, Array, Array, 
         past[:, 1] = start.traction
         forces[:, 1:] += start.traction
     return moved, moving, forces, past
+
+
+@kernel
+def _press(
+    points: ContactPoints, point: int, displacement: float, velocity: float, past: Array
+) -> None:
+    """Write into a point's past how it is pressed."""
+    press, _, _ = pressed(points, point, displacement, velocity)
+    past[3, 0], past[3, 1] = press.load, press.depth

@@ -25,6 +25,10 @@ def kernel(function: Function) -> Function:
     the cache folder is named after the content of all files whose kernels a kernel
     may call: those of this package and those beside its own. No fast-math: results
     must not differ between machines more than rounding makes them.
+
+    What Python calls must not return a named tuple: numba makes one by calling Python
+    without looking whether that succeeds, so that an interruption there (Ctrl-C, or the
+    end of a time) ends the process with a segmentation fault.
     """
     return _compiled(function, counted=True)
 

@@ -11,7 +11,7 @@ from timedomain.verify import agreement, march_periods
 
 FREQUENCIES = (6.5, 8.6)
 """below and near resonances [rad/s]"""
-SETTLED = 60
+SETTLED = 25
 """periods in which what begins on an orbit that is none leaves it"""
 
 

@@ -83,7 +83,7 @@ def test_the_command_keeps_a_curve_that_can_be_drawn_again(
 def test_frc_says_that_nothing_is_detached(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    short = (*STICKY, "curve.lowest=134 Hz", "curve.highest=134.5 Hz")
+    short = (*STICKY, "curve.lowest=134 Hz", "curve.highest=134.1 Hz")
     words = ["frc", "two-blades", "--detached", "--branches"]
     words += [word for each in short for word in ("--set", each)]
 

@@ -51,6 +51,7 @@ def check_equal(part: object, whole: object) -> None:
             assert ours == theirs, field.name
 
 
+@pytest.mark.usefixtures("no_picture")
 @pytest.mark.parametrize("kind", [(), ("--envelope",)], ids=["rows", "envelope"])
 @pytest.mark.parametrize("blocks", [pytest.param(1, marks=pytest.mark.long), 5])
 def test_two_parts_are_the_whole(
@@ -115,6 +116,7 @@ def test_what_a_kill_left_half_written_is_marched_again(
     check_equal(load(path).result, load(tmp_path / "whole.nc").result)
 
 
+@pytest.mark.usefixtures("no_picture")
 def test_a_kill_between_the_state_and_the_number_of_its_rows_loses_no_row(
     run: Run, quick_scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -133,6 +135,7 @@ def test_a_kill_between_the_state_and_the_number_of_its_rows_loses_no_row(
     check_equal(load(path).result, load(tmp_path / "whole.nc").result)
 
 
+@pytest.mark.usefixtures("no_picture")
 def test_last_state_is_that_of_the_last_row_and_of_the_envelope(
     run: Run, quick_scene: Path, tmp_path: Path
 ) -> None:
@@ -159,6 +162,7 @@ def test_last_state_is_that_of_the_last_row_and_of_the_envelope(
     np.testing.assert_array_equal(states[0][0].memory, states[1][0].memory)
 
 
+@pytest.mark.usefixtures("no_picture")
 def test_what_cannot_go_on_is_told_in_one_line(
     run: Run, quick_scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -186,6 +190,7 @@ def test_what_cannot_go_on_is_told_in_one_line(
     assert part.ending == "interrupted"
 
 
+@pytest.mark.usefixtures("no_picture")
 def test_state_of_a_curve_is_refused(
     run: Run, quick_scene: Path, tmp_path: Path
 ) -> None:

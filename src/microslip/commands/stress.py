@@ -24,8 +24,8 @@ HEADER = (
 )
 SHARE = 0.95
 """of the cases that must converge in both solvers and agree within 1 %"""
-LONGEST = 40.0
-"""seconds for a case: if a third needs them a matrix takes ten minutes on two cores"""
+LONGEST = 25.0
+"""seconds for a case: if a third needs them a matrix takes nine minutes on two cores"""
 QUICK = 5.0
 """the same in a quick look"""
 

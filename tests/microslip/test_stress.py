@@ -21,9 +21,10 @@ from microslip.studies.bounded import Ended, bounded
 from microslip.studies.curve import curve_options, trace_curve
 from microslip.studies.stress import tried
 from microslip.studies.stress_bad_values import BAD, bad_values
+from microslip.studies.stress_budget import LEAST, MOST, WHOLE, Budget
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_cases import cases
-from microslip.studies.stress_clock import Clock, OutOfTimeError, limited
+from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError, limited
 from microslip.studies.stress_finding import Finding, Outcome, Tried
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
@@ -108,35 +109,60 @@ def test_what_a_scene_does_not_allow_does_not_end_the_process_before_a_case() ->
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("overrides", "told"),
+    ("overrides", "ends", "told"),
     [
         # damped enough to be steady in a second: a busy machine has time for it
-        (("model=B", "blade.mass_damping=60"), "steady there"),
-        (("excitation.force=100",), "not steady there"),
+        (
+            ("model=B", "blade.mass_damping=60"),
+            ContinuationError("the curve does not go on"),
+            "steady there",
+        ),
+        (("excitation.force=100",), OutOfTimeError(LATE), "not steady there"),
     ],
 )
 def test_where_no_curve_begins_a_march_from_rest_says_whether_it_settles(
-    overrides: tuple[str, ...], told: str, monkeypatch: pytest.MonkeyPatch
+    overrides: tuple[str, ...],
+    ends: BaseException,
+    told: str,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def unbegun(*_: object, **__: object) -> None:
-        raise ContinuationError("the curve does not go on")
+        raise ends
 
     monkeypatch.setattr(stress_curve, "trace_curve", unbegun)
     case = Case("parameter", "value", overrides)
 
-    *_, found = stress._studied("two-blades", (), 6.0, case)
+    *_, found = stress._studied("two-blades", (), case, 6.0)
 
     assert found.outcome is Outcome.HONEST
-    assert "harmonic balance: the curve does not go on; a march" in found.cause
+    assert f"harmonic balance: {ends}; a march" in found.cause
     assert f" is {told} " in found.cause
+
+
+def test_cases_share_what_is_left_of_ten_minutes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now = [0.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    solved = [Case("parameter", f"{value}", ()) for value in range(100)]
+    refused = [Case("nan", "table", (), refusals=(("model=B",),))] * 60
+    budget = Budget(2, began=0.0)
+
+    assert budget.share([*solved, *refused]) == pytest.approx(4.0 * WHOLE / 100.0)
+    assert budget.share(solved[:20]) == MOST
+    assert Budget.each(123.0, 2).share(solved) == 123.0
+    for left in range(100, 0, -2):  # two at a time, and all take what they may
+        now[0] += budget.share(solved[:left])
+    assert now[0] < WHOLE + 20.0 * LEAST
 
 
 def ready() -> None:
     """Prepare nothing."""
 
 
-def work(item: str) -> Iterator[str]:
+def work(item: str, seconds: float) -> Iterator[str]:
     """Do as an item says."""
+    assert seconds == 3.0
     yield f"half of {item}"
     while item == "hangs":
         time.process_time()
@@ -149,7 +175,7 @@ def work(item: str) -> Iterator[str]:
 
 def test_what_hangs_dies_or_fails_does_not_stop_the_others() -> None:
     items = ["first", "hangs", "dies", "fails", "last"]
-    ended = bounded(work, items, seconds=3.0, processes=2, prepare=ready)
+    ended = bounded(work, items, seconds=lambda _: 3.0, processes=2, prepare=ready)
 
     found = {each.item: (each.result, each.cause) for each in ended}
 
@@ -270,7 +296,7 @@ def test_a_defect_is_no_honest_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(stress, "bounded", ended)
 
-    found = [each.finding for each in tried("gap", (), [], seconds=3.0, processes=1)]
+    found = [each.finding for each in tried("gap", (), [], Budget.each(3.0, 1))]
 
     assert [each.outcome for each in found] == [
         Outcome.AGREES,
@@ -292,7 +318,7 @@ CHOSEN = [
 def test_cases_are_solved_compared_and_refused(compiled: None) -> None:  # noqa: ARG001
     found = {
         each.case: each.finding
-        for each in tried("two-blades", ("model=A",), CHOSEN, seconds=60.0, processes=1)
+        for each in tried("two-blades", ("model=A",), CHOSEN, Budget.each(60.0, 1))
     }
 
     own, one, wrong, refused, taken = (found[case] for case in CHOSEN)
@@ -337,9 +363,10 @@ def test_an_interrupted_matrix_keeps_table_and_picture(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(
-        _: str, __: Sequence[str], chosen: Sequence[Case], **___: object
+        _: str, __: Sequence[str], chosen: Sequence[Case], ___: Budget
     ) -> Iterator[Tried]:
-        yield Tried(chosen[1], Finding(Outcome.AGREES, difference=1e-4), 1.5)
+        (case,) = (each for each in chosen if each.parameter == "sigma")
+        yield Tried(case, Finding(Outcome.AGREES, difference=1e-4), 1.5)
         raise KeyboardInterrupt
 
     monkeypatch.setattr(stress, "tried", interrupted)

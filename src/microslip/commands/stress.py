@@ -24,10 +24,8 @@ HEADER = (
 )
 SHARE = 0.95
 """of the cases that must converge in both solvers and agree within 1 %"""
-LONGEST = 25.0
-"""seconds for a case: if a third needs them a matrix takes nine minutes on two cores"""
 QUICK = 5.0
-"""the same in a quick look"""
+"""seconds for a case in a quick look"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -47,14 +45,18 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument(
         "--quick", action="store_true", help="one extreme of each parameter only"
     )
-    for name, kind, default, meaning in (
-        ("--seconds", arguments.positive, None, "a case may take at most"),
-        ("--processes", arguments.whole(1, 64), 2, "cases are tried at the same time"),
-    ):
-        shown = default or f"{LONGEST:g}, {QUICK:g} with --quick"
-        parser.add_argument(
-            name, type=kind, default=default, help=f"{meaning} (default: {shown})"
-        )
+    parser.add_argument(
+        "--seconds",
+        type=arguments.positive,
+        help=f"a case may take at most (default: {QUICK:g} with --quick, else twice "
+        "its part of what is left of ten minutes for all, and no more than 40)",
+    )
+    parser.add_argument(
+        "--processes",
+        type=arguments.whole(1, 64),
+        default=2,
+        help="cases are tried at the same time (default: 2)",
+    )
     arguments.add_output(parser, "stress")
     parser.set_defaults(run=_run)
 
@@ -63,23 +65,21 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
     from microslip.scene_file import load_scene
     from microslip.studies.stress import tried
+    from microslip.studies.stress_budget import Budget
     from microslip.studies.stress_cases import cases
 
     _, picture = arguments.outputs(options, "stress", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
     chosen = cases(scene, quick=options.quick)
-    seconds = options.seconds or (QUICK if options.quick else LONGEST)
+    seconds = options.seconds or (QUICK if options.quick else None)
+    budget = Budget(options.processes)
+    if seconds is not None:
+        budget = Budget.each(seconds, options.processes)
     found: list[Tried] = []
     print(HEADER)
     try:
         for each in collected(
-            tried(
-                options.scene,
-                options.overrides,
-                chosen,
-                seconds=seconds,
-                processes=options.processes,
-            ),
+            tried(options.scene, options.overrides, chosen, budget),
             found,
             total=len(chosen),
             unit="cases",

@@ -18,8 +18,8 @@ from multiprocessing.context import SpawnProcess
 from typing import Any, Generic, TypeVar
 
 Item = TypeVar("Item")
-Task = Callable[[Any], Iterator[Any]]
-"""yields better and better results of an item; the last one counts"""
+Task = Callable[[Any, float], Iterator[Any]]
+"""yields better and better results of an item within seconds; the last one counts"""
 STARTING = 600.0
 """seconds that a process may take until it is ready: machine code is made"""
 CROWDED = 10.0
@@ -48,7 +48,7 @@ def bounded(
     task: Task,
     items: Sequence[Item],
     *,
-    seconds: float,
+    seconds: Callable[[Sequence[Item]], float],
     processes: int,
     prepare: Callable[[], None],
 ) -> Iterator[Ended[Item]]:
@@ -65,7 +65,8 @@ def bounded(
     items
         What the task is given, one after the other.
     seconds
-        Of processor time for each item; of wall time where the system sets no limit.
+        Of processor time for the first of the items that are still to begin; of wall
+        time where the system sets no limit.
     processes
         That work at the same time.
     """
@@ -80,7 +81,8 @@ def bounded(
                 if not idle:
                     idle.append(_Worker(task, prepare))
                     crew.append(idle[-1])
-                idle.pop().begin(waiting.popleft(), seconds)
+                allowed = seconds(waiting)
+                idle.pop().begin(waiting.popleft(), allowed)
             yield from _heard(crew)
             crew = [worker for worker in crew if not worker.lost]
     finally:
@@ -190,7 +192,7 @@ def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
             began = time.process_time()
             _limit(seconds)
             try:
-                for result in task(item):
+                for result in task(item, seconds):
                     pipe.send((RESULT, result))
             except Exception as error:
                 cause = f"{type(error).__name__}: {' '.join(str(error).split())}"

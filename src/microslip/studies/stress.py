@@ -15,6 +15,7 @@ from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.bounded import Ended, bounded
 from microslip.studies.curve import trace_curve
+from microslip.studies.stress_budget import Budget
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_clock import Clock, OutOfTimeError
 from microslip.studies.stress_curve import Drawn, drawn
@@ -40,18 +41,20 @@ def tried(
     scene: str,
     overrides: Sequence[str],
     chosen: Sequence[Case],
-    *,
-    seconds: float,
-    processes: int,
+    budget: Budget,
 ) -> Iterator[Tried]:
-    """Yield how each case goes, as they end; none takes longer than ``seconds``.
+    """Yield how each case goes, as they end; none takes longer than its share.
 
     A case whose time is over, or whose process dies, keeps what was found of it.
     """
-    task = partial(_studied, scene, tuple(overrides), seconds)
+    task = partial(_studied, scene, tuple(overrides))
     prepare = partial(_prepare, scene, tuple(overrides))
     for ended in bounded(
-        task, chosen, seconds=seconds, processes=processes, prepare=prepare
+        task,
+        chosen,
+        seconds=budget.share,
+        processes=budget.processes,
+        prepare=prepare,
     ):
         yield Tried(ended.item, _last(ended), ended.seconds)
 
@@ -88,9 +91,9 @@ def _warmed(scene: str, overrides: tuple[str, ...]) -> None:
 
 
 def _studied(
-    scene: str, overrides: tuple[str, ...], seconds: float, case: Case
+    scene: str, overrides: tuple[str, ...], case: Case, seconds: float
 ) -> Iterator[Finding]:
-    """Yield what is found of a case, better and better."""
+    """Yield what is found of a case in its time, better and better."""
     if case.refusals:
         yield from refusals(scene, overrides, case)
         return
@@ -105,7 +108,7 @@ def _studied(
     except (*EXPECTED, OutOfTimeError) as error:
         told = f"harmonic balance: {line(error)}"
         yield Finding(cause=told)
-        if isinstance(error, ContinuationError):
+        if isinstance(error, (ContinuationError, OutOfTimeError)):
             also = from_rest(problem, loaded, clock)
             yield Finding(cause=causes(told, also))
         return

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from microslip.studies.stress_case import Case
 
-WHOLE = 570.0
+WHOLE = 550.0
 """seconds for all cases: a matrix takes ten minutes, its beginning and end included"""
 MOST, LEAST = 40.0, 5.0
 """seconds of the processor that a case may take, and may always take"""

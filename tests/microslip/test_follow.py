@@ -90,7 +90,7 @@ def test_frc_says_that_nothing_is_detached(
     assert main([*words, "-o", str(tmp_path / "curve")]) == 0
     output = capsys.readouterr().out
     assert "no detached curve was found" in output
-    sought = "sought at 15 of 15 frequencies, 134.017 to 134.483 Hz, by 0.05 to 4 times"
+    sought = "sought at 15 of 15 frequencies, 134.003 to 134.097 Hz, by 0.05 to 4 times"
     assert sought in output
     assert "only up to" not in output
 

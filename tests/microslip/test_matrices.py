@@ -146,6 +146,13 @@ def test_formats_go_together(tmp_path: Path) -> None:
     np.testing.assert_allclose(found.damping.toarray(), DAMPING, rtol=1e-15)
 
 
+def test_a_name_of_several_rows_is_refused(tmp_path: Path) -> None:
+    np.savez(tmp_path / "own.npz", K=STIFFNESS, names=[NAMES[0]] * len(NAMES))
+
+    with pytest.raises(MatrixFileError, match="is the name of several rows: name each"):
+        MatrixSource(tmp_path / "own.npz").read(("K",))
+
+
 def test_names_in_an_archive_are_those_of_the_structure(tmp_path: Path) -> None:
     np.savez(tmp_path / "own.npz", K=STIFFNESS, M=MASS, names=NAMES)
     one = MatrixSource(tmp_path / "own.npz")
@@ -204,12 +211,33 @@ def test_nastran_may_leave_out_the_letter_of_an_exponent(tmp_path: Path) -> None
     )
 
 
+def test_exponents_of_fortran_are_read_from_matrix_market_files(tmp_path: Path) -> None:
+    path = tmp_path / "a.mtx"
+    path.write_text(HEADER + "% by Fortran\n2 2 2\n1 1 2.0D+04\n2 2 -.5d-3\n")
+
+    found = MatrixSource(path).read(())
+
+    np.testing.assert_array_equal(found.matrix.toarray(), [[2e4, 0.0], [0.0, -5e-4]])
+
+
 HEADER = "%%MatrixMarket matrix coordinate real symmetric\n"
 TEXTS = [
     (
         "a.mtx",
         HEADER + "2 2 2\n1 1 4.0\n2 x 1.0\n",
-        ", line 4: Invalid integer value: write the Matrix Market file again",
+        ", line 4: '2 x 1.0' is not row, column, value: write the Matrix Market file "
+        "again",
+    ),
+    (
+        "a.mtx",
+        HEADER + "2 2 2\n1 1 4.0\n2 2 1,5\n",
+        ", line 4: '2 2 1,5' is not row, column, value: write the Matrix Market file "
+        "again",
+    ),
+    (
+        "a.mtx",
+        "%%MatrixMarket matrix array real general\n%\n1 1\n4.0 kN/m\n",
+        ", line 4: '4.0 kN/m' is not a value: write the Matrix Market file again",
     ),
     (
         "a.mtx",
@@ -248,7 +276,13 @@ TEXTS = [
         "a.txt",
         "1,1,1,1,3.0\n2,1,2,1,3.0\n1,1,1,1,3.0\n",
         ", line 3: this entry stands in the file before: export the assembled matrix, "
-        "not element by element",
+        "not element by element, and once",
+    ),
+    (
+        "a.sti",
+        "1 1 4.0\n2 1 1.0\n1 1 4.0\n",
+        ", line 3: this entry stands in the file before: export the assembled matrix, "
+        "not element by element, and once",
     ),
     (
         "a.txt",
@@ -280,6 +314,11 @@ TEXTS = [
      "DMIG*   K                              1               1\n"
      "*                      1               1             abc\n",
      ", line 3: 'abc' is no number: punch the matrix again"),
+    ("a.pch", 2 * ("DMIG    K              0       6       2       0\n"
+     "DMIG*   K                              1               1\n"
+     "*                      1               1             4.0\n"),
+     ", line 6: this entry stands in the file before: export the assembled matrix, "
+     "not element by element, and once"),
 ]  # fmt: skip
 
 

@@ -8,7 +8,8 @@ import numpy as np
 import scipy.sparse
 
 from microslip.matrices.labelled import LabelledMatrix, dof_name
-from microslip.matrices.text_table import TextTable, read_table
+from microslip.matrices.repeated import refuse_repeated
+from microslip.matrices.text_table import read_table
 
 
 def read_abaqus(path: Path) -> LabelledMatrix:
@@ -29,21 +30,9 @@ def read_abaqus(path: Path) -> LabelledMatrix:
     ends = table.values[:, :4].astype(np.int64).reshape(-1, 2)
     labels, places = np.unique(ends, axis=0, return_inverse=True)
     places = places.reshape(-1, 2)
-    _refuse_repeated(table, places)
+    refuse_repeated(path, places, table.lines)
     matrix = scipy.sparse.coo_array(
         (table.values[:, 4], tuple(places.T)), shape=(len(labels),) * 2
     )
     names = tuple(dof_name(int(node), int(way)) for node, way in labels)
     return LabelledMatrix(matrix, names)
-
-
-def _refuse_repeated(table: TextTable, places: np.ndarray) -> None:
-    """Raise an error if an entry stands twice."""
-    _, first = np.unique(places, axis=0, return_index=True)
-    if len(first) < len(places):
-        again = int(np.setdiff1d(np.arange(len(places)), first)[0])
-        raise table.error(
-            again,
-            "this entry stands in the file before: export the assembled matrix, "
-            "not element by element",
-        )

@@ -9,6 +9,7 @@ import scipy.sparse
 
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix, dof_name
+from microslip.matrices.repeated import refuse_repeated
 from microslip.matrices.text_table import read_table, text_of
 
 
@@ -18,7 +19,8 @@ def read_calculix(path: Path) -> LabelledMatrix:
     Raises
     ------
     MatrixFileError
-        If a line is not an entry, or the ``.dof`` file does not go with it.
+        If a line is not an entry, an entry is there twice, or the ``.dof`` file does
+        not go with it.
     """
     table = read_table(path, "row, column, value")
     places = table.integers(slice(0, 2), 1, "index") - 1
@@ -31,6 +33,7 @@ def read_calculix(path: Path) -> LabelledMatrix:
             f"index {places.max() + 1} is more than the {len(names)} degrees of "
             f"freedom in {listed.name}: give the files of one job",
         )
+    refuse_repeated(path, places, table.lines)
     matrix = scipy.sparse.coo_array(
         (table.values[:, 2], tuple(places.T)), shape=(len(names),) * 2
     )

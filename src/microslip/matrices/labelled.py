@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -29,8 +30,8 @@ class LabelledMatrix:
         Raises
         ------
         ValueError
-            If it is not square, holds a value that is not finite, or has other names
-            than rows.
+            If it is not square, holds a value that is not finite, has other names than
+            rows, or a name twice.
         """
         if not np.isfinite(self.matrix.data).all():
             raise ValueError("the matrix holds a value that is not finite")
@@ -43,6 +44,9 @@ class LabelledMatrix:
             raise ValueError(
                 f"{len(self.names)} names, but {rows} rows: give one name for each row"
             )
+        repeated = [name for name, often in Counter(self.names).items() if often > 1]
+        if repeated:
+            raise ValueError(f"{repeated[0]} is the name of several rows: name each")
         object.__setattr__(self, "matrix", completed(self.matrix))
 
     def ordered(self, names: Sequence[str]) -> LabelledMatrix:

@@ -11,6 +11,7 @@ import scipy.sparse
 
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix, dof_name
+from microslip.matrices.repeated import refuse_repeated
 from microslip.matrices.text_table import text_of
 from microslip.matrices.variable import chosen
 
@@ -28,7 +29,8 @@ def read_nastran(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
     Raises
     ------
     MatrixFileError
-        If there is none, it is not real and square, or a line is malformed.
+        If there is none, it is not real and square, a line is malformed, or an entry
+        is there twice.
     """
     lines = text_of(path).splitlines()
     name = chosen(path, _headers(path, lines), wanted)
@@ -39,7 +41,9 @@ def read_nastran(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         )
     ends = np.array([[row, column] for _, row, column, _ in entries])
     labels, places = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
-    rows, columns = places.reshape(-1, 2).T
+    places = places.reshape(-1, 2)
+    refuse_repeated(path, places, np.array([line for line, *_ in entries]))
+    rows, columns = places.T
     values = [value for *_, value in entries]
     matrix = scipy.sparse.coo_array((values, (rows, columns)), shape=(len(labels),) * 2)
     names = (

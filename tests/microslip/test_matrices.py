@@ -211,6 +211,20 @@ def test_nastran_may_leave_out_the_letter_of_an_exponent(tmp_path: Path) -> None
     )
 
 
+def test_halves_may_be_mixed(tmp_path: Path) -> None:
+    # the order of the program that wrote it is not that of the nodes' numbers
+    (tmp_path / "k.txt").write_text(
+        "7,1,7,1,5.0\n2,3,7,1,-1.0\n2,3,2,3,4.0\n9,1,2,3,-2.0\n9,1,9,1,3.0\n"
+    )
+
+    found = MatrixSource(tmp_path / "k.txt").read(())
+
+    assert found.names == ("2.z", "7.x", "9.x")
+    np.testing.assert_array_equal(
+        found.matrix.toarray(), [[4.0, -1.0, -2.0], [-1.0, 5.0, 0.0], [-2.0, 0.0, 3.0]]
+    )
+
+
 def test_exponents_of_fortran_are_read_from_matrix_market_files(tmp_path: Path) -> None:
     path = tmp_path / "a.mtx"
     path.write_text(HEADER + "% by Fortran\n2 2 2\n1 1 2.0D+04\n2 2 -.5d-3\n")

@@ -74,13 +74,17 @@ class LabelledMatrix:
 
 
 def completed(matrix: Matrix) -> Matrix:
-    """Return a matrix as it is; with its other half where only one half is given."""
+    """Return a matrix as it is; with its other half where only one half is given.
+
+    Of the given half some entries may stand above the diagonal and others below.
+    """
     whole = scipy.sparse.csc_array(matrix, dtype=float)
     whole.sum_duplicates()
-    upper, lower = scipy.sparse.triu(whole, 1), scipy.sparse.tril(whole, -1)
-    if upper.count_nonzero() and lower.count_nonzero():
+    apart = whole - scipy.sparse.diags_array(whole.diagonal())
+    there = apart.astype(bool)
+    if there.multiply(there.T).count_nonzero():
         return whole
-    return scipy.sparse.csc_array(whole + (upper + lower).T)
+    return scipy.sparse.csc_array(whole + apart.T)
 
 
 def dof_name(node: int, direction: int) -> str:

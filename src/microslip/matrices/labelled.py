@@ -81,8 +81,8 @@ def completed(matrix: Matrix) -> Matrix:
     whole = scipy.sparse.csc_array(matrix, dtype=float)
     whole.sum_duplicates()
     apart = whole - scipy.sparse.diags_array(whole.diagonal())
-    there = apart.astype(bool)
-    if there.multiply(there.T).count_nonzero():
+    there = scipy.sparse.csc_array(apart, dtype=bool)
+    if scipy.sparse.csc_array(there.multiply(there.T)).count_nonzero():
         return whole
     return scipy.sparse.csc_array(whole + apart.T)
 

@@ -225,9 +225,13 @@ def test_halves_may_be_mixed(tmp_path: Path) -> None:
     )
 
 
-def test_exponents_of_fortran_are_read_from_matrix_market_files(tmp_path: Path) -> None:
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1"])
+def test_exponents_of_fortran_are_read_from_matrix_market_files(
+    encoding: str, tmp_path: Path
+) -> None:
     path = tmp_path / "a.mtx"
-    path.write_text(HEADER + "% by Fortran\n2 2 2\n1 1 2.0D+04\n2 2 -.5d-3\n")
+    text = HEADER + "% von Müller\n2 2 2\n1 1 2.0D+04\n2 2 -.5d-3\n"
+    path.write_text(text.lower(), encoding=encoding)
 
     found = MatrixSource(path).read(())
 
@@ -314,7 +318,7 @@ TEXTS = [
     ("a.pch", "DMIG    KGG            0       6       2       0\n",
      ": holds no matrix K but KGG: write a.pch:NAME"),
     ("a.pch", "DMIG    K              0       6       4       0\n",
-     ": holds no matrix K but nothing: write a.pch:NAME"),
+     ": K is complex or not square: give a real square matrix"),
     ("a.pch", "DMIG    K              0       6\n",
      ", line 1: a DMIG header without form and type: punch it again"),
     ("a.pch", "DMIG    K              0       6       2       0\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from microslip.commands.columns import about, decimal, headed, tabled, titled
@@ -109,13 +110,12 @@ def _stability(curve: ResponseCurve) -> str:
 
 def barren(curve: ResponseCurve) -> list[float]:
     """Return the branch points at which no branch begins or ends [Hz]."""
-    marks = list(curve.event)
-    first = marks.index("branch") if "branch" in marks else len(marks)
-    reached = set(curve.frequency[first:])
+    # a branch begins and ends with a copy of the point at which it does
+    met = Counter(curve.frequency)
     return [
         float(frequency) / math.tau
-        for frequency, mark in zip(curve.frequency[:first], marks, strict=False)
-        if mark == "branch point" and frequency not in reached
+        for frequency, mark in zip(curve.frequency, curve.event, strict=True)
+        if mark == "branch point" and met[frequency] == 1
     ]
 
 

@@ -13,6 +13,8 @@ from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
 from microslip.matrices.text_table import text_of
 
+BANNER = "%%MatrixMarket"
+"""with which they begin, in any case"""
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 ENTRIES = {
     "coordinate": ("row, column, value", re.compile(rf"\d+\s+\d+\s+{NUMBER}")),
@@ -29,16 +31,17 @@ def read_matrix_market(path: Path) -> LabelledMatrix:
     MatrixFileError
         If the file is malformed, or not real.
     """
+    # Fortran writes 1.5D+06, of which scipy's reader takes 1.5 without a word
+    text = re.sub(r"(?<=[\d.])[dD](?=[-+]?\d)", "E", text_of(path))
+    text = BANNER + text[len(BANNER) :]
     try:
-        *_, layout, field, symmetry = scipy.io.mminfo(path)
+        *_, layout, field, symmetry = scipy.io.mminfo(io.BytesIO(text.encode()))
     except (ValueError, OSError) as error:
         raise _malformed(path, error) from None
     if field not in ("real", "integer", "double") or symmetry == "skew-symmetric":
         raise MatrixFileError(
             path, f"is {field} and {symmetry}: give a real symmetric matrix", 1
         )
-    # Fortran writes 1.5D+06, of which scipy's reader takes 1.5 without a word
-    text = re.sub(r"(?<=[\d.])[dD](?=[-+]?\d)", "E", text_of(path))
     _check_entries(path, text, *ENTRIES[layout])
     try:
         matrix = scipy.io.mmread(io.BytesIO(text.encode()))

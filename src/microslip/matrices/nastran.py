@@ -54,7 +54,8 @@ def read_nastran(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
 
 def _headers(path: Path, lines: list[str]) -> list[str]:
     """Return the names of the matrices; check that each is real and square."""
-    found = []
+    found: list[str] = []
+    other: list[str] = []
     for number, line in enumerate(lines, start=1):
         words = line.split()
         if not re.match(r"DMIG\s+\S+\s+0\s", line):
@@ -63,8 +64,12 @@ def _headers(path: Path, lines: list[str]) -> list[str]:
             raise MatrixFileError(
                 path, "a DMIG header without form and type: punch it again", number
             )
-        if int(words[3]) in SYMMETRIC and int(words[4]) in REAL:
-            found.append(words[1])
+        usable = int(words[3]) in SYMMETRIC and int(words[4]) in REAL
+        (found if usable else other).append(words[1])
+    if other and not found:
+        raise MatrixFileError(
+            path, f"{other[0]} is complex or not square: give a real square matrix"
+        )
     return found
 
 

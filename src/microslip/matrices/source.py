@@ -66,6 +66,6 @@ class MatrixSource:
             raise MatrixFileError(
                 self.path, f"{suffix or 'no suffix'} is not known: give {FORMATS}"
             )
-        if text_of(self.path).startswith("%%MatrixMarket"):
+        if text_of(self.path).lower().startswith("%%matrixmarket"):
             return read_matrix_market(self.path)
         return read_abaqus(self.path)

@@ -86,7 +86,7 @@ def read_table(path: Path, columns: str, separator: str | None = None) -> TextTa
 
 
 def text_of(path: Path) -> str:
-    """Return the text of a file.
+    """Return the text of a file, in UTF-8 or, as comments may be, in Latin-1.
 
     Raises
     ------
@@ -94,12 +94,14 @@ def text_of(path: Path) -> str:
         If it is not there or is not text.
     """
     try:
-        return path.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        raise MatrixFileError(
-            path, "is not text: give the text export of the matrix"
-        ) from None
+        content = path.read_bytes()
     except OSError as error:
         raise MatrixFileError(
             path, f"cannot be read ({error.strerror}): check the name"
         ) from None
+    if b"\0" in content:
+        raise MatrixFileError(path, "is not text: give the text export of the matrix")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("latin-1")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -77,8 +77,12 @@ def trace_curve(
         return traced
     known = traced.responses
     found = search(problem, rest, options, known, effort=wanted.effort, watch=searching)
-    responses = (*known, *found.responses)
     ending = found.ending if ending == "complete" else ending
+    responses = (*known, *found.responses)
+    if wanted.branches and found.responses and not found.interrupted:
+        more, lost = _branched(problem, rest, options, found.responses)
+        responses = (*responses, *more)
+        ending = lost if ending == "complete" else ending
     return Traced(response_curve(problem, responses, ending), responses, rest, found)
 
 
@@ -138,6 +142,24 @@ def _all(
             yield from branches(problem, rest, options, known)
         except ContinuationError as error:
             raise ContinuationError(f"{LOST}: {error}") from None
+
+
+def _branched(
+    problem: Problem,
+    rest: StaticState,
+    options: CurveOptions,
+    known: Sequence[PeriodicResponse],
+) -> tuple[list[PeriodicResponse], str]:
+    """Return the responses on what branches off detached curves, and why they end."""
+    found: list[PeriodicResponse] = []
+    try:
+        with unmasked():
+            found.extend(branches(problem, rest, options, known))
+    except ContinuationError as error:
+        return found, f"{LOST}: {error}"
+    except KeyboardInterrupt:
+        return found, "interrupted"
+    return found, "complete"
 
 
 def gathered(

@@ -1,0 +1,177 @@
+"""Are told errors of curves large enough? ``python …/curve_errors.py [name …]``.
+
+Curves by tolerance: of the built-in scenes, of three masses with one law of the
+catalogue each, and of the rig with both laws. Points of each, evenly spread, are solved
+again with :data:`HARMONICS` harmonics and :data:`SAMPLES` samples at the same
+frequency; the relative difference of the largest first harmonic is the true error. A
+line for each curve: points, the share whose told error covers the true one, the
+smallest and the median ratio of told to true error where either is above
+:data:`DIGITS`, and the largest of both. Points that have no such solution, as beyond a
+fold that more harmonics move, are left out, and counted. The exit status is 1 if the
+told errors of a curve by :data:`USUAL` cover less than :data:`LEAST`.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+sys.path.append(str(Path(__file__).parents[1]))
+
+import numpy as np
+
+from hbm.errors import ContinuationError
+from hbm.options import CurveOptions
+from hbm.periodic_response import periodic_response
+from hbm.solve import frequency_response
+from honesty import amplitudes
+from law_examples import CASES, driven
+from microslip.rigs import problem_of
+from microslip.scene_file import load_scene
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import static_equilibrium
+
+HARMONICS, SAMPLES, CLOSE = 127, 4096, 1e-8
+"""of the solution that tells the true error, and its tolerance"""
+TOLERANCES, USUAL = (1e-2, 1e-3, 1e-4), 1e-3
+POINTS = 25
+"""of a curve, at the most"""
+DIGITS = 1e-7
+"""relative error below which nobody asks, a thousandth of the finest tolerance"""
+LEAST = 0.95
+SCENES = {
+    "duffing": ("duffing",),
+    "gap": ("gap",),
+    "jenkins slider": ("jenkins",),
+    "tip-damper": ("tip-damper",),
+    "friction-beam": ("friction-beam",),
+    "chain": ("chain",),
+    "bladed-disk": ("bladed-disk", "solve=disk"),
+    **{
+        f"rig {model} {law}": ("two-blades", f"model={model}", f"friction.law={law}")
+        for model in ("A", "B", "full")
+        for law in ("coulomb", "gkf")
+    },
+}
+BETWEEN = (6.5, 8.9)
+"""frequencies about the resonances of the three masses [rad/s]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A problem and the range of its curve."""
+
+    make: Callable[[], Problem]
+    lowest: float
+    """[rad/s]"""
+    highest: float
+    """[rad/s]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Errors:
+    """Errors of points of a curve."""
+
+    told: Array
+    true: Array
+    unknown: int
+    """points that no solution with more harmonics tells"""
+
+    @property
+    def covered(self) -> float:
+        """Share of the points whose told error is large enough."""
+        return float(np.mean(self.told + DIGITS >= self.true))
+
+    @property
+    def ratios(self) -> Array:
+        """Told over true errors, where they matter."""
+        matter = np.maximum(self.told, self.true) > DIGITS
+        return self.told[matter] / np.maximum(self.true[matter], 1e-16)
+
+
+def cases() -> dict[str, Case]:
+    """Return all cases by name."""
+    found = {}
+    for name, (scene, *sets) in SCENES.items():
+        curve = load_scene(scene, sets).curve
+        found[name] = Case(
+            partial(_of_scene, scene, tuple(sets)),
+            2.0 * np.pi * curve.lowest,
+            2.0 * np.pi * curve.highest,
+        )
+    return found | {name: Case(partial(driven, name), *BETWEEN) for name in CASES}
+
+
+def _of_scene(scene: str, sets: tuple[str, ...]) -> Problem:
+    return problem_of(load_scene(scene, sets))
+
+
+def errors(case: Case, tolerance: float) -> Errors:
+    """Return told and true errors of points of a curve."""
+    problem = case.make()
+    rest = static_equilibrium(problem)
+    options = CurveOptions(case.lowest, case.highest, error=tolerance, stability=False)
+    # at an event no other solution has the same frequency
+    curve = [
+        each for each in frequency_response(problem, rest, options) if not each.event
+    ]
+    places = np.unique(np.linspace(0, len(curve) - 1, POINTS).round().astype(int))
+    told, true = [], []
+    for place in places:
+        point = curve[place]
+        try:
+            better = periodic_response(
+                problem,
+                rest,
+                point,
+                harmonics=HARMONICS,
+                samples=SAMPLES,
+                tolerance=CLOSE,
+            )
+        except ContinuationError:
+            continue
+        exact, found = amplitudes(problem, better), amplitudes(problem, point)
+        told.append(point.error)
+        true.append(np.abs(found - exact).max() / exact.max())
+    return Errors(np.array(told), np.array(true), len(places) - len(told))
+
+
+def lines(chosen: Sequence[str]) -> Iterator[tuple[str, bool]]:
+    """Yield the line of each curve, and whether it is as it should be."""
+    for name, case in cases().items():
+        if chosen and name not in chosen:
+            continue
+        for tolerance in TOLERANCES:
+            seen = errors(case, tolerance)
+            ratios = seen.ratios if seen.ratios.size else np.array([np.nan])
+            told = (
+                f"{name:30} {tolerance:9.0e} {seen.told.size:6d} {seen.unknown:7d} "
+                f"{100.0 * seen.covered:6.0f} % {ratios.min():9.2f} "
+                f"{np.median(ratios):7.1f} {seen.true.max():9.1e} "
+                f"{seen.told.max():9.1e}"
+            )
+            yield told, tolerance != USUAL or seen.covered >= LEAST
+
+
+def main(chosen: Sequence[str]) -> int:
+    """Print the table; return the exit status."""
+    print(
+        f"{'curve':30} tolerance points unknown  cover  smallest  median  largest true"
+        " and told"
+    )
+    right = []
+    for line, good in lines(chosen):
+        print(line, flush=True)
+        right.append(good)
+    print(f"{right.count(False)} curves by {USUAL:g} have told errors that cover less")
+    return 0 if all(right) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -58,7 +58,7 @@ class Damping:
             check_like(given, mass, "damping")
             return given
         none = 0.0 * mass
-        if (self.ratio, self.rayleigh, self.loss_factor) == (None, None, None):
+        if self.ratio is None and self.rayleigh is None and self.loss_factor is None:
             return none
         bare = Structure(mass, none, stiffness, names)
         if self.rayleigh is not None:

@@ -66,7 +66,7 @@ class Element:
         return given
 
 
-def interface_of(elements: Sequence[Element], names: tuple[str, ...]) -> Interface:
+def interface_of(elements: Iterable[Element], names: tuple[str, ...]) -> Interface:
     """Return the contacts of elements; ``names`` are those of the degrees of freedom.
 
     Raises
@@ -78,6 +78,7 @@ def interface_of(elements: Sequence[Element], names: tuple[str, ...]) -> Interfa
         raise ValueError(  # noqa: TRY004  (as above)
             f"elements = {elements!r}: give a list of microslip.Element"
         )
+    elements = tuple(elements)
     for place, each in enumerate(elements, start=1):
         if not isinstance(each, Element):
             raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.by_value import ByValue
 from microslip_mechanics.segments import Segments, clock
 from microslip_mechanics.time_history import (
     Checkpoint,
@@ -22,8 +23,8 @@ FLOOR = 1e-6
 """of a cycle: a row so little behind its end still belongs to it"""
 
 
-@dataclass(frozen=True, slots=True)
-class Envelope:
+@dataclass(frozen=True, slots=True, eq=False)
+class Envelope(ByValue):
     """Extremes of each cycle, and what flowed until its end."""
 
     time: Array

@@ -7,14 +7,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.by_value import ByValue
 
 MARGIN = 1e-5
 """by which a Floquet multiplier outside the unit circle must exceed it: rounding moves
 one that is double, as of a free mean position, by the root of its own size"""
 
 
-@dataclass(frozen=True, slots=True)
-class PeriodicResponse:
+@dataclass(frozen=True, slots=True, eq=False)
+class PeriodicResponse(ByValue):
     """A periodic motion u = a₀ + Σ aₖ cos kωt + bₖ sin kωt under drive · sin ωt."""
 
     frequency: float

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.by_value import ByValue
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
@@ -18,8 +19,8 @@ PEAK_SAMPLES = 1024
 """of a period, to find the largest value in time"""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class ResponseCurve:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ResponseCurve(ByValue):
     """A frequency response curve in the order in which it was traced."""
 
     frequency: Array

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.by_value import ByValue
 
 if TYPE_CHECKING:
     from microslip_mechanics.envelope import Envelope
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
 Block = TypeVar("Block", "TimeHistory", "Envelope")
 
 
-@dataclass(frozen=True, slots=True)
-class Checkpoint:
+@dataclass(frozen=True, slots=True, eq=False)
+class Checkpoint(ByValue):
     """The end of a block: from here a march goes on as if it had never stopped."""
 
     displacement: Array
@@ -28,8 +29,8 @@ class Checkpoint:
     """what else the integrator keeps, in an order of its own, shape (numbers,)"""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class TimeHistory:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class TimeHistory(ByValue):
     """Response to a load history at stored times."""
 
     time: Array

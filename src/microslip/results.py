@@ -56,13 +56,19 @@ def figure(result: Result, title: str = "") -> Figure:
     Raises
     ------
     MicroslipError
-        If the result is none.
+        If the result is none, or the title is no text.
     ValueError
         If a march has not come far enough to have anything to draw.
     """
+    from microslip.errors import GivenError
     from microslip.figures.result import result_figure
 
     _check(result, "microslip.figure")
+    if not isinstance(title, str):
+        raise GivenError(
+            f"microslip.figure: title = {title!r}: give a text; the picture has axes "
+            "of its own"
+        )
     return result_figure(result, title)
 
 

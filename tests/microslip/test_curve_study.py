@@ -10,7 +10,9 @@ from numpy.typing import ArrayLike
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
-from microslip.studies.curve import shown_points, trace_curve
+from microslip.studies import curve
+from microslip.studies.curve import Wanted, shown_points, trace_curve
+from microslip.studies.detached import Searched
 from microslip.studies.quasi_static import followed_upwards, quasi_static_energy
 from microslip_mechanics.response_curve import ResponseCurve
 
@@ -219,3 +221,26 @@ def test_scene_with_harmonics_keeps_them_and_reports_the_error(scene: Scene) -> 
     assert set(curve.harmonics) == {5.0}
     assert set(curve.samples) == {256.0}
     assert np.isfinite(curve.error).all()
+
+
+def test_branches_of_detached_curves_are_followed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    loud = ("drive.x=26.8 N", "structure.damping_ratio=0.1", "curve.highest=8 Hz")
+    scene = load_scene("duffing", loud)
+    problem = problem_of(scene)
+    whole = trace_curve(problem, scene.curve).responses
+    places = [each.frequency for each in whole if each.event == "branch point"]
+    assert len(places) == 2
+    # as if all but the first points were found by the search for what is detached
+    monkeypatch.setattr(curve, "frequency_response", lambda *_: iter(whole[:2]))
+    found = Searched(whole[2:], (), interrupted=False)
+    monkeypatch.setattr(curve, "search", lambda *_, **__: found)
+
+    traced = trace_curve(problem, scene.curve, wanted=Wanted(True, True))
+
+    begun = [each.frequency for each in traced.responses if each.event == "branch"]
+    assert traced.curve.ending == "complete"
+    assert begun
+    assert set(begun) <= set(places)
+    assert len(traced.responses) > len(whole) + 10

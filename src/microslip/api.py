@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING
 
+from microslip.errors import GivenError
 from microslip.experiments import HERTZ, LONGEST, Curve, March, check_samples
 from microslip.function_arguments import check_apart, checked, named, read, texts_of
 from microslip.quantity import quantity
@@ -60,7 +61,7 @@ def curve(
     lowest: float | str,
     highest: float | str,
     *,
-    tolerance: float = 1e-3,
+    tolerance: float | None = None,
     harmonics: int | None = None,
     samples: int | None = None,
 ) -> ResponseCurve:
@@ -74,7 +75,8 @@ def curve(
         Where it begins and ends [Hz]; downwards if the first is the larger one. These
         and other quantities may be texts with a unit, such as ``"0.1 kHz"``.
     tolerance
-        Relative error of amplitude, from which harmonics and samples follow.
+        Relative error of amplitude, from which harmonics and samples follow; 1e-3 if
+        left out.
     harmonics, samples
         Fixed numbers instead.
 
@@ -87,6 +89,11 @@ def curve(
     from microslip.studies.curve import trace_curve
 
     name = "microslip.curve"
+    if tolerance is not None and harmonics is not None:
+        raise GivenError(
+            f"{name}: tolerance = {tolerance!r}: harmonics are fixed: leave one of "
+            "them out"
+        )
     wanted: Curve = read(
         name,
         Curve,

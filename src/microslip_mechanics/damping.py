@@ -10,7 +10,7 @@ import scipy.sparse
 from numpy.typing import ArrayLike
 from scipy.sparse.linalg import LinearOperator
 
-from microslip_mechanics.arrays import Matrix, numbers_of
+from microslip_mechanics.arrays import Array, Matrix, numbers_of
 from microslip_mechanics.factors import indefinite_factors
 from microslip_mechanics.given_matrices import check_like, square_matrix
 from microslip_mechanics.hysteretic import Hysteretic
@@ -28,9 +28,9 @@ class Damping:
 
     matrix: ArrayLike | Matrix | None = None
     """C [N s/m]"""
-    ratio: float | Sequence[float] | None = None
+    ratio: float | Sequence[float] | Array | None = None
     """of all modes, or of the slowest ones"""
-    rayleigh: tuple[float, float] | None = None
+    rayleigh: Sequence[float] | Array | None = None
     """α [1/s] and β [s] of C = α M + β K"""
     loss_factor: float | None = None
     """η of the stiffness"""

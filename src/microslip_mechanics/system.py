@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from microslip_mechanics.arrays import Matrix
+from microslip_mechanics.arrays import Array, Matrix
 from microslip_mechanics.damping import Damping
 from microslip_mechanics.element import Element, interface_of
 from microslip_mechanics.forms import Form, Pair, form, relative
@@ -40,11 +40,11 @@ def system(
     mass: ArrayLike | Matrix,
     stiffness: ArrayLike | Matrix,
     damping: ArrayLike | Matrix | None = None,
-    damping_ratio: float | Sequence[float] | None = None,
-    rayleigh_damping: tuple[float, float] | None = None,
+    damping_ratio: float | Sequence[float] | Array | None = None,
+    rayleigh_damping: Sequence[float] | Array | None = None,
     loss_factor: float | None = None,
     names: Sequence[str] | None = None,
-    elements: Sequence[Element] | None = None,
+    elements: Iterable[Element] | None = None,
     drive: Drive | None = None,
     preload: Mapping[str, float] | None = None,
     engine_order: EngineOrder | None = None,

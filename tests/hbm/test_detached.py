@@ -142,13 +142,13 @@ def test_a_search_without_the_effort_for_it_says_how_far_it_came() -> None:
 def test_a_curve_that_takes_more_than_the_effort_is_followed_in_part(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    whole = curves()[1]
     monkeypatch.setattr("hbm.detached.FOLLOWING", 5000.0)
 
     found, places = sought(BLOCK, known())
 
     assert found[0].event == "detached"
     assert "5000 evaluations, is spent" in places[0].lost
-    whole = curves()[1]
     assert 1 < len(found) < len(whole)
     together = zip(found[:2], whole, strict=False)
     assert all(one.frequency == other.frequency for one, other in together)

@@ -34,6 +34,7 @@ SWEPT: dict[str, Any] = {"duration": 1.0, "time_step": 1e-3}
         ({"harmonics": 1000}, "harmonics = 1000: is out of range"),
         ({"samples": 64}, "samples = 64: they follow from the tolerance"),
         ({"harmonics": 7, "samples": 8}, "samples = 8: too few for 7 harmonics"),
+        ({"harmonics": 7, "tolerance": 1e-5}, "tolerance = 1e-05: harmonics are fixed"),
         ({"problem": "duffing"}, "problem = 'duffing': give what microslip.system"),
     ],
 )

@@ -49,6 +49,30 @@ def test_arguments_of_a_system_that_are_of_no_use_are_named(
         microslip.system(**CHAIN, **given)
 
 
+def test_elements_may_come_one_by_one_and_ratios_in_arrays() -> None:
+    elements = [
+        microslip.Element(SPRING, (name, "ground"), name=name) for name in ("x1", "x2")
+    ]
+
+    made = microslip.system(
+        **CHAIN, elements=iter(elements), damping_ratio=np.array([0.01, 0.02])
+    )
+
+    assert made.interface.names == ("x1", "x2")
+    assert made.structure.dense.damping.any()
+    rayleigh = microslip.system(**CHAIN, rayleigh_damping=np.array([0.1, 0.0]))
+    np.testing.assert_allclose(rayleigh.structure.dense.damping, 0.1 * np.eye(2))
+
+
+def test_a_picture_has_axes_of_its_own(duffing: Any) -> None:
+    march = microslip.sweep(duffing, 4.0, 5.0, duration=0.1, time_step=1e-2)
+
+    with pytest.raises(
+        microslip.MicroslipError, match=r"^microslip\.figure: title = 3"
+    ):
+        microslip.figure(march, 3)  # type: ignore[arg-type]
+
+
 def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
     return lambda: getattr(microslip, name)(*given, **more)
 

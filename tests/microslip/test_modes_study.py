@@ -3,6 +3,8 @@
 import csv
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -10,6 +12,7 @@ import pytest
 from hbm.errors import ContinuationError
 from hbm.modes import ModeOptions, NonlinearMode, nonlinear_mode
 from microslip.cli import main
+from microslip.commands.modes import _line
 from microslip.studies.modes import followed
 from rigs import rig_problem
 
@@ -55,6 +58,16 @@ def test_an_interrupted_mode_keeps_what_it_has() -> None:
 
     assert mode.ending == "interrupted"
     assert len(mode.points) == 3
+
+
+def test_points_that_are_hardly_known_do_not_widen_the_picture() -> None:
+    problem, options = rig_problem(model="A"), ModeOptions(1e-5, 1e-2, harmonics=3)
+    (mode,) = followed(problem, RANGE, options, lambda points: islice(points, 5))
+    points = (replace(mode.points[0], frequency_error=0.5), *mode.points[1:])
+
+    line = _line(replace(mode, points=points))
+
+    assert line.error < 1e-3
 
 
 @pytest.mark.parametrize(

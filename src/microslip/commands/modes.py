@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from hbm.modes import ModeOptions, NonlinearMode
+    from microslip.figures.modes import ModeLine
     from microslip.studies.modes import FollowedMode
 
 HEADER = (
@@ -167,7 +168,7 @@ def _keep(
     options: argparse.Namespace, modes: list[FollowedMode], table: Path, picture: Path
 ) -> None:
     """Write table and picture."""
-    from microslip.figures.modes import ModeLine, modes_figure
+    from microslip.figures.modes import modes_figure
     from microslip.store import save_figure, save_table
 
     rows = [
@@ -183,17 +184,23 @@ def _keep(
         for point in mode.points
     ]
     save_table(table, COLUMNS, rows)
-    lines = [
-        ModeLine(
-            f"mode at {mode.linear.frequency / math.tau:.2f} Hz",
-            [point.amplitude for point in mode.points],
-            [point.frequency / math.tau for point in mode.points],
-            [point.damping for point in mode.points],
-            max(point.frequency_error * point.frequency for point in mode.points)
-            / math.tau,
-        )
-        for mode in modes
-        if mode.points
-    ]
+    lines = [_line(mode) for mode in modes if mode.points]
     save_figure(picture, modes_figure(lines, arguments.title(options)))
     print(f"table in {table}, picture in {picture}")
+
+
+def _line(mode: FollowedMode) -> ModeLine:
+    """Return what a picture shows of a mode; some of it may be hardly known."""
+    from statistics import median
+
+    from microslip.figures.modes import ModeLine
+
+    hertz = [point.frequency / math.tau for point in mode.points]
+    errors = [point.frequency_error for point in mode.points]
+    return ModeLine(
+        f"mode at {mode.linear.frequency / math.tau:.2f} Hz",
+        [point.amplitude for point in mode.points],
+        hertz,
+        [point.damping for point in mode.points],
+        median(errors) * max(hertz),
+    )

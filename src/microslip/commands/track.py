@@ -94,6 +94,8 @@ def _keep(
     options: argparse.Namespace, found: list[Tracked], table: Path, picture: Path
 ) -> None:
     """Write table and picture."""
+    from statistics import median
+
     from microslip.figures.track import track_figure
     from microslip.scene_file import load_scene
     from microslip.store import save_figure, save_table
@@ -141,6 +143,6 @@ def _keep(
     ]
     save_figure(
         picture,
-        track_figure(peaks, others, label, title, names, max(errors, default=0.0)),
+        track_figure(peaks, others, label, title, names, median(errors or [0.0])),
     )
     print(f"table in {table}, picture in {picture}")

@@ -28,7 +28,7 @@ class ModeLine:
     damping: Sequence[float]
     """ratio"""
     error: float = 0.0
-    """largest of the frequencies, estimated [Hz]"""
+    """of the frequencies, estimated, in the median [Hz]: a few may be hardly known"""
 
 
 def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -80,7 +80,8 @@ def trace_curve(
     ending = found.ending if ending == "complete" else ending
     responses = (*known, *found.responses)
     if wanted.branches and found.responses and not found.interrupted:
-        more, lost = _branched(problem, rest, options, found.responses)
+        branched = branches(problem, rest, options, found.responses)
+        more, lost = _lost(watch(branched))
         responses = (*responses, *more)
         ending = lost if ending == "complete" else ending
     return Traced(response_curve(problem, responses, ending), responses, rest, found)
@@ -144,17 +145,14 @@ def _all(
             raise ContinuationError(f"{LOST}: {error}") from None
 
 
-def _branched(
-    problem: Problem,
-    rest: StaticState,
-    options: CurveOptions,
-    known: Sequence[PeriodicResponse],
+def _lost(
+    responses: Iterable[PeriodicResponse],
 ) -> tuple[list[PeriodicResponse], str]:
-    """Return the responses on what branches off detached curves, and why they end."""
+    """Return the responses on branches, if there are any, and how they end."""
     found: list[PeriodicResponse] = []
     try:
         with unmasked():
-            found.extend(branches(problem, rest, options, known))
+            found.extend(responses)
     except ContinuationError as error:
         return found, f"{LOST}: {error}"
     except KeyboardInterrupt:

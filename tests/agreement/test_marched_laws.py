@@ -11,12 +11,17 @@ from timedomain.verify import agreement, march_periods
 
 FREQUENCIES = (6.5, 8.6)
 """below and near resonances [rad/s]"""
+SLOW = ("iwan", "elastic, one tangent")
+"""laws of which others are made, or that are made of others"""
 SETTLED = 25
 """periods in which what begins on an orbit that is none leaves it"""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    "case",
+    [pytest.param(case, marks=[pytest.mark.long] * (case in SLOW)) for case in CASES],
+)
 def test_amplitudes_agree_within_half_a_percent(case: str) -> None:
     problem = driven(case)
     options = CurveOptions(*FREQUENCIES, error=1e-3)

@@ -104,6 +104,7 @@ def test_normal_forces_of_the_jammed_rig_grow_to_many_times_the_static_ones(
     assert (peaks("stiff", law) / static.max()).max() > 8.0
 
 
+@pytest.mark.long
 def test_falling_friction_lowers_the_normal_forces_of_the_jammed_rig() -> None:
     assert peaks("stiff", "gkf").max() < peaks("stiff", "coulomb").max()
 

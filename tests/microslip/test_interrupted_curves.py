@@ -85,6 +85,7 @@ def test_grid_keeps_the_attempt_and_begins_no_other(
     assert (row["ending"], row["points"]) == ("interrupted", "2")
 
 
+@pytest.mark.long
 def test_a_comparison_does_not_trace_the_other_curve(
     run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

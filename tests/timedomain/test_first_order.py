@@ -192,6 +192,7 @@ def test_the_jacobian_knows_whether_a_slider_slides(traction: float) -> None:
     assert (rate[2] == 0.0) == (traction == 0.2)
 
 
+@pytest.mark.long
 def test_tight_tolerances_close_the_energy_balance() -> None:
     problem = rig_problem(model="B")
     form = formed(problem)

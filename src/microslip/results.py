@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
     from microslip.schema import Result
 
+PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
+
 
 def save(result: Result, path: str | PathLike[str]) -> None:
     """Write a curve or a march as netCDF; ``microslip plot`` draws it.
@@ -26,12 +28,18 @@ def save(result: Result, path: str | PathLike[str]) -> None:
     Raises
     ------
     MicroslipError
-        If the file cannot be written, or the result is none.
+        If the file cannot be written or is to be a picture, or the result is none.
     """
     from microslip import store
+    from microslip.errors import GivenError
 
     _check(result, "microslip.save")
     place = _path(path, "microslip.save")
+    if place.suffix.lower() in PICTURES:
+        raise GivenError(
+            f"microslip.save: {path}: it writes netCDF: give a name that ends with "
+            ".nc; microslip.figure(result).savefig(path) writes a picture"
+        )
     store.save(place, store.Stored(result, "", "microslip.save"))
 
 

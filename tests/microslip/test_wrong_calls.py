@@ -73,6 +73,16 @@ def test_a_picture_has_axes_of_its_own(duffing: Any) -> None:
         microslip.figure(march, 3)  # type: ignore[arg-type]
 
 
+def test_a_picture_is_not_what_is_saved(duffing: Any, tmp_path: Path) -> None:
+    march = microslip.sweep(duffing, 4.0, 5.0, duration=0.1, time_step=1e-2)
+
+    with pytest.raises(
+        microslip.MicroslipError, match=r"x.png: it writes netCDF: give"
+    ):
+        microslip.save(march, tmp_path / "x.png")
+    assert not (tmp_path / "x.png").exists()
+
+
 def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
     return lambda: getattr(microslip, name)(*given, **more)
 

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from microslip.cli import main
 from microslip.scene_file import built_in_text
+from microslip.schema import Result
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
@@ -208,3 +209,19 @@ def small_envelope() -> Envelope:
         ending="interrupted",
         checkpoint=Checkpoint(draw.normal(size=3), draw.normal(size=3), np.ones(6)),
     )
+
+
+@pytest.fixture(params=["curve", "history", "envelope"])
+def result(
+    request: pytest.FixtureRequest,
+    small_curve: ResponseCurve,
+    small_history: TimeHistory,
+    small_envelope: Envelope,
+) -> Result:
+    """Return one result of each kind."""
+    results: dict[str, Result] = {
+        "curve": small_curve,
+        "history": small_history,
+        "envelope": small_envelope,
+    }
+    return results[request.param]

@@ -26,10 +26,11 @@ class ByValue:
 
 
 def _same(one: Any, other: Any) -> bool:  # noqa: ANN401  (of any field)
-    if isinstance(one, np.ndarray) and one.dtype.kind in "fc":
-        return np.array_equal(one, other, equal_nan=True)
-    if isinstance(one, np.ndarray):
-        return np.array_equal(one, other)
+    arrays = isinstance(one, np.ndarray), isinstance(other, np.ndarray)
+    if all(arrays):
+        return np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
+    if any(arrays):
+        return False
     if isinstance(one, float) and isinstance(other, float):
         return one == other or (one != one and other != other)
     return bool(one == other)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
+from microslip.commands.frc_tables import barren
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
@@ -244,3 +245,17 @@ def test_branches_of_detached_curves_are_followed(
     assert begun
     assert set(begun) <= set(places)
     assert len(traced.responses) > len(whole) + 10
+
+
+def test_what_branches_off_branches_is_not_missed(small_curve: ResponseCurve) -> None:
+    hertz = np.array([1.0, 1.0, 2.0, 3.0])
+    events = ("branch point", "branch", "branch point", "")
+    of_branches = dataclasses.replace(
+        small_curve, frequency=2.0 * np.pi * hertz, event=events
+    )
+    of_detached = dataclasses.replace(
+        of_branches, event=("branch point", "branch", "detached", "branch point")
+    )
+
+    assert barren(of_branches) == []
+    assert barren(of_detached) == pytest.approx([3.0])

@@ -12,7 +12,6 @@ from scipy.io import netcdf_file
 from microslip.result_file import load
 from microslip.schema import SCHEMAS, Result
 from microslip.store import Stored, StoreError, save
-from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.thinning import thinned
 from microslip_mechanics.time_history import TimeHistory
@@ -20,22 +19,6 @@ from microslip_mechanics.time_history import TimeHistory
 SCENE = '# a scene\nscene = "two-blades"\n# --set model=A'
 DOCS = Path(__file__).parents[2] / "docs"
 COMMAND = "microslip frc two-blades --set model=A"
-
-
-@pytest.fixture(params=["curve", "history", "envelope"])
-def result(
-    request: pytest.FixtureRequest,
-    small_curve: ResponseCurve,
-    small_history: TimeHistory,
-    small_envelope: Envelope,
-) -> Result:
-    """Return one result of each kind."""
-    results: dict[str, Result] = {
-        "curve": small_curve,
-        "history": small_history,
-        "envelope": small_envelope,
-    }
-    return results[request.param]
 
 
 @pytest.fixture

@@ -111,12 +111,13 @@ def _stability(curve: ResponseCurve) -> str:
 def barren(curve: ResponseCurve) -> list[float]:
     """Return the branch points at which no branch begins or ends [Hz]."""
     # a branch begins and ends with a copy of the point at which it does
-    met = Counter(curve.frequency)
-    return [
-        float(frequency) / math.tau
-        for frequency, mark in zip(curve.frequency, curve.event, strict=True)
-        if mark == "branch point" and met[frequency] == 1
-    ]
+    met, sought, found = Counter(curve.frequency), True, []
+    for frequency, mark in zip(curve.frequency, curve.event, strict=True):
+        if mark in ("branch", "detached"):  # what branches off branches is not sought
+            sought = mark == "detached"
+        if sought and mark == "branch point" and met[frequency] == 1:
+            found.append(float(frequency) / math.tau)
+    return found
 
 
 def resolution(curve: ResponseCurve) -> str:

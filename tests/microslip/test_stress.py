@@ -2,9 +2,6 @@
 
 import csv
 import math
-import os
-import signal
-import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -17,11 +14,11 @@ from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies import stress, stress_curve
-from microslip.studies.bounded import Ended, bounded
+from microslip.studies.bounded import Ended
 from microslip.studies.curve import curve_options, trace_curve
 from microslip.studies.stress import tried
 from microslip.studies.stress_bad_values import BAD, bad_values
-from microslip.studies.stress_budget import LEAST, MOST, WHOLE, Budget
+from microslip.studies.stress_budget import Budget
 from microslip.studies.stress_case import Case
 from microslip.studies.stress_cases import cases
 from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError, limited
@@ -137,86 +134,6 @@ def test_where_no_curve_begins_a_march_from_rest_says_whether_it_settles(
     assert found.outcome is Outcome.HONEST
     assert f"harmonic balance: {ends}; a march" in found.cause
     assert f" is {told} " in found.cause
-
-
-def test_cases_share_what_is_left_of_ten_minutes(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    now = [0.0]
-    monkeypatch.setattr(time, "monotonic", lambda: now[0])
-    solved = [Case("parameter", f"{value}", ()) for value in range(100)]
-    refused = [Case("nan", "table", (), refusals=(("model=B",),))] * 60
-    budget = Budget(2, began=0.0)
-
-    assert budget.share([*solved, *refused]) == pytest.approx(4.0 * WHOLE / 100.0)
-    assert budget.share(solved[:20]) == MOST
-    assert Budget.each(123.0, 2).share(solved) == 123.0
-    for left in range(100, 0, -2):  # two at a time, and all take what they may
-        now[0] += budget.share(solved[:left])
-    assert now[0] < WHOLE + 20.0 * LEAST
-
-
-def ready() -> None:
-    """Prepare nothing."""
-
-
-def work(item: str, seconds: float) -> Iterator[str]:
-    """Do as an item says."""
-    assert seconds == 3.0
-    yield f"half of {item}"
-    while item == "hangs":
-        time.process_time()
-    if item == "dies":
-        os._exit(3)
-    if item == "fails":
-        raise RuntimeError("a defect")
-    yield item
-
-
-def test_what_hangs_dies_or_fails_does_not_stop_the_others() -> None:
-    items = ["first", "hangs", "dies", "fails", "last"]
-    ended = bounded(work, items, seconds=lambda _: 3.0, processes=2, prepare=ready)
-
-    found = {each.item: (each.result, each.cause) for each in ended}
-
-    assert found["first"] == ("first", "")
-    assert found["hangs"] == ("half of hangs", "out of time after 3 s")
-    assert found["dies"] == ("half of dies", "its process ended with 3")
-    assert found["fails"] == ("half of fails", "RuntimeError: a defect")
-    assert found["last"] == ("last", "")
-
-
-def use_processor(until: float) -> None:
-    while time.process_time() < until:
-        pass
-
-
-def test_what_uses_its_processor_time_is_interrupted_and_nothing_after_it() -> None:
-    began = time.process_time()
-
-    with pytest.raises(OutOfTimeError), limited(0.2):
-        use_processor(until=began + 5.0)
-
-    assert 0.1 < time.process_time() - began < 1.0
-    assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
-
-
-def test_what_a_part_leaves_of_its_time_is_for_those_after_it() -> None:
-    clock = Clock(1.0)
-    with clock.until(0.4):
-        use_processor(until=clock.began + 0.05)
-
-    with pytest.raises(OutOfTimeError), clock.until(0.5):
-        use_processor(until=clock.began + 5.0)
-
-    assert 0.45 < time.process_time() - clock.began < 0.7
-
-    # what is over before it begins ends at once
-    began = time.process_time()
-    with pytest.raises(OutOfTimeError), clock.until(0.5):
-        use_processor(until=began + 5.0)
-
-    assert time.process_time() - began < 0.1
 
 
 def test_a_curve_out_of_time_keeps_its_points(compiled: None) -> None:  # noqa: ARG001

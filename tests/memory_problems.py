@@ -26,7 +26,13 @@ SHOE = PointLaw(
 )
 CONTACTS = (
     pytest.param(JENKINS, np.eye(3)[:, 1:2], np.array([0.35]), id="jenkins"),
-    pytest.param(DAHL, np.eye(3)[:, 1:2], np.array([0.35]), id="dahl"),
+    pytest.param(
+        DAHL,
+        np.eye(3)[:, 1:2],
+        np.array([0.35]),
+        id="dahl",  # the law of bristles of the next, without its falling friction
+        marks=pytest.mark.long,
+    ),
     pytest.param(LUGRE, np.eye(3)[:, 1:2], np.array([0.35]), id="lugre"),
     pytest.param(SHOE, np.eye(3)[:, [1, 0]], np.array([0.3, 0.6]), id="lifting shoe"),
     pytest.param(

@@ -36,10 +36,8 @@ def seen(history: Array, frequency: float, time: Array) -> tuple[complex, comple
     return 2.0 * complex(waves[:ROWS].mean()), 2.0 * complex(waves[-ROWS:].mean())
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("wanted", "periods"), [pytest.param(0.8e-3, 8, marks=pytest.mark.long), (2e-3, 30)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("wanted", "periods"), [(0.8e-3, 8), (2e-3, 30)])
 def test_the_decay_of_a_sliding_rig_follows_its_mode(
     wanted: float, periods: int
 ) -> None:

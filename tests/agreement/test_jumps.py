@@ -126,6 +126,7 @@ def test_the_delay_goes_like_the_power_two_thirds_of_the_rate() -> None:
         assert power == pytest.approx(2.0 / 3.0, abs=0.06)
 
 
+@pytest.mark.long
 def test_sweeps_from_far_away_jump_where_those_from_near_do() -> None:
     # On the way to its fold the motion has passed the height between it and the landing
     # once already, and far behind it does so again.

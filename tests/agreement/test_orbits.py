@@ -105,7 +105,7 @@ def test_sharp_transitions_beyond_the_resonance_take_more_harmonics(
     assert difference[BLADES].max() < highest
 
 
-@pytest.mark.parametrize("hertz", [134.5, 135.0])
+@pytest.mark.parametrize("hertz", [pytest.param(134.5, marks=pytest.mark.long), 135.0])
 def test_eight_harmonics_predict_all_of_the_jammed_rig_to_one_per_cent(
     hertz: float,
 ) -> None:
@@ -113,6 +113,7 @@ def test_eight_harmonics_predict_all_of_the_jammed_rig_to_one_per_cent(
     assert differences("stiff", hertz, harmonics=8).max() < 0.01
 
 
+@pytest.mark.long
 def test_eight_harmonics_predict_both_blades_of_the_soft_rig_to_one_per_cent() -> None:
     assert differences("soft", 135.0, harmonics=8)[BLADES].max() < 0.01
 

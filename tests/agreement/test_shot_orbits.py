@@ -73,6 +73,7 @@ def test_orbits_agree_within_the_estimates_of_both(name: str) -> None:
         assert found.difference < 2e-3 or name.startswith("soft")
 
 
+@pytest.mark.long
 def test_an_orbit_beyond_neimark_sacker_is_the_same_and_as_unstable() -> None:
     # Nothing marches there: a pair of multipliers has left the unit circle.
     problem, _ = curve("A, GKF")

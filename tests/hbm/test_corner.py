@@ -166,7 +166,10 @@ def test_a_direction_in_which_nothing_is_found_is_tried_once() -> None:
     assert calls <= 25
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 8e-3, 2e-3])
+@pytest.mark.parametrize(
+    "tolerance",
+    [*(pytest.param(each, marks=pytest.mark.long) for each in (1e-2, 8e-3)), 2e-3],
+)
 def test_a_beam_that_rubs_at_its_tip_is_traced_without_turning_back(
     tolerance: float,
 ) -> None:

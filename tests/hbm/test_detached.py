@@ -103,6 +103,7 @@ def test_its_peak_balances_drive_against_friction_and_damping() -> None:
     assert peak.frequency == pytest.approx(natural, rel=5e-3)
 
 
+@pytest.mark.long
 def test_stable_points_of_it_are_kept_by_a_march_and_unstable_ones_left() -> None:
     _, other = curves()
     plain = [each for each in other if not each.event]

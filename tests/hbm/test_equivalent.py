@@ -1,5 +1,7 @@
 """Equivalent springs and dampers: closed forms, energy, limits, time integration."""
 
+import functools
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -47,6 +49,7 @@ def coulomb_damping(load: float, threshold: float, speed: float) -> float:
     return 4.0 / np.pi * load * float(viscous + np.cos(stick) / speed)
 
 
+@functools.cache
 def rig_response(name: str) -> tuple[Problem, PeriodicResponse]:
     """Return a rig and its one-harmonic response at resonance."""
     problem = rig_problem(**RIGS[name])

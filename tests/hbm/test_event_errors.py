@@ -30,6 +30,9 @@ SCENES = (
     ("jenkins", "drive.x=0.7"),
     ("jenkins", "drive.x=2"),
 )
+MANY = pytest.mark.parametrize(
+    "scenes", [SCENES[:4], pytest.param(SCENES, marks=pytest.mark.long)], ids=len
+)
 TOLERANCES = (1e-2, 3e-3, 1e-3, 3e-4)
 FINEST = 3e-6
 
@@ -52,10 +55,12 @@ def marked(
 
 
 @functools.cache
-def compared() -> list[tuple[PeriodicResponse, PeriodicResponse]]:
+def compared(
+    scenes: tuple[tuple[str, ...], ...],
+) -> list[tuple[PeriodicResponse, PeriodicResponse]]:
     """Return each peak and fold beside that of the finest curve."""
     pairs = []
-    for scene in SCENES:
+    for scene in scenes:
         finest = marked(*scene, error=FINEST)
         for tolerance in TOLERANCES:
             for each in marked(*scene, error=tolerance):
@@ -70,7 +75,10 @@ def amplitude(response: PeriodicResponse) -> float:
     return float(np.hypot(*response.coefficients[1:3, 0]))
 
 
-def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above() -> None:
+@MANY
+def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above(
+    scenes: tuple[tuple[str, ...], ...],
+) -> None:
     true, estimated, doubt = np.array(
         [
             (
@@ -78,12 +86,12 @@ def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above() -
                 each.parameter_error,
                 finest.parameter_error,
             )
-            for each, finest in compared()
+            for each, finest in compared(scenes)
         ]
     ).T
     known = doubt < 0.3 * true  # else the finest curve does not know better
 
-    assert known.sum() >= 25
+    assert known.sum() >= 20
     share = estimated[known] / true[known]
     assert share.min() >= 1.0  # measured 1.4
     assert np.median(share) <= 5.0  # measured 3.0
@@ -91,14 +99,17 @@ def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above() -
     assert np.all(true <= estimated + doubt)
 
 
+@MANY
 @pytest.mark.parametrize("event", ["fold", "peak"])
-def test_amplitudes_err_by_no_more_than_is_told(event: str) -> None:
+def test_amplitudes_err_by_no_more_than_is_told(
+    event: str, scenes: tuple[tuple[str, ...], ...]
+) -> None:
     # more harmonics move a fold along its curve, where the amplitude changes fastest,
     # and a peak to where it is larger
     true, estimated, doubt = np.array(
         [
             (abs(amplitude(each) / amplitude(finest) - 1.0), each.error, finest.error)
-            for each, finest in compared()
+            for each, finest in compared(scenes)
             if each.event == event
         ]
     ).T

@@ -272,7 +272,8 @@ def rubbing_duffing(drive: float) -> Problem:
     )
 
 
-@pytest.mark.parametrize("error", [1e-2, pytest.param(1e-3, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("error", [1e-2, 1e-3])
 def test_folds_of_rigid_friction_are_found_and_followed(error: float) -> None:
     hertz = 2.0 * np.pi
     problem = rubbing_duffing(0.1)

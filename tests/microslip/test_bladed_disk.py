@@ -59,6 +59,7 @@ def test_sector_and_disk_have_the_same_curve(law: str, limit: str) -> None:
         assert energy == pytest.approx(other.friction_energy[end], rel=1e-5, abs=1e-12)
 
 
+@pytest.mark.long
 def test_a_disk_driven_in_phase_is_linear_and_has_one_peak() -> None:
     scene = scene_of("drive.engine_order=6", WHOLE)
 

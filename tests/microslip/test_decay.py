@@ -325,6 +325,7 @@ def test_what_is_over_before_it_swings_is_not_measured_in_its_last_digits() -> N
     assert not decay.time.size
 
 
+@pytest.mark.long
 def test_motions_that_beat_are_told(run: Run) -> None:
     words = ("--frequency", "0.16", "--tolerance", "0.5", "--periods", "60")
 

@@ -8,6 +8,8 @@ import pytest
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 
+SLOW = ("friction.mu_dynamic=1e10",)
+"""sweeps that take long"""
 IMPOSSIBLE = [
     "preload.force=0",
     "preload.force=1e-300",
@@ -85,7 +87,13 @@ def test_curve_of_an_impossible_rig_ends_with_a_result_or_one_line(
 
 
 @pytest.mark.usefixtures("no_hang", "no_picture")
-@pytest.mark.parametrize("override", IMPOSSIBLE)
+@pytest.mark.parametrize(
+    "override",
+    [
+        pytest.param(each, marks=[pytest.mark.long] * (each in SLOW))
+        for each in IMPOSSIBLE
+    ],
+)
 def test_sweep_of_an_impossible_rig_ends_with_a_result_or_one_line(
     override: str, run: Run, quick_scene: Path
 ) -> None:

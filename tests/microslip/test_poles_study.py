@@ -33,6 +33,7 @@ def asked(values: list[str], key: str = FRICTION) -> tuple[Question, list[Linear
     return question, list(linearised(question, values))
 
 
+@pytest.mark.long
 def test_branches_go_from_the_free_to_the_stuck_structure() -> None:
     question, found = asked(["0", "0.0003", "0.05", "0.2", "0.4", "9"])
     span = limits_of(question.at("0.3"))

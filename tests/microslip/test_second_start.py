@@ -28,6 +28,7 @@ def kernels(command: str, scene: Path) -> tuple[set[str], set[str]]:
 
 
 @pytest.mark.slow(seconds=90)
+@pytest.mark.long
 def test_second_start_compiles_nothing_whatever_the_model_and_law(
     quick_scene: Path, tmp_path: Path
 ) -> None:

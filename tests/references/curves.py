@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import microslip
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
@@ -34,12 +36,25 @@ def curve(
     problem: Problem, lowest: float, highest: float, harmonics: int, samples: int
 ) -> list[PeriodicResponse]:
     """Return the points of a curve between two frequencies [rad/s]."""
-    options = CurveOptions(
-        lowest, highest, harmonics=harmonics, samples=samples, errors=False
-    )
-    return list(frequency_response(problem, static_equilibrium(problem), options))
+    return list(_traced(problem, lowest, highest, harmonics, samples))
+
+
+def point(
+    problem: Problem, frequency: float, harmonics: int, samples: int
+) -> PeriodicResponse:
+    """Return the response at one frequency [rad/s]."""
+    return next(_traced(problem, frequency, 1.01 * frequency, harmonics, samples))
 
 
 def first(response: PeriodicResponse) -> float:
     """Return the amplitude [m] of the first harmonic of the first coordinate."""
     return abs(complex(response.coefficients[1, 0], response.coefficients[2, 0]))
+
+
+def _traced(
+    problem: Problem, lowest: float, highest: float, harmonics: int, samples: int
+) -> Iterator[PeriodicResponse]:
+    options = CurveOptions(
+        lowest, highest, harmonics=harmonics, samples=samples, errors=False
+    )
+    yield from frequency_response(problem, static_equilibrium(problem), options)

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 import microslip
 from microslip_mechanics.response import PeriodicResponse
-from references.curves import curve, first, oscillator
+from references.curves import curve, first, oscillator, point
 from references.finding import Finding
 
 DRY = "Den Hartog (1931), Trans. ASME 53, APM-53-9: motion without stops"
@@ -36,7 +36,7 @@ def _dry() -> Iterator[Finding]:
     law = microslip.RegularisedCoulomb(load=LIMIT, mu=1.0, threshold_velocity=threshold)
     problem = oscillator(law, drive=FORCE)
     for frequency in (0.7, 1.3):
-        response = curve(problem, frequency, frequency + 0.01, 255, 8192)[0]
+        response = point(problem, frequency, 255, 8192)
         highest = _largest(response)
         known = den_hartog(frequency)
         quantity = f"amplitude at {frequency:g} rad/s [m]"
@@ -95,7 +95,7 @@ def _joint() -> Finding:
         slip_force=10.0, stiffness=2e3, chi=-0.6, beta=0.2, sliders=40, smallest=1e-3
     )
     problem = oscillator(law, stiffness=2e4, drive=1.0)
-    response = curve(problem, 100.0, 101.0, 1, 4096)[0]
+    response = point(problem, 100.0, 1, 4096)
     power = law.density * first(response) ** (law.chi + 3.0)
     known = 4.0 * power / ((law.chi + 2.0) * (law.chi + 3.0))
     found = response.friction_energy

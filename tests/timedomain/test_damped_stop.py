@@ -1,6 +1,7 @@
 """Shooting of a mass that a stop with a dashpot throws back: its steps leap."""
 
 import numpy as np
+import pytest
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
@@ -11,6 +12,7 @@ from microslip_mechanics.system import system
 from timedomain.comparison import compared
 
 
+@pytest.mark.long
 def test_orbits_are_found_where_the_force_jumps_as_faces_touch() -> None:
     stop = UnilateralSpring(stiffness=5e3, gap=1e-3, damping=2.0)
     problem = system(

@@ -203,6 +203,7 @@ def test_tight_tolerances_close_the_energy_balance() -> None:
     assert np.abs(form.closing_error(states)).max() < 1e-9 * put_in
 
 
+@pytest.mark.long
 def test_newmark_s_energy_converges_to_that_of_the_first_order_form() -> None:
     problem = rig_problem(model="A")
     start = from_rest(problem)

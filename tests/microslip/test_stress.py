@@ -260,7 +260,7 @@ def test_a_quick_look_runs_from_the_command_line(
 ) -> None:
     near = ("model=A", "curve.lowest=134 Hz", "curve.highest=136 Hz")
     settings = [each for key in near for each in ("--set", key)]
-    chosen = ("--quick", "--seconds", "1", "--processes", "1")
+    chosen = ("--quick", "--seconds", "2", "--processes", "1")
 
     status, output, _ = run("stress", "two-blades", *settings, *chosen)
 

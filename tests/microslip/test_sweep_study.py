@@ -1,6 +1,6 @@
 """The study of a sweep: the scene's load history, slower ones, parts and wholes."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -133,3 +133,22 @@ def test_whole_march_is_the_march(scene: Scene) -> None:
 
     marched = march_sweep(problem, sweep, scene.march)
     np.testing.assert_array_equal(whole.energy, marched.energy)
+
+
+def test_sparser_rows_tell_as_large_extremes_within_their_error(
+    run: Callable[..., tuple[int, str, str]],
+) -> None:
+    def told(every: int) -> tuple[np.ndarray, float]:
+        sets = ("sweep.lowest=5", "sweep.end=2", "sweep.duration=2")
+        words = [f"--set={each}" for each in (*sets, f"march.store_every={every}")]
+        _, output, _ = run("sweep", "gap", *words)
+        error = output.split("error of the peak amplitude ")[1].split()[0]
+        row = next(line for line in output.splitlines() if line.startswith("  x "))
+        return np.array(row.split()[1:], dtype=float), float(error)
+
+    (dense, least), (sparse, error) = told(1), told(40)
+
+    assert least == 1e-3  # of the march alone
+    assert abs(sparse[0] / dense[0] - 1.0) <= error < 0.05
+    # the rows themselves end 5 % before it
+    np.testing.assert_allclose(sparse, dense, rtol=1e-3)

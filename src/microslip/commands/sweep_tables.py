@@ -26,6 +26,7 @@ def energy_table(result: TimeHistory | Envelope) -> str:
 
 def estimates(result: TimeHistory | Envelope) -> list[str]:
     """Return lines of the estimated errors, as far as the result tells them."""
+    from microslip_mechanics.between_rows import rows_error
     from microslip_mechanics.envelope import Envelope
 
     if isinstance(result, Envelope) or not result.energy_error.size:
@@ -38,8 +39,9 @@ def estimates(result: TimeHistory | Envelope) -> list[str]:
         for value in values[-1:]:
             share = f"  ({value / friction:.1e} of it)" if friction else ""
             lines.append(f"  {name:20s} {value:12.2g}{share}")
-    peak = f"estimated error of the peak amplitude {result.peak_error[-1]:.1e}"
-    return [*lines, peak]
+    between = rows_error(result.time, result.displacement, result.velocity)
+    peak = max(float(result.peak_error[-1]), between)
+    return [*lines, f"estimated error of the peak amplitude {peak:.1e}"]
 
 
 def extremes(result: TimeHistory | Envelope, pressed: Sequence[str]) -> list[str]:
@@ -47,19 +49,21 @@ def extremes(result: TimeHistory | Envelope, pressed: Sequence[str]) -> list[str
 
     ``pressed`` are the contacts that have normal forces at all.
     """
+    import numpy as np
+
+    from microslip_mechanics.between_rows import largest
     from microslip_mechanics.envelope import Envelope
 
     if isinstance(result, Envelope):
-        moved, moving = (result.lowest, result.highest), result.fastest
+        far = np.maximum(-result.lowest, result.highest).max(axis=0)
+        fast = result.fastest.max(axis=0)
         normal = result.normal_smallest, result.normal_largest
     else:
-        moved, moving = (result.displacement,) * 2, result.velocity
+        far, fast = largest(result.time, result.displacement, result.velocity)
         normal = (result.normal_force,) * 2
     lines = ["largest displacement [mm] and velocity [m/s]"]
     for place, name in enumerate(result.probes):
-        far = 1e3 * max(abs(each[:, place]).max() for each in moved)
-        fast = abs(moving[:, place]).max()
-        lines.append(f"  {name:20s} {far:12.6g} {fast:12.6g}")
+        lines.append(f"  {name:20s} {1e3 * far[place]:12.6g} {fast[place]:12.6g}")
     if pressed:
         lines.append("normal force [N], least and most")
     for place, name in enumerate(result.contacts):

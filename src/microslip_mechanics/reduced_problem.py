@@ -39,7 +39,7 @@ class ReducedProblem:
         return f"<ReducedProblem: of {whole} degrees of freedom; {self.problem!r}>"
 
     def error(self, hertz: float) -> float:
-        """Return the relative error of the stiffness at what is kept, at a frequency.
+        """Return the relative error of stiffness or motion at what is kept.
 
         Raises
         ------

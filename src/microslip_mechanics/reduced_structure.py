@@ -36,11 +36,13 @@ class ReducedStructure:
         return found
 
     def error(self, frequency: float) -> float:
-        """Return the measured error of the stiffness that the interface meets.
+        """Return the measured error of what the interface meets.
 
         The dynamic stiffness without damping, condensed onto the interface, is computed
-        from the whole structure at this frequency [rad/s]. Its largest change, over its
-        own size, is returned; each degree of freedom is scaled by its own stiffness.
+        from the whole structure at this frequency [rad/s], and its inverse, the motion
+        that loads make. Their largest change, over their own size, is returned; each
+        degree of freedom is scaled by its own stiffness. What is stiff hides in the
+        one what is soft, which moves most, and in the other the other way round.
 
         Raises
         ------
@@ -49,14 +51,15 @@ class ReducedStructure:
         """
         seen = np.zeros((self.interface.size, self.whole.dofs))
         seen[np.arange(self.interface.size), self.interface] = 1.0
-        exact = _condensed(self.whole, seen, frequency)
-        found = _condensed(self.structure, seen @ self.shapes, frequency)
-        scale = np.sqrt(np.abs(np.diag(exact)))
-        change, size = (
-            np.linalg.norm(each / np.outer(scale, scale), 2)
-            for each in (found - exact, exact)
+        exact = _moved(self.whole, seen, frequency)
+        found = _moved(self.structure, seen @ self.shapes, frequency)
+        scale = np.sqrt(np.abs(np.diag(np.linalg.inv(exact))))
+        exact, found = (np.outer(scale, scale) * each for each in (exact, found))
+        pairs = (exact, found), (np.linalg.inv(exact), np.linalg.inv(found))
+        return max(
+            float(np.linalg.norm(there - here, 2) / np.linalg.norm(here, 2))
+            for here, there in pairs
         )
-        return float(change / size)
 
 
 def craig_bampton(
@@ -129,8 +132,8 @@ def _sparse(structure: Structure) -> Structure:
     return Structure(mass, damping, stiffness, structure.names, structure.gyroscopic)
 
 
-def _condensed(structure: Structure, seen: Array, frequency: float) -> Array:
-    """Return the inverse of what unit loads move, both through ``seen``."""
+def _moved(structure: Structure, seen: Array, frequency: float) -> Array:
+    """Return what unit loads move, both through ``seen``."""
     matrix: Matrix = structure.stiffness - frequency**2 * structure.mass
     found = indefinite_factors(matrix)
     if found is None:
@@ -138,4 +141,5 @@ def _condensed(structure: Structure, seen: Array, frequency: float) -> Array:
             f"{frequency:g} rad/s is a natural frequency of the structure: "
             "take another one"
         )
-    return np.linalg.inv(seen @ found.solve(np.ascontiguousarray(seen.T)))
+    moved: Array = seen @ found.solve(np.ascontiguousarray(seen.T))
+    return moved

@@ -73,22 +73,28 @@ def test_the_error_is_that_of_a_direct_solution_and_falls_with_the_modes(
     structure, interface = beam()
     frequency = 1200.0
     dynamic = structure.stiffness - frequency**2 * structure.mass
-    exact = np.linalg.inv(np.linalg.inv(dynamic)[np.ix_(interface, interface)])
+    exact = np.linalg.inv(dynamic)[np.ix_(interface, interface)]
+    scale = np.sqrt(np.abs(np.diag(np.linalg.inv(exact))))
 
     errors = []
     for highest in (1500.0, 6000.0, 24000.0):
         found = reduce(structure, interface, highest)
         small = found.structure.stiffness - frequency**2 * found.structure.mass
         seen = found.shapes[interface]
-        stiffness = np.linalg.inv(seen @ np.linalg.solve(small, seen.T))
-        scale = np.sqrt(np.abs(np.diag(exact)))
-        sizes = [
-            np.linalg.norm(each / np.outer(scale, scale), 2)
-            for each in (stiffness - exact, exact)
-        ]
-        assert found.error(frequency) == pytest.approx(
-            sizes[0] / sizes[1], rel=1e-3, abs=1e-12
+        moved = seen @ np.linalg.solve(small, seen.T)
+        motion = (
+            np.outer(scale, scale) * (moved - exact),
+            np.outer(scale, scale) * exact,
         )
+        stiffness = (
+            (np.linalg.inv(moved) - np.linalg.inv(exact)) / np.outer(scale, scale),
+            np.linalg.inv(exact) / np.outer(scale, scale),
+        )
+        known = max(
+            np.linalg.norm(change, 2) / np.linalg.norm(whole, 2)
+            for change, whole in (motion, stiffness)
+        )
+        assert found.error(frequency) == pytest.approx(known, rel=1e-3, abs=1e-12)
         errors.append(found.error(frequency))
 
     assert errors[0] < 0.1
@@ -191,3 +197,28 @@ def test_a_skew_part_must_be_meant() -> None:
 
     with pytest.raises(ValueError, match=r"^damping is not symmetric"):
         Structure(shaft.mass, shaft.damping, shaft.stiffness, shaft.names)
+
+
+def test_the_error_sees_what_is_soft_among_what_is_stiff() -> None:
+    # three faces of a tip on springs a million times as stiff as what carries it
+    faces, count = 3, 8
+    stiffness = np.zeros((count, count))
+    for place in range(count - 1):
+        spring = 1e9 if place < faces - 1 else 1e3
+        stiffness[place : place + 2, place : place + 2] += spring * np.array(
+            [[1.0, -1.0], [-1.0, 1.0]]
+        )
+    stiffness[-1, -1] += 1e3
+    names = tuple(f"x{place}" for place in range(count))
+    structure = Structure(np.eye(count), np.zeros((count, count)), stiffness, names)
+    interface = np.arange(faces)
+
+    found = craig_bampton(structure, interface, 1.0)  # no modes
+    frequency = 7.0
+
+    dynamic = structure.stiffness - frequency**2 * structure.mass
+    small = found.structure.stiffness - frequency**2 * found.structure.mass
+    true = np.linalg.inv(dynamic)[0, 0]
+    made = (found.shapes @ np.linalg.inv(small) @ found.shapes.T)[0, 0]
+    assert found.error(frequency) == pytest.approx(abs(made / true - 1.0), rel=0.1)
+    assert abs(made / true - 1.0) > 1e-3

@@ -287,10 +287,10 @@ def test_a_scene_is_reduced_to_contacts_loads_and_what_it_keeps(tmp_path: Path) 
     scene = load_scene(str(tmp_path / "mine.toml"))
     made_of = reduction(scene.rig)
     assert made_of is not None
-    assert made_of.error(500.0) < 1e-5
+    assert made_of.error(500.0) < 5e-4
     told = pruned(scene)[0]
     assert (told.kept, told.whole) == (problem.structure.dofs, 120)
-    assert f"off by {made_of.error(7.0):.1e} at 7 Hz" in told.reason
+    assert f"otherwise by {made_of.error(7.0):.1e} at 7 Hz" in told.reason
     static = np.linalg.solve(problem.structure.stiffness, problem.drive)
     exact = 0.12**3 / (3.0 * 210e9 * 0.03 * 0.006**3 / 12.0)
     assert (problem.probes.rows @ static)[0] == pytest.approx(exact, rel=1e-6)

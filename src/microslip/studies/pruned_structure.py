@@ -65,6 +65,6 @@ def _whole(
         return problem.structure.dofs, f"all of the scene's; {sparse}"
     wanted, hertz = scene.rig.structure.reduction, scene.curve.highest
     return made.reduction.whole.dofs, (
-        f"{wanted.method}, modes up to {wanted.highest:g} Hz: stiffness at what is "
-        f"kept is off by {made.error(hertz):.1e} at {hertz:g} Hz"
+        f"{wanted.method}, modes up to {wanted.highest:g} Hz: what is kept moves or "
+        f"resists otherwise by {made.error(hertz):.1e} at {hertz:g} Hz"
     )

@@ -126,8 +126,8 @@ def _advance(
     free -= np.dot(operators.contact, smooth + impulse)
     later = np.dot(sliders.release, impulse)
     state.past[:] = state.fresh
+    state.reaction[:] = smooth + impulse
     for i in range(dofs):
-        state.reaction[i] = smooth[i] + impulse[i]
         state.displacement[i] = predicted[i] + half**2 * free[i]
         state.velocity[i] = predicted[dofs + i] + half * free[i]
         state.acceleration[i] = free[i] + later[i]

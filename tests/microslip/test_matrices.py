@@ -211,6 +211,24 @@ def test_nastran_may_leave_out_the_letter_of_an_exponent(tmp_path: Path) -> None
     )
 
 
+def test_nastran_s_comments_end_no_column(tmp_path: Path) -> None:
+    (tmp_path / "a.pch").write_text(
+        "$ punched\n"
+        "DMIG    K              0       6       2       0\n"
+        "DMIG*   K                              1               1\n"
+        "*                      1               1             2.0\n"
+        "$ springs to node 2\n"
+        "\n"
+        "*                      2               1            -1.0\n"
+        "DMIG*   K                              2               1\n"
+        "*                      2               1             2.0\n"
+    )
+
+    found = MatrixSource(tmp_path / "a.pch").read(("K",))
+
+    np.testing.assert_array_equal(found.matrix.toarray(), [[2.0, -1.0], [-1.0, 2.0]])
+
+
 def test_halves_may_be_mixed(tmp_path: Path) -> None:
     # the order of the program that wrote it is not that of the nodes' numbers
     (tmp_path / "k.txt").write_text(

@@ -154,6 +154,36 @@ def test_a_pushed_block_that_sticks_does_not_move_at_all() -> None:
     assert np.abs(history.displacement[:, 2]).max() > 1e-3
 
 
+@pytest.mark.kernels  # without the JIT, which does not look whether an index is there
+def test_what_the_contact_does_not_see_moves_beside_it() -> None:
+    springs, drive = [8.0, 30.0, 50.0, 70.0], {"x": 3.0, "b": 1.0, "c": 2.0}
+    slider = Element(RigidCoulomb(mu=0.2, load=2.0), tangents=[("x", "ground")])
+    made = [
+        system(
+            mass=[2.0] * count,
+            stiffness=np.diag(springs[:count]).tolist(),
+            names=("x", "a", "b", "c")[:count],
+            elements=[slider],
+            drive={name: drive[name] for name in drive if name in "xabc"[:count]},
+        )
+        for count in (1, 4)
+    ]
+
+    alone, among = (
+        marched(each, Start(*np.zeros((2, size))), 1.0, 1e-2, frequency=2.0)
+        for each, size in zip(made, (1, 4), strict=True)
+    )
+
+    x, *_, b, c = among.displacement.T
+    np.testing.assert_allclose(x, alone.displacement[:, 0], rtol=1e-9)
+    for spring, force, found in ((50.0, 1.0, b), (70.0, 2.0, c)):
+        own = math.sqrt(spring / 2.0)
+        rest = np.sin(2.0 * among.time) - 2.0 / own * np.sin(own * among.time)
+        exact = force / (spring - 8.0) * rest
+        assert found == pytest.approx(exact, abs=2e-3 * np.abs(exact).max())
+    assert np.abs(x).max() > 0.05
+
+
 def test_marches_of_rigid_friction_go_on_from_their_checkpoints() -> None:
     problem = driven("rigid coulomb, variable load")
     options = MarchOptions(2e-3, store_every=5)

@@ -74,9 +74,11 @@ def _headers(path: Path, lines: list[str]) -> list[str]:
 
 
 def _entries(path: Path, lines: list[str], name: str) -> Iterator[Entry]:
-    """Yield the entries of one matrix."""
+    """Yield the entries of one matrix; comments and empty lines may stand anywhere."""
     column = None
     for number, line in enumerate(lines, start=1):
+        if line.startswith("$") or not line.strip():
+            continue
         key, fields = line[:8].strip(), _fields(line)
         if key == "DMIG*":
             column = None

@@ -61,6 +61,14 @@ class Envelope(ByValue):
     checkpoint: Checkpoint | None = None
     """where the march can go on; the cycle begun there is in its memory"""
 
+    def __repr__(self) -> str:
+        """Return what kind of envelope it is, in a line."""
+        until = f" until {self.time[-1]:g} s" if self.time.size else ""
+        return (
+            f"<Envelope: {self.time.size} cycles{until}; "
+            f"probes {', '.join(self.probes)}; {self.ending}>"
+        )
+
     def of(self, energy: str) -> Array:
         """Return one energy at the ends of the cycles [J], shape (cycles,)."""
         return energy_of(self, energy)

@@ -87,8 +87,9 @@ class Structure:
         """
         if self.sparse:
             raise ValueError(
-                "the structure is sparse: reduce the problem first "
-                "(microslip_mechanics.reduction.reduced)"
+                "the structure is sparse, which frc can do with, but not what follows "
+                "motions in time or modes: reduce it, in a scene by "
+                "[structure.reduction], in Python by microslip.reduced_problem"
             )
         return self
 

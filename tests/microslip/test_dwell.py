@@ -15,7 +15,7 @@ from hbm.solve import frequency_response
 from microslip.experiments import March
 from microslip.figures.dwell import dwell_figure
 from microslip.result_file import load
-from microslip.studies.dwell import amplitudes, dwelling
+from microslip.studies.dwell import _left, amplitudes, dwelling
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import TimeHistory, joined
@@ -188,3 +188,23 @@ def test_a_scene_without_drive_has_no_steady_motion(
     assert (status, printed) == (2, "")
     assert "nothing moves at any frequency: the scene has no drive" in error
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("creep", [0.0, 1e-3])
+def test_the_way_that_is_left_of_a_beating_motion_is_known(creep: float) -> None:
+    # a mode that fades by 1 % a period and turns by 0.8 in each, and one that creeps
+    draw = np.random.default_rng(3)
+    waves, slow = draw.normal(size=(2, 6)), draw.normal(size=6)
+
+    def place(period: int) -> np.ndarray:
+        turned = 0.99**period * np.array([np.cos(0.8 * period), np.sin(0.8 * period)])
+        return turned @ waves + creep * 0.999**period * slow
+
+    for last in (50, 200):
+        places = [place(period) for period in range(last - 3, last + 1)]
+        found = _left(list(np.diff(places, axis=0)), 999.0)
+        true = np.linalg.norm(places[-1])
+
+        assert true * (1.0 - 1e-9) <= found
+        if creep == 0.0:
+            assert found <= 1.001 * true

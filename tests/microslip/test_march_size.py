@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 import pytest
+import scipy.sparse
 
 from microslip.quantity import SceneError
 from microslip.studies.march_size import demand_end, turns
@@ -112,3 +113,30 @@ def test_rows_that_a_file_cannot_count_are_refused() -> None:
 def test_the_drive_of_a_sweep_turns_as_often_as_its_frequency_says() -> None:
     # 2 s of 7 Hz follow 3 Hz / ln(7/4) for 30 s
     assert turns(SWEEP) == pytest.approx(14.0 + 30.0 * 3.0 / 0.5596157879, rel=1e-9)
+
+
+@pytest.mark.parametrize("command", [("verify",), ("precision", "--quick")])
+def test_a_sparse_structure_is_refused_before_its_curve_is_traced(
+    command: tuple[str, ...], run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def untraced(*_: object) -> None:
+        raise AssertionError("traced")
+
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", untraced)
+    monkeypatch.setattr("microslip.studies.precision_case.trace_curve", untraced)
+    one = scipy.sparse.eye_array(401, format="csc")
+    scipy.sparse.save_npz(tmp_path / "m.npz", one)
+    (tmp_path / "large.toml").write_text(
+        'scene = "system"\n[structure]\nmass = "m.npz"\nstiffness = "m.npz"\n'
+        'mass_damping = 0.1\n[drive]\n"7" = 1\n[probes]\nx = "7"\n'
+        "[curve]\nlowest = 0.1\nhighest = 0.2\n"
+        "[sweep]\nend = 1\nduration = 1\nlowest = 0.1\nhighest = 0.2\n"
+        "[march]\ntime_step = 0.01\n"
+    )
+
+    status, _, error = run(command[0], "large.toml", *command[1:])
+
+    assert status in (1, 2)
+    assert error.startswith("microslip: the structure is sparse, ")
+    assert "[structure.reduction]" in error
+    assert error.count("\n") == 1

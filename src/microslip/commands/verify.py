@@ -87,11 +87,13 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.quantity import SceneError
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
+    from microslip.studies.march_size import demand_dense
     from microslip_mechanics.contact.memory import beyond_motion
 
     _, picture = arguments.outputs(options, "verify", ".png")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
+    demand_dense(problem)
     if not problem.drive.any():
         raise SceneError(
             f"{options.scene}: no load varies: nothing vibrates, so there is nothing "

@@ -84,7 +84,8 @@ def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
         )
     rate = rate_of(list(sweeps))
     if rate is not None:
-        lines.append(f"the difference falls as duration^-{rate:.2f}")
+        sign = "falls" if rate > 0.0 else "grows"
+        lines.append(f"the difference {sign} as duration^{-rate:.2f}")
     return "\n".join(lines)
 
 
@@ -105,7 +106,13 @@ def sweeps_said(
     verb = f"approach{ending}" if agree else f"{'do' if many else 'does'} not approach"
     sign = "agree" if agree else "DISAGREE"
     said = f"{sign}: {what} of the sweep {verb} the curve as it slows"
-    return said if agree or not holds else f"{said}\n{HELD}"
+    if agree:
+        return said
+    slowest = max((sweep.slower for sweep in sweeps), default=1.0)
+    said += (
+        f"\nall may be too fast: --slower {4 * slowest:g} {16 * slowest:g} tells more"
+    )
+    return f"{said}\n{HELD}" if holds else said
 
 
 def orbits_said(verdicts: Sequence[Verdict]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -54,7 +54,8 @@ def dwelling(
 
     The period map moves the state by d_k = |x_k − x_{k−1}| in the norm of energy. While
     the d fade by a factor of ρ in each period, d_k ρ/(1−ρ) is left to go. As modes
-    that fade together beat, d_k and ρ are taken from the largest d of each window.
+    that fade together beat, d_k and ρ are taken from the largest d of each window;
+    where two of them account for all of d_k, less is left.
 
     Raises
     ------
@@ -96,6 +97,7 @@ class _Ruler:
         self._momenta = self._unheld.T @ mass
         self._frequency, self._rest = frequency, rest
         self._before = np.zeros(2 * rest.size)
+        self._changes: list[Array] = []
         self._moved: list[float] = []
 
     def distance(self, state: Checkpoint | None) -> float:
@@ -106,7 +108,8 @@ class _Ruler:
         moved -= self._unheld @ (self._momenta @ moved)  # where it is does not matter
         place = self._frequency * (self._root @ moved)
         here = np.concatenate([place, self._root @ state.velocity])
-        self._moved.append(float(np.linalg.norm(here - self._before)))
+        self._changes = [*self._changes[-2:], here - self._before]
+        self._moved.append(float(np.linalg.norm(self._changes[-1])))
         self._before = here
         if max(self._moved) == 0.0:
             return 0.0
@@ -116,7 +119,27 @@ class _Ruler:
         fade = (max(recent) / max(before)) ** (1.0 / WINDOW)
         if fade >= 1.0:  # by rounding: what is left of the motion jitters
             return math.inf
-        return float(max(recent) * fade / (1.0 - fade) / np.linalg.norm(here))
+        alike = fade / (1.0 - fade)
+        left = min(max(recent) * alike, _left(self._changes, alike))
+        return float(left / np.linalg.norm(here))
+
+
+def _left(changes: Sequence[Array], alike: float) -> float:
+    """Return how far a motion has yet to go after three changes.
+
+    A pair of modes that fade and beat changes it by d_k = a d_{k−1} + b d_{k−2}, and
+    all changes to come add up to (a d_k + b (d_k + d_{k−1})) / (1 − a − b). What the
+    best such numbers leave of the third change counts ``alike`` times, as if it faded
+    without a beat.
+    """
+    first, second, third = changes
+    pair = np.stack([second, first], axis=1)
+    (a, b), *_ = np.linalg.lstsq(pair, third, rcond=None)
+    unlike = third - pair @ (a, b)
+    if not a + b < 1.0:
+        return math.inf
+    rest = (a * third + b * (third + second)) / (1.0 - a - b)
+    return float(np.linalg.norm(rest) + alike * np.linalg.norm(unlike))
 
 
 def amplitudes(history: TimeHistory, frequency: float) -> Array:

@@ -8,6 +8,7 @@ import numpy as np
 
 from microslip.quantity import SceneError
 from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import clock
 from timedomain.options import MarchOptions
 
@@ -74,3 +75,14 @@ def turns(loads: LoadHistory) -> float:
 def _ratio(length: float, step: float) -> float:
     """Return how many steps fill a length; inf if beyond numbers."""
     return length / step if length < 1e300 * step else math.inf
+
+
+def demand_dense(problem: Problem) -> None:
+    """Say what a march would say of a sparse structure, before a curve is traced.
+
+    Raises
+    ------
+    ValueError
+        If it is one.
+    """
+    _ = problem.structure.dense

@@ -16,6 +16,7 @@ from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_tables import Scene
 from microslip.studies.curve import trace_curve
+from microslip.studies.march_size import demand_dense
 from microslip.studies.orbit import PHASES
 from microslip.studies.precision_march import PERIODS, Carried, fixed_step, march
 from microslip_mechanics.errors import MicroslipError
@@ -83,6 +84,7 @@ def case_of(scene: Scene, hertz: float | None = None) -> Case:
         If the curve is interrupted: its highest peak may be still to come.
     """
     problem = problem_of(scene)
+    demand_dense(problem)
     if not problem.drive.any():
         raise SceneError("nothing drives the scene: give a force")
     traced = trace_curve(problem, scene.curve)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -119,14 +118,20 @@ def _estimated(history: TimeHistory, time: float) -> float:
 
 
 def falls(agreements: list[SweepAgreement]) -> bool:
-    """Return whether energies and envelopes come closer each time the sweep slows."""
+    """Return whether energy and envelope of the slowest sweep are closest to the curve.
+
+    The others may be too fast to come closer to it in turn.
+    """
+    if not agreements:
+        return True
+    *others, slowest = sorted(agreements, key=lambda each: each.slower)
     return all(
         (
-            abs(after.energy_error) < abs(before.energy_error)
-            or after.energy_error == 0.0
+            abs(slowest.energy_error) < abs(other.energy_error)
+            or slowest.energy_error == 0.0
         )
-        and after.envelope_error < before.envelope_error
-        for before, after in itertools.pairwise(agreements)
+        and slowest.envelope_error < other.envelope_error
+        for other in others
     )
 
 

@@ -14,7 +14,11 @@ from microslip.scene_tables import Scene
 from microslip.studies import curve
 from microslip.studies.curve import Wanted, shown_points, trace_curve
 from microslip.studies.detached import Searched
-from microslip.studies.quasi_static import followed_upwards, quasi_static_energy
+from microslip.studies.quasi_static import (
+    followed_by,
+    followed_upwards,
+    quasi_static_energy,
+)
 from microslip_mechanics.response_curve import ResponseCurve
 
 
@@ -87,6 +91,48 @@ def test_upward_sweep_passes_a_curve_that_was_traced_downwards_in_two_pieces(
     pieces = dataclasses.replace(down, event=("", "", "", "", "restart", ""))
 
     assert followed_upwards(pieces).tolist() == [5, 4, 3, 2, 0]
+
+
+@pytest.mark.parametrize("landing", [1.0, 3.0])
+def test_a_sweep_shows_on_which_of_two_stable_branches_it_lands(
+    landing: float, small_curve: ResponseCurve
+) -> None:
+    # up to a fold at 4 Hz, back (unstable), up on a branch of 3 mm to 6 Hz, back, up
+    # on one of 1 mm
+    hertz = [1.0, 2.0, 4.0, 3.5, 3.0, 3.2, 5.0, 6.0, 5.5, 3.5, 3.0, 3.1, 5.0, 8.0]
+    size = [2.0, 2.0, 2.0, 2.5, 3.0, 3.0, 3.0, 3.0, 2.0, 1.5, 1.0, 1.0, 1.0, 1.0]
+    unstable = [0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0]
+    folded = dataclasses.replace(
+        curve_with(small_curve, hertz, np.zeros(14)),
+        peak=np.repeat(np.array(size)[:, None], 2, axis=1),
+        unstable=np.array(unstable, dtype=float),
+    )
+    cycles = np.linspace(1.0, 8.0, 300)
+    swing = np.where(cycles < 4.1, 2.0, np.where(cycles < 6.0, landing, 1.0))
+
+    followed, chosen = followed_by(folded, cycles, np.stack([swing, swing], axis=1))
+
+    assert chosen == [pytest.approx(4.0)]
+    beyond = [12, 13] if landing == 1.0 else [6, 7, 13]
+    assert followed.tolist() == [0, 1, 2, *beyond]
+
+
+def test_a_sweep_without_a_choice_follows_what_any_slow_one_does(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz = [1.0, 2.0, 4.0, 3.0, 2.5, 3.5, 5.0, 6.0]
+    folded = dataclasses.replace(
+        curve_with(small_curve, hertz, np.zeros(8)),
+        peak=np.ones((8, 2)),
+        unstable=np.array([0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
+    )
+    unknown = dataclasses.replace(folded, unstable=np.full(8, -1.0))
+    cycles = np.linspace(1.0, 6.0, 50)
+
+    for made in (folded, unknown):
+        followed, chosen = followed_by(made, cycles, np.ones((50, 2)))
+        assert followed.tolist() == followed_upwards(made).tolist() == [0, 1, 2, 6, 7]
+        assert not chosen
 
 
 def test_energy_of_a_slow_sweep_is_the_integral_along_the_upward_branch(

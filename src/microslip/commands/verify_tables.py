@@ -82,6 +82,12 @@ def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
             f"{sweep.slower:8g}{energy if rubs else ''}"
             f" {100.0 * sweep.envelope_error:7.1f} % {sweep.closing_error:14.1e}"
         )
+    lines += [
+        f"beyond {hertz:.4f} Hz more than one branch is stable: the curve's is the one "
+        f"that the sweep {sweep.slower:g} times as long takes"
+        for sweep in sweeps[-1:]
+        for hertz in sweep.chosen
+    ]
     rate = rate_of(list(sweeps))
     if rate is not None:
         sign = "falls" if rate > 0.0 else "grows"

@@ -9,7 +9,7 @@ import numpy as np
 
 from microslip.progress import Watch
 from microslip.scene_tables import Scene
-from microslip.studies.quasi_static import followed_upwards, quasi_static_energy
+from microslip.studies.quasi_static import followed_by, quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
@@ -44,6 +44,8 @@ class SweepAgreement:
     """largest deflection of each cycle [m], shape (cycles, probes)"""
     estimated: float = float("nan")
     """error of ``energy`` by the march's time steps [J]; NaN if it estimates none"""
+    chosen: tuple[float, ...] = ()
+    """frequencies [Hz] beyond which the prediction takes the sweep's branch of many"""
 
     @property
     def rubs(self) -> bool:
@@ -91,7 +93,7 @@ def sweep_agreement(
     frequency, envelope = envelope_of(
         history, sweep.frequency(time), sweep.start, sweep.end
     )
-    places = followed_upwards(curve)
+    places, chosen = followed_by(curve, frequency, envelope)
     hertz = curve.frequency[places] / (2.0 * np.pi)
     predicted = np.stack(
         [np.interp(frequency, hertz, peak) for peak in curve.peak[places].T], axis=1
@@ -100,13 +102,17 @@ def sweep_agreement(
         slower,
         float(energy),
         quasi_static_energy(
-            curve, sweep.rate * slower, (scene.sweep.lowest, scene.sweep.highest)
+            curve,
+            sweep.rate * slower,
+            (scene.sweep.lowest, scene.sweep.highest),
+            places,
         ),
         float(np.abs(envelope - predicted).mean() / predicted.mean()),
         float(np.abs(history.closing_error).max() / history.of("input").max()),
         frequency,
         envelope,
         _estimated(history, sweep.end) / slower,
+        tuple(chosen),
     )
 
 
@@ -118,21 +124,18 @@ def _estimated(history: TimeHistory, time: float) -> float:
 
 
 def falls(agreements: list[SweepAgreement]) -> bool:
-    """Return whether energy and envelope of the slowest sweep are closest to the curve.
+    """Return whether the slowest sweep comes closer to the curve than the others.
 
-    The others may be too fast to come closer to it in turn.
+    Its envelope is closest of all, its energy closer than that of the fastest: between
+    them the energy's difference may pass zero.
     """
-    if not agreements:
+    if len(agreements) < 2:
         return True
-    *others, slowest = sorted(agreements, key=lambda each: each.slower)
-    return all(
-        (
-            abs(slowest.energy_error) < abs(other.energy_error)
-            or slowest.energy_error == 0.0
-        )
-        and slowest.envelope_error < other.envelope_error
-        for other in others
-    )
+    fastest, *others, slowest = sorted(agreements, key=lambda each: each.slower)
+    envelopes = [each.envelope_error for each in (fastest, *others)]
+    less = abs(slowest.energy_error) < abs(fastest.energy_error)
+    closer = less or slowest.energy_error == 0.0
+    return closer and slowest.envelope_error < min(envelopes)
 
 
 def rate_of(agreements: list[SweepAgreement]) -> float | None:

@@ -31,7 +31,7 @@ def largest(
 
 
 def rows_error(time: Array, displacement: Array, velocity: Array) -> float:
-    """Return about the largest relative error of a largest displacement.
+    """Return about the largest error of a largest displacement, over the largest.
 
     It is what half of the rows change, the worse ones: far more than all rows err by
     if they are dense.
@@ -42,8 +42,8 @@ def rows_error(time: Array, displacement: Array, velocity: Array) -> float:
         for rows in (slice(0, None, 2), slice(1, None, 2))
         if len(time[rows])
     ]
-    away = np.abs(np.array(half) - far).max(axis=0)
-    return float((away / np.where(far > 0.0, far, 1.0)).max(initial=0.0))
+    away = np.abs(np.array(half) - far).max(initial=0.0)
+    return float(away / (far.max(initial=0.0) or 1.0))
 
 
 def _cubics(step: Array, displacement: Array, velocity: Array) -> tuple[Array, Array]:

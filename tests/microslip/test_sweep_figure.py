@@ -10,7 +10,7 @@ from figure_checks import check_labels, check_lines, legend
 from microslip.figures import curve as curves
 from microslip.figures import sweep as sweeps
 from microslip.figures.passes import Pass, amplitude
-from microslip.figures.style import alike
+from microslip.figures.style import alike, legend_beside, one_range
 from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
@@ -114,9 +114,41 @@ def test_sweep_figure_shows_both_blades_on_one_scale(
     figure = sweeps.sweep_figure(small_history, "two-blades")
 
     limits = [axes.get_ylim() for axes in figure.axes[:2]]
-    largest = 1e3 * np.abs(small_history.displacement[:, :2]).max()
+    shown = 1e3 * small_history.displacement[:, :2]
+    low, high = min(shown.min(), 0.0), max(shown.max(), 0.0)
+    room = 0.05 * (high - low)
     assert limits[0] == limits[1]
-    assert limits[0] == pytest.approx((-1.05 * largest, 1.05 * largest))
+    assert limits[0] == pytest.approx((low - room, high + room))
+
+
+@pytest.mark.parametrize(
+    ("ends", "limits"),
+    [
+        ((-1.0, 2.0), (-2.1, 2.1)),
+        ((-0.5, 2.0), (-0.625, 2.125)),
+        ((0.2, 2.0), (-0.1, 2.1)),
+        ((-2.0, -0.2), (-2.1, 0.1)),
+        ((0.0, 0.0), (-1.05e-9, 1.05e-9)),
+    ],
+)
+def test_motions_nearly_about_zero_have_it_in_the_middle(
+    ends: tuple[float, float], limits: tuple[float, float]
+) -> None:
+    columns = [np.array(ends), np.array(ends) * 0.5]
+    assert one_range(columns) == pytest.approx(limits)
+
+
+@pytest.mark.parametrize(("begin", "above"), [(0.1, False), (0.9, True)])
+def test_a_legend_covers_no_line_that_begins_high(
+    begin: float, above: bool, axes: Axes
+) -> None:
+    line = np.linspace(begin, 1.0, 50)
+    axes.plot(line, label="pad")
+    axes.set_ylim(0.0, 1.0)
+
+    legend_beside(axes, line[:, None])
+
+    assert (axes.get_ylim()[1] > 1.1) is above
 
 
 def test_the_three_largest_motions_have_panels_where_there_are_no_relative_ones(

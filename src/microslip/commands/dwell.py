@@ -145,6 +145,15 @@ def dwelled(
     return joined(blocks, ending), distances, ending
 
 
+def _far(distance: float) -> str:
+    """Return how far a motion is from the steady one, if that is known at all."""
+    if not distance < math.inf:
+        return "how far a steady state is cannot be told"
+    if distance >= 1.0:
+        return "a steady state, if there is one, is far"
+    return f"estimated distance from the steady state {distance:.1e} of the motion"
+
+
 def _lines(
     options: argparse.Namespace, history: TimeHistory, distances: list[float]
 ) -> list[str]:
@@ -155,8 +164,7 @@ def _lines(
     found = amplitudes(history, math.tau * options.frequency)
     return [
         f"{options.frequency:g} Hz: {'steady' if steady else 'NOT steady'} after "
-        f"{len(distances)} periods, {history.time[-1]:.4g} s; estimated distance from "
-        f"the steady state {distances[-1]:.1e} of the motion",
+        f"{len(distances)} periods, {history.time[-1]:.4g} s; {_far(distances[-1])}",
         "first harmonic of the last period [mm]",
         *(
             f"  {name:20s} {1e3 * amplitude:12.6g}"

@@ -155,8 +155,9 @@ def uncounted(scene: Scene) -> list[str]:
     if reduction is not None:
         lines.append(
             f"not in it: the reduction to modes up to {reduction.highest:g} Hz, beyond "
-            "which harmonics may lie: see whether the curve changes with a higher "
-            "structure.reduction.highest"
+            "which harmonics may lie, and without which peaks may lie elsewhere: "
+            "microslip explain tells by how much; see whether the curve changes with "
+            "a higher structure.reduction.highest"
         )
     for name, law in scene.rig.element.items():
         if isinstance(law, Iwan):

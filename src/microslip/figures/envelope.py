@@ -15,6 +15,8 @@ from microslip.figures.style import (
     foremost,
     framed,
     headline,
+    legend_beside,
+    one_range,
     readable,
     relative,
 )
@@ -26,17 +28,18 @@ def envelope_figure(envelope: Envelope, title: str) -> Figure:
     """Draw ranges of each cycle over time, energies, and amplitude over frequency."""
     slips = relative(envelope.probes)
     shrouds = pressed(faces(envelope.contacts), envelope.normal_largest)
-    sides = abs(envelope.highest), abs(envelope.lowest)
-    sizes = np.maximum(*sides).max(axis=0, initial=0.0)
+    sizes = np.maximum(abs(envelope.highest), abs(envelope.lowest))
+    sizes = sizes.max(axis=0, initial=0.0)
     blades, ways = foremost(envelope.probes, sizes), passes(envelope)
     rubs = bool(envelope.of("friction").any())
     count = len(blades) + len(slips) + len(shrouds) + int(rubs) + 1
     figure, panels, others = grid_of(count, len(blades) if ways else 0)
-    limit = 1.05e3 * float(sizes[blades].max(initial=1e-12))
+    sides = envelope.lowest, envelope.highest
+    limits = one_range(1e3 * side[:, place] for side in sides for place in blades)
     for colour, place in zip(COLOURS, blades, strict=False):
         axes = next(panels)
         displacement(axes, envelope, place, colour)
-        axes.set_ylim(-limit, limit)
+        axes.set_ylim(limits)
     for place in slips:
         relative_velocity(next(panels), envelope, place)
     for face, places in shrouds.items():
@@ -80,7 +83,7 @@ def normal_force(axes: Axes, envelope: Envelope, face: str, places: list[int]) -
         )
     where = called(face, [envelope.contacts[place] for place in places])
     framed(axes, x=TIME, y="force [N]", title=f"Normal forces, {where}")
-    axes.legend(frameon=False, loc="upper left")
+    legend_beside(axes, envelope.normal_largest[:, places])
 
 
 def friction_power(axes: Axes, envelope: Envelope) -> None:

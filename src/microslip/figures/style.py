@@ -79,6 +79,33 @@ def plain_logarithmic(axis: Axis) -> None:
 
 FEW = 4
 """names of a legend up to which two columns are enough"""
+EARLY, HIGH = 0.4, 0.5
+"""share of the rows, and of the height, that a legend at the upper left may cover"""
+
+
+def legend_beside(axes: Axes, columns: Array) -> None:
+    """Put the legend at the upper left, above lines that begin too high for it.
+
+    ``columns`` are what they show from left to right, shape (rows, lines).
+    """
+    low, high = axes.get_ylim()
+    begin = columns[: max(1, int(EARLY * len(columns)))]
+    if begin.max(initial=low) > low + HIGH * (high - low):
+        legend_above(axes)
+        return
+    axes.legend(frameon=False, loc="upper left")
+
+
+def one_range(columns: Iterable[Array]) -> tuple[float, float]:
+    """Return limits that hold all columns: about zero, if they are nearly about it."""
+    ends = [(each.min(initial=0.0), each.max(initial=0.0)) for each in columns]
+    low = min((low for low, _ in ends), default=0.0)
+    high = max((high for _, high in ends), default=0.0)
+    limit = 1.05 * (max(-low, high) or 1e-9)
+    if 2.0 * min(-low, high) >= max(-low, high):
+        return -limit, limit
+    room = 0.05 * (high - low)
+    return low - room, high + room
 
 
 def legend_above(axes: Axes) -> None:

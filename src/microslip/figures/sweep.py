@@ -19,6 +19,8 @@ from microslip.figures.style import (
     framed,
     headline,
     legend_above,
+    legend_beside,
+    one_range,
     readable,
     relative,
 )
@@ -46,11 +48,11 @@ def sweep_figure(history: TimeHistory, title: str) -> Figure:
     rubs = bool(history.friction_power.any())
     count = len(blades) + len(slips) + len(shrouds) + int(rubs) + 1
     figure, panels, others = grid_of(count, len(blades) if ways else 0)
-    limit = 1.05e3 * float(sizes[blades].max(initial=1e-12))
+    limits = one_range(1e3 * history.displacement[:, place] for place in blades)
     for colour, place in zip(COLOURS, blades, strict=False):
         axes = next(panels)
         displacement(axes, history, place, colour)
-        axes.set_ylim(-limit, limit)
+        axes.set_ylim(limits)
     for place in slips:
         relative_velocity(next(panels), history, place)
     for face, places in shrouds.items():
@@ -120,7 +122,9 @@ def normal_force(
         )
     where = called(face, [history.contacts[place] for place in places])
     framed(axes, x=TIME, y="force [N]", title=f"Normal forces, {where}")
-    for line in axes.legend(frameon=False, loc="upper left").get_lines():
+    legend_beside(axes, history.normal_force[:, places])
+    shown = axes.get_legend()
+    for line in shown.get_lines() if shown else ():
         line.set_linewidth(2.0)
 
 

@@ -148,7 +148,7 @@ def test_a_legend_covers_no_line_that_begins_high(
 
     legend_beside(axes, line[:, None])
 
-    assert (axes.get_ylim()[1] > 1.1) is above
+    assert (axes.get_ylim()[1] > 1.1) == above
 
 
 def test_the_three_largest_motions_have_panels_where_there_are_no_relative_ones(

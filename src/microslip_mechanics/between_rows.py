@@ -9,6 +9,8 @@ from microslip_mechanics.arrays import Array
 DENSE = 1.0
 """most that the phase may turn from row to row [rad]: sparser rows say nothing of what
 lies between them"""
+BLOCK = 10**5
+"""rows that are looked at together: long histories leave little memory"""
 
 
 def largest(
@@ -21,12 +23,16 @@ def largest(
     more than ``dense`` [rad].
     """
     found = np.stack([np.abs(displacement).max(axis=0), np.abs(velocity).max(axis=0)])
-    step = np.diff(time)[:, None]
     half = 0.5 * np.ptp(displacement, axis=0)
-    known = step.max(initial=0.0) * found[1] <= dense * half
-    if len(time) > 1 and known.any():
-        far, fast = _cubics(step, displacement[:, known], velocity[:, known])
-        found[:, known] = np.maximum(found[:, known], [far, fast])
+    known = np.diff(time).max(initial=0.0) * found[1] <= dense * half
+    for start in range(0, len(time) - 1 if known.any() else 0, BLOCK):
+        rows = slice(start, start + BLOCK + 1)
+        turned = _cubics(
+            np.diff(time[rows])[:, None],
+            displacement[rows, known],
+            velocity[rows, known],
+        )
+        found[:, known] = np.maximum(found[:, known], turned)
     return found
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from microslip_mechanics import between_rows
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.between_rows import DENSE, largest, rows_error
 
@@ -34,6 +35,14 @@ def test_the_error_covers_what_rows_miss(step: float) -> None:
 
     true = np.abs(far - [1.0, 3.0]).max() / 3.0
     assert true <= rows_error(time, moved, moving) < 0.5
+
+
+def test_histories_may_be_longer_than_a_block(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = largest(*swings(0.4, end=70.0))
+
+    for block in (1, 7, 1000):
+        monkeypatch.setattr(between_rows, "BLOCK", block)
+        np.testing.assert_array_equal(largest(*swings(0.4, end=70.0)), whole)
 
 
 def test_sparse_rows_are_taken_as_they_are() -> None:

@@ -32,7 +32,8 @@ def read_table(
     made = {}
     for name, field in fields.items():
         if name in values:
-            made[name] = _value(source, place, field, hints[name], values[name])
+            kind = _kind(fields, values, name)
+            made[name] = _value(source, place, name, kind, hints[name], values[name])
         elif field.default is dataclasses.MISSING:
             what = (
                 f"{place}{name}" if "quantity" in field.metadata else f"table [{name}]"
@@ -41,22 +42,36 @@ def read_table(
     return table(**made)
 
 
+def _kind(
+    fields: Mapping[str, dataclasses.Field[typing.Any]],
+    values: Mapping[str, object],
+    name: str,
+) -> Quantity | None:
+    """Return what a key may be; the unit of a stiffness follows from its exponent."""
+    kind: Quantity | None = fields[name].metadata.get("quantity")
+    exponent = fields.get(name.replace("stiffness", "exponent"))
+    if kind is None or exponent is None:
+        return kind
+    return kind.of_power(values.get(exponent.name, exponent.default))
+
+
 def _value(
     source: str,
     place: str,
-    field: dataclasses.Field[typing.Any],
+    key: str,
+    kind: Quantity | None,
     hint: typing.Any,  # noqa: ANN401  (a type annotation)
     value: object,
 ) -> object:
     """Read one key as its annotation says."""
     if _optional(hint):
         hint = typing.get_args(hint)[0]
-    if dataclasses.is_dataclass(hint):
-        return read_table(source, f"[{field.name}] ", typing.cast("type", hint), value)
+    if kind is None:  # a table in the table
+        return read_table(source, f"[{key}] ", typing.cast("type", hint), value)
     try:
-        return _scalar(field.metadata["quantity"], hint, value)
+        return _scalar(kind, hint, value)
     except ValueError as error:
-        name = f"{place}{field.name}{shown(value)}"
+        name = f"{place}{key}{shown(value)}"
         raise SceneError(f"{source}: {name}: {error}") from None
 
 
@@ -103,7 +118,10 @@ def _by_power(kind: Quantity, value: object) -> dict[float, float]:
         raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
             "is no table: give a number for each power, such as {1 = 10, 3 = 2e6}"
         )
-    return {float(power): kind.read(each) for power, each in value.items()}
+    return {
+        float(power): kind.of_power(float(power)).read(each)
+        for power, each in value.items()
+    }
 
 
 def _several(kind: Quantity, value: object) -> tuple[float, ...]:

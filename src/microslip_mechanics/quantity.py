@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import numbers
 import re
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, replace
 from typing import Any
 
 UNITS = {
@@ -68,6 +68,11 @@ class Quantity:
         if not inside or (self.positive and number == self.lowest):
             raise ValueError(f"is out of range: {self._range()}")
         return number
+
+    def of_power(self, power: object) -> Quantity:
+        """Return the same with the units of a force over a displacement's power."""
+        linear = self.unit == "N/m^p" and power == 1.0
+        return replace(self, unit="N/m") if linear else self
 
     def _number(self, value: object) -> float:
         if isinstance(value, bool) or not isinstance(value, (numbers.Real, str)):

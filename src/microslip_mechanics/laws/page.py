@@ -16,7 +16,7 @@ of these laws. Symbols: w is the displacement of the element's first end relativ
 second, w_n that along a contact's normal (positive in penetration), w_t that along its
 tangents, ẇ and v their rates. Directions are given as `between`, or as `normal`,
 `tangents` and `rotations`; each is a pair of ends, and the ground is written as
-`"ground"`.
+`"ground"`. A stiffness in N/m^p whose power p is 1 may be written as `"5 kN/m"` too.
 
 `python -m microslip_mechanics.laws.page > docs/laws.md` writes this page.
 """

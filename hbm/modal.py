@@ -18,7 +18,7 @@ from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array, ComplexArray
 
 STRIDE = 0.01
-"""change of the pole, over its size, that counts as one unit of arc"""
+"""change of the pole, over that of the linear mode, that counts as one unit of arc"""
 FARTHEST = 60.0
 """of log a, either way, that a trial may go"""
 FAINT = 1e-2
@@ -84,12 +84,13 @@ class ModalBalance:
         """Return the change of each component that counts as one unit of arc.
 
         Relative changes of the relative motion and of the amplitude each, and
-        :data:`STRIDE` of the pole, or of the linear mode's if that is larger.
+        :data:`STRIDE` of the linear mode's pole, or of half the pole if that is more.
         """
         table = point[:-1].reshape(-1, self.width)
         scale = np.ones_like(table)
         scale[:, : self.rank] = np.linalg.norm(table[1:, : self.rank]) + FAINT
-        scale[:, -1] = STRIDE * max(1.0, float(np.linalg.norm(table[1:3, -1])))
+        faster = 0.5 * float(np.linalg.norm(table[1:3, -1]))
+        scale[:, -1] = STRIDE * max(1.0, faster)
         return np.append(scale.ravel(), 1.0)
 
     def impulses(self, above: int, most: int) -> float:

@@ -9,6 +9,7 @@ import pytest
 
 import microslip
 from figure_checks import check_labels
+from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import TimeHistory
 
@@ -115,13 +116,14 @@ def test_the_package_tells_its_names_and_its_version() -> None:
 
 
 def test_results_tell_what_they_are_in_a_line(
-    small_curve: ResponseCurve, small_history: TimeHistory
+    small_curve: ResponseCurve, small_history: TimeHistory, small_envelope: Envelope
 ) -> None:
-    lines = repr(small_curve), repr(small_history)
+    lines = repr(small_curve), repr(small_history), repr(small_envelope)
 
     assert all(len(line) < 300 and "\n" not in line for line in lines)
     assert lines[0].startswith(f"<ResponseCurve: {small_curve.frequency.size} points, ")
     assert f" {small_history.time.size} times until " in lines[1]
+    assert lines[2].startswith("<Envelope: 5 cycles until ")
     assert ", ".join(small_curve.probes) in lines[0]
     assert small_curve.ending in lines[0]
     assert small_history.ending in lines[1]

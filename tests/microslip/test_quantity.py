@@ -1,10 +1,12 @@
 """Numbers of a scene: units, formats, ranges."""
 
 import math
+from pathlib import Path
 
 import pytest
 
-from microslip.quantity import UNITS, Quantity
+from microslip.quantity import UNITS, Quantity, SceneError
+from microslip.scene_file import load_scene
 
 LENGTH = Quantity("m", 0.0, 10.0, positive=True)
 RATIO = Quantity("", 0.0, 0.5, positive=False)
@@ -137,3 +139,35 @@ def test_number_whose_square_vanishes_is_refused(value: float | str) -> None:
     assert kind.read(1e-50) == 1e-50
     with pytest.raises(ValueError, match=r"^is out of range: give at least 1e-50 "):
         LENGTH.read(1e-60)
+
+
+@pytest.mark.parametrize(
+    ("law", "numbers", "stiffness"),
+    [
+        ("unilateral-spring", 'stiffness = "5 kN/m"', 5e3),
+        ("unilateral-spring", 'stiffness = "2 N/mm"\nexponent = 1', 2e3),
+        ("unilateral-spring", 'stiffness = "7 N/m^p"\nexponent = 1.5', 7.0),
+        ("polynomial-spring", 'coefficients = {1 = "3 kN/m", 3 = 2e6}', 3e3),
+        ("unilateral-spring", 'stiffness = "5 kN/m"\nexponent = 1.5', None),
+        ("hunt-crossley", 'stiffness = "5 kN/m"', None),
+        ("polynomial-spring", 'coefficients = {3 = "3 kN/m"}', None),
+    ],
+)
+def test_a_stiffness_has_the_unit_that_its_power_gives_it(
+    law: str, numbers: str, stiffness: float | None, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'scene = "system"\n[structure]\nnames = ["x"]\nmass = [1]\nstiffness = [9]\n'
+        f'[[element]]\nname = "e"\nlaw = "{law}"\nbetween = ["x", "ground"]\n'
+        f"{numbers}\n[drive]\nx = 1\n"
+        "[curve]\nlowest = 1\nhighest = 2\n",
+    )
+
+    if stiffness is None:
+        with pytest.raises(SceneError, match=r"wrong unit: give a number in N/m\^p"):
+            load_scene(str(path))
+        return
+    made = load_scene(str(path)).rig.element["e"]
+    found = made.coefficients[1.0] if law == "polynomial-spring" else made.stiffness
+    assert found == stiffness

@@ -381,35 +381,3 @@ def test_phase_of_a_force_with_dots_can_be_overridden() -> None:
 
     assert scene.rig.drive["tip.uz"].phase == 0.0
     assert turned.rig.drive["tip.uz"].phase == 1.0
-
-
-@pytest.mark.parametrize(
-    ("law", "numbers", "stiffness"),
-    [
-        ("unilateral-spring", 'stiffness = "5 kN/m"', 5e3),
-        ("unilateral-spring", 'stiffness = "2 N/mm"\nexponent = 1', 2e3),
-        ("unilateral-spring", 'stiffness = "7 N/m^p"\nexponent = 1.5', 7.0),
-        ("polynomial-spring", 'coefficients = {1 = "3 kN/m", 3 = 2e6}', 3e3),
-        ("unilateral-spring", 'stiffness = "5 kN/m"\nexponent = 1.5', None),
-        ("hunt-crossley", 'stiffness = "5 kN/m"', None),
-        ("polynomial-spring", 'coefficients = {3 = "3 kN/m"}', None),
-    ],
-)
-def test_a_stiffness_has_the_unit_that_its_power_gives_it(
-    law: str, numbers: str, stiffness: float | None, tmp_path: Path
-) -> None:
-    path = tmp_path / "mine.toml"
-    path.write_text(
-        'scene = "system"\n[structure]\nnames = ["x"]\nmass = [1]\nstiffness = [9]\n'
-        f'[[element]]\nname = "e"\nlaw = "{law}"\nbetween = ["x", "ground"]\n'
-        f"{numbers}\n[drive]\nx = 1\n"
-        "[curve]\nlowest = 1\nhighest = 2\n",
-    )
-
-    if stiffness is None:
-        with pytest.raises(SceneError, match=r"wrong unit: give a number in N/m\^p"):
-            load_scene(str(path))
-        return
-    made = load_scene(str(path)).rig.element["e"]
-    found = made.coefficients[1.0] if law == "polynomial-spring" else made.stiffness
-    assert found == stiffness

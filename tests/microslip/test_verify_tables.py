@@ -74,6 +74,9 @@ def test_sweeps_without_friction_have_no_columns_of_its_energy() -> None:
     assert "friction" not in sweep_rows(free)
     widths = {len(line) for line in sweep_rows(free).splitlines()[1:]}
     assert max(widths) - min(widths) < 3
+    landed = [*rubbing[:-1], dataclasses.replace(rubbing[-1], chosen=(68.6219,))]
+    assert "beyond 68.6219 Hz more than one branch is stable" in sweep_rows(landed)
+    assert "more than one branch" not in sweep_rows(rubbing)
     assert sweeps_said(rubbing, agree=True).startswith("agree: energy and envelope of")
     assert sweeps_said(rubbing, agree=True, holds=True).count("\n") == 0
     held = sweeps_said(rubbing, agree=False, holds=True).splitlines()

@@ -80,6 +80,8 @@ def case_of(scene: Scene, hertz: float | None = None) -> Case:
         If the curve has no stable point near it.
     SceneError
         If nothing drives the scene.
+    ValueError
+        If its structure is sparse.
     KeyboardInterrupt
         If the curve is interrupted: its highest peak may be still to come.
     """

@@ -42,8 +42,8 @@ def integrate(
         Factors of preload and drive over time.
     options
         Method, step or tolerance, and what is stored. Contacts that remember or are
-        rigid take the reference method with ``time_step``. Equal steps have estimated
-        errors if asked for; what is stored is then rounded up to whole double steps.
+        rigid take the reference method with ``time_step``. If estimates are asked for,
+        what is stored of equal steps is rounded up to whole double steps.
     start
         Initial displacement and velocity; all at rest and without load if left out.
         From the checkpoint of a block of the same march, the rest of it is yielded.
@@ -63,18 +63,17 @@ def integrate(
         raise ValueError(f"block of {block:g} s: give a positive finite length")
     if beyond_motion(problem.interface.points):
         options = replace(options, method="reference", tolerance=None)
-    doubled = options.estimate and options.tolerance is None
     steps = whole_steps(history.duration, options.time_step)
     stride = min(options.store_every, steps)
-    group = rows_between(stride) if doubled else 1
-    rows = group * -(-steps // (stride * group))
     options = replace(options, store_every=stride)
+    group = rows_between(options) if options.estimate else 1
+    rows = group * -(-steps // (stride * group))
     begin = (
         at_rest(problem) if start is None or isinstance(start, Checkpoint) else start
     )
     method = FastMarch if options.method == "fast" else ReferenceMarch
     told = problem, history, options, rows * stride, begin
-    marching = StepDoubling(method, *told) if doubled else method(*told)
+    marching = StepDoubling(method, *told) if options.estimate else method(*told)
     done = marching.resume(start) // stride if isinstance(start, Checkpoint) else 0
     per_block = group * max(1, round(block * rows / (history.duration * group)))
     for first in range(done, rows, per_block):

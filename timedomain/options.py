@@ -38,8 +38,8 @@ class MarchOptions:
     divisions: int = 10
     """how often a step that does not converge is halved"""
     estimate: bool = False
-    """of the errors of equal steps: a march with twice the step beside costs half as
-    much again; a tolerance has estimates of its own"""
+    """of the errors by a march with steps of twice the length beside, which costs half
+    as much again; a tolerance has estimates of its own too, by its steps"""
 
     def __post_init__(self) -> None:
         """Check that each option is one that a march can use."""

@@ -1,4 +1,4 @@
-"""A march beside one of twice its steps: the difference is its error (theory, §7)."""
+"""A march beside one of longer steps: the difference tells its error (theory, §7)."""
 
 from __future__ import annotations
 
@@ -19,6 +19,9 @@ from timedomain.start import Start
 CAUTION = 1.5
 """estimate over difference: where friction turns over within a step errors are no
 power of the step, and both marches may by chance be wrong alike"""
+LOOSER = 8.0
+"""times the tolerance, which makes steps twice as long: they err by their cube"""
+LOOSEST = 0.99
 
 
 class StepDoubling:
@@ -28,6 +31,9 @@ class StepDoubling:
     way between a probe's extremes where neither march widens it: while one does, phases
     differ more than amplitudes. Nothing is divided by 2ᵖ - 1: where friction turns over
     within a step the order p is not that of the scheme, and differences have signs.
+    With a tolerance the other march has :data:`LOOSER` times as much, and the march's
+    own estimates stay where they are larger: they sum up errors of steps, and do not
+    see how these grow where motions that begin alike part.
 
     Parameters
     ----------
@@ -46,14 +52,12 @@ class StepDoubling:
         steps: int,
         start: Start,
     ) -> None:
-        self._every = rows_between(options.store_every)
-        twice = replace(
-            options,
-            store_every=options.store_every * self._every // 2,
-            divisions=min(MOST_DIVISIONS, options.divisions + 1),
-        )
+        self._every = rows_between(options)
+        self._ratio = 2 if options.tolerance is None else 1
         self._march = method(problem, history, options, steps, start)
-        self._other = method(problem, history, twice, steps // 2, start)
+        self._other = method(
+            problem, history, _rougher(options), steps // self._ratio, start
+        )
         self._still = min(settled(history.segments()), history.duration)
         rest = problem.probes.rows @ start.displacement
         self._extremes: Array = np.array([[rest, rest], [-rest, -rest]])
@@ -72,7 +76,7 @@ class StepDoubling:
         own, odd = divmod(end.memory.size - 2 * dofs - kept, 2)
         if odd or own < 0:
             raise ValueError(
-                "a march without steps of twice the length cannot go on with an "
+                "a march without one of longer steps beside it cannot go on with an "
                 "estimate of its error: march anew"
             )
         cuts = np.cumsum([own, dofs, dofs, own, self._extremes.size])
@@ -84,19 +88,22 @@ class StepDoubling:
         return done
 
     def block(self, first: int, count: int) -> TimeHistory:
-        """March ``count`` steps from step ``first``, and half as many beside."""
+        """March ``count`` steps from step ``first``, and longer ones beside."""
         fine = self._march.block(first, count)
-        coarse = self._other.block(first // 2, count // 2)
+        coarse = self._other.block(first // self._ratio, count // self._ratio)
         shared = slice(self._every - 1, None, self._every)
         away = CAUTION * np.abs(fine.of("friction")[shared] - coarse.of("friction"))
         moved = np.stack([fine.displacement[shared], coarse.displacement])
-        energy = _largest_so_far(away, self._away[1:])
-        peak = self._peak_error(moved, coarse.time)
+        energy = np.repeat(_largest_so_far(away, self._away[1:]), self._every)
+        peak = np.repeat(self._peak_error(moved, coarse.time), self._every)
+        if fine.energy_error.size:
+            energy = np.maximum(energy, fine.energy_error)
+            peak = np.maximum(peak, fine.peak_error)
         return replace(
             fine,
             iterations=fine.iterations + coarse.iterations,
-            energy_error=np.repeat(energy, self._every),
-            peak_error=np.repeat(peak, self._every),
+            energy_error=energy,
+            peak_error=peak,
             checkpoint=self._checkpoint(fine.checkpoint, coarse.checkpoint),
         )
 
@@ -145,9 +152,20 @@ class StepDoubling:
         return replace(fine, memory=np.concatenate(parts))
 
 
-def rows_between(stride: int) -> int:
-    """Return in how many rows of so many steps there are whole double steps."""
-    return 1 if stride % 2 == 0 else 2
+def rows_between(options: MarchOptions) -> int:
+    """Return in how many stored rows there are whole steps of both marches."""
+    return 1 if options.tolerance is not None or options.store_every % 2 == 0 else 2
+
+
+def _rougher(options: MarchOptions) -> MarchOptions:
+    """Return those of the march beside, whose rows are those both share."""
+    if options.tolerance is not None:
+        return replace(options, tolerance=min(LOOSEST, LOOSER * options.tolerance))
+    return replace(
+        options,
+        store_every=options.store_every * rows_between(options) // 2,
+        divisions=min(MOST_DIVISIONS, options.divisions + 1),
+    )
 
 
 def _largest_so_far(values: Array, before: Array) -> Array:

@@ -77,6 +77,13 @@ ENVELOPE: Schema = {
     "normal_smallest": (("cycle", "contact"), "N", "smallest normal force"),
     "normal_largest": (("cycle", "contact"), "N", "largest normal force"),
     "energy": (("cycle", "energy"), "J", "energy that flowed so far, or is stored"),
+    "energy_error": (("cycle",), "J", "estimated error of friction's energy"),
+    "peak_error": (
+        ("cycle",),
+        "1",
+        "estimated relative error of the largest amplitude",
+    ),
+    "work_difference": (("cycle",), "J", "friction's work less that by another way"),
 }
 SCHEMAS: dict[str, tuple[type[Result], Schema]] = {
     "frequency response curve": (ResponseCurve, CURVE),

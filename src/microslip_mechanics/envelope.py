@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -60,6 +60,14 @@ class Envelope(ByValue):
     """how the march ended: "complete", "interrupted", or the cause"""
     checkpoint: Checkpoint | None = None
     """where the march can go on; the cycle begun there is in its memory"""
+
+    energy_error: Array = field(default_factory=lambda: np.zeros(0))
+    """estimated, of the energy taken out by friction until the ends of the cycles [J],
+    shape (cycles,), or empty if not estimated"""
+    peak_error: Array = field(default_factory=lambda: np.zeros(0))
+    """estimated, of the largest amplitude, relative, like ``energy_error``"""
+    work_difference: Array = field(default_factory=lambda: np.zeros(0))
+    """friction's energy less that by another way [J], like ``energy_error``"""
 
     def __repr__(self) -> str:
         """Return what kind of envelope it is, in a line."""
@@ -143,9 +151,16 @@ def _table(block: TimeHistory, segments: Segments) -> tuple[Array, Array]:
         (LOWEST, normal),
         (HIGHEST, normal),
         (LAST, block.energy),
+        *((LAST, getattr(block, name)[:, None]) for name in _told(block)),
     )
     kept = np.concatenate([np.full(part.shape[1], kind) for kind, part in parts])
     return np.concatenate([part for _, part in parts], axis=1), kept
+
+
+def _told(block: TimeHistory) -> list[str]:
+    """Return the estimates that a march has."""
+    names = ("energy_error", "peak_error", "work_difference")
+    return [name for name in names if getattr(block, name).size]
 
 
 def _reduced(table: Array, kept: Array) -> Array:
@@ -161,8 +176,11 @@ def _envelope(
     cycles: Array, block: TimeHistory, checkpoint: Checkpoint | None
 ) -> Envelope:
     probes, contacts = len(block.probes), len(block.contacts)
-    cuts = np.cumsum([4, probes, probes, probes, contacts, contacts])
-    clocks, high, low, fast, least, most, energy = np.split(cycles, cuts, axis=1)
+    energies, told = len(block.energies), _told(block)
+    cuts = np.cumsum([4, probes, probes, probes, contacts, contacts, energies])
+    clocks, high, low, fast, least, most, energy, errors = np.split(
+        cycles, cuts, axis=1
+    )
     return Envelope(
         clocks[:, 1],
         clocks[:, 2],
@@ -182,4 +200,5 @@ def _envelope(
         block.divided,
         block.ending,
         checkpoint,
+        **dict(zip(told, errors.T, strict=True)),
     )

@@ -1,7 +1,8 @@
-"""Are told errors of equal steps large enough? ``python …/step_errors.py [name …]``.
+"""Are told errors of marches large enough? ``python …/step_errors.py [name …]``.
 
-Sweeps and dwells at several steps, by both methods: of three masses with one law of the
-catalogue each, of one or two masses on stiffer contacts, and of the rig. A march of
+Sweeps and dwells at several steps, by both methods, and by tolerances: of three masses
+with one law of the catalogue each, of one or two masses on stiffer contacts, and of the
+rig. A march of
 :data:`FINEST` steps per period tells the true error of friction's energy and of the
 largest amplitude, at the rows that all marches share; one of half as many tells how
 true that is. A line for each system, method and quantity: how many of the told errors
@@ -15,8 +16,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Literal
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.append(str(Path(__file__).parents[1]))
@@ -41,10 +43,13 @@ from timedomain.integrate import MarchOptions
 from timedomain.options import Method
 from timedomain.start import loaded
 
+Way = Literal["fast", "reference", "tolerance"]
+"""by which a march is made"""
 ROWS = 25
 """per period, at which marches are compared"""
 STEPS = (50, 100, 200, 400)
 """per period of the marches that tell errors"""
+TOLERANCES = (1e-2, 1e-3, 1e-4)
 FINEST = 6400
 SHARE = 0.1
 """of the larger error, to which the truth must be known"""
@@ -141,17 +146,17 @@ def histories(hertz: float) -> Iterator[tuple[str, LoadHistory]]:
         yield f"dwell at {share:g}", Dwell(2.0 * np.pi * share * hertz, end)
 
 
-def compared(case: Case, method: Method) -> Iterator[tuple[str, Comparison]]:
+def compared(case: Case, method: Way) -> Iterator[tuple[str, Comparison]]:
     """Yield told and true errors of a system's marches, with what they are of."""
     for load, history in histories(case.hertz):
-        fine, swing = march(case, history, FINEST, method)
-        other, close = march(case, history, FINEST // 2, method)
+        fine, swing = march(case, history, equal(case, FINEST, method))
+        other, close = march(case, history, equal(case, FINEST // 2, method))
         energy, size = fine.of("friction")[-1], swing.max()
         unknown = abs(other.of("friction")[-1] - energy)
         apart = np.abs(close - swing).max() / size
-        for steps in STEPS:
-            told, moved = march(case, history, steps, method, estimate=True)
-            where = f"{load}, {steps} steps"
+        for name, options in trials(case, method):
+            told, moved = march(case, history, replace(options, estimate=True))
+            where = f"{load}, {name}"
             away = np.abs(moved - swing).max() / size
             yield "peak", Comparison(where, away, apart, told.peak_error[-1])
             if energy > 0.0:
@@ -160,19 +165,28 @@ def compared(case: Case, method: Method) -> Iterator[tuple[str, Comparison]]:
                 yield "energy", Comparison(where, away, unknown / energy, claimed)
 
 
+def trials(case: Case, method: Way) -> Iterator[tuple[str, MarchOptions]]:
+    """Yield the marches that tell errors."""
+    if method != "tolerance":
+        for steps in STEPS:
+            yield f"{steps} steps", equal(case, steps, method)
+        return
+    for tolerance in TOLERANCES:
+        step = 1.0 / (ROWS * case.hertz)
+        yield f"tolerance {tolerance:g}", MarchOptions(step, 1, tolerance)
+
+
+def equal(case: Case, steps: int, method: Way) -> MarchOptions:
+    """Return those of so many steps per period; fast ones tell what tolerances are."""
+    made: Method = "reference" if method == "reference" else "fast"
+    return MarchOptions(1.0 / (steps * case.hertz), steps // ROWS, method=made)
+
+
 def march(
-    case: Case,
-    history: LoadHistory,
-    steps: int,
-    method: Method,
-    *,
-    estimate: bool = False,
+    case: Case, history: LoadHistory, options: MarchOptions
 ) -> tuple[TimeHistory, Array]:
     """Return a march and half the way between each probe's extremes [m], (probes,)."""
     problem, begin = case.problem, loaded(case.problem, history)
-    options = MarchOptions(
-        1.0 / (steps * case.hertz), steps // ROWS, method=method, estimate=estimate
-    )
     block = history.duration
     found = marched(problem, history, options, start=begin, block=block)
     rest = problem.probes.rows @ begin.displacement
@@ -180,11 +194,11 @@ def march(
     return found, np.ptp(rows, axis=0) / 2.0
 
 
-def methods(case: Case) -> tuple[Method, ...]:
+def methods(case: Case) -> tuple[Way, ...]:
     """Return the methods that march a system."""
     if beyond_motion(case.problem.interface.points):
         return ("reference",)
-    return ("fast", "reference")
+    return ("fast", "reference", "tolerance")
 
 
 def line(name: str, rows: Sequence[Comparison]) -> str:

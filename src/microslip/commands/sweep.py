@@ -9,7 +9,12 @@ from typing import TYPE_CHECKING, cast
 
 from microslip.commands import arguments
 from microslip.commands.places import demand_place
-from microslip.commands.sweep_tables import energy_table, estimates, extremes
+from microslip.commands.sweep_tables import (
+    energy_table,
+    estimates,
+    extremes,
+    parting,
+)
 
 if TYPE_CHECKING:
     from microslip.progress import Watch
@@ -47,8 +52,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         type=_tolerance,
         default=1e-3,
         metavar="SHARE",
-        help="of friction's energy and peak amplitude; 0 takes the scene's time step, "
-        "and steps twice as long beside, which tell the error (default: 1e-3)",
+        help="of friction's energy and peak amplitude; 0 takes the scene's time step; "
+        "a march of steps twice as long beside tells the error (default: 1e-3)",
     )
     arguments.add_output(parser, "sweep")
     parser.set_defaults(run=_run)
@@ -169,7 +174,8 @@ def _show(
     normals = problem.interface.displacement[::3]
     pairs = zip(problem.interface.names, normals, strict=True)
     pressed = [name for name, normal in pairs if normal.any()]
-    print("\n".join([*estimates(result), *extremes(result, pressed)]))
+    errors = [*estimates(result), *parting(result, options.tolerance)]
+    print("\n".join([*errors, *extremes(result, pressed)]))
     return closes(result)
 
 

@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from microslip_mechanics.envelope import Envelope
     from microslip_mechanics.time_history import TimeHistory
 
+PARTED = 30.0
+"""times its tolerance from which a march's peak is known less than steps explain"""
+
 
 def energy_table(result: TimeHistory | Envelope) -> str:
     """Return energies and the closing error of their balance."""
@@ -29,7 +32,7 @@ def estimates(result: TimeHistory | Envelope) -> list[str]:
     from microslip_mechanics.between_rows import rows_error
     from microslip_mechanics.envelope import Envelope
 
-    if isinstance(result, Envelope) or not result.energy_error.size:
+    if not result.energy_error.size:
         return []
     friction, lines = abs(result.of("friction")[-1]), []
     for name, values in (
@@ -39,9 +42,21 @@ def estimates(result: TimeHistory | Envelope) -> list[str]:
         for value in values[-1:]:
             share = f"  ({value / friction:.1e} of it)" if friction else ""
             lines.append(f"  {name:20s} {value:12.2g}{share}")
-    between = rows_error(result.time, result.displacement, result.velocity)
-    peak = max(float(result.peak_error[-1]), between)
+    peak = float(result.peak_error[-1])
+    if not isinstance(result, Envelope):
+        between = rows_error(result.time, result.displacement, result.velocity)
+        peak = max(peak, between)
     return [*lines, f"estimated error of the peak amplitude {peak:.1e}"]
+
+
+def parting(result: TimeHistory | Envelope, tolerance: float) -> list[str]:
+    """Return a line where a march cannot meet its tolerance, as its motion parts."""
+    if not tolerance or not (result.peak_error[-1:] > PARTED * tolerance).any():
+        return []
+    return [
+        "motions that begin alike part here, as those that rattle or are chaotic do: "
+        "a smaller tolerance hardly lowers these errors"
+    ]
 
 
 def extremes(result: TimeHistory | Envelope, pressed: Sequence[str]) -> list[str]:

@@ -81,10 +81,11 @@ def _options(loads: Dwell, march: March, period: float) -> MarchOptions:
     """Return steps and rows of which a whole number fills a period."""
     dense = period / (ROWS * march.time_step)
     stride = max(1, int(min(march.store_every, dense)))
-    demand_end(loads, MarchOptions(march.time_step, stride), REMEDY, block=period)
-    group = rows_between(stride)
+    options = MarchOptions(march.time_step, stride, estimate=True)
+    demand_end(loads, options, REMEDY, block=period)
+    group = rows_between(options)
     rows = group * math.ceil(period / (march.time_step * stride * group))
-    return MarchOptions(period / (rows * stride), stride, estimate=True)
+    return replace(options, time_step=period / (rows * stride))
 
 
 class _Ruler:

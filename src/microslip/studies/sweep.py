@@ -37,9 +37,9 @@ def marched(
     """Yield the march of a scene block by block, as rows or as their envelope.
 
     It begins at rest; ``end`` is where a stopped march of the same scene and kind goes
-    on. Steps are those of the scene, or follow from a ``tolerance``. Rows of equal
-    steps have estimated errors unless ``estimate`` is False, which saves a third of the
-    time.
+    on. Steps are those of the scene, or follow from a ``tolerance``. Errors are
+    estimated by a march of longer steps beside unless ``estimate`` is False, which
+    saves a third of the time.
 
     Raises
     ------
@@ -47,7 +47,6 @@ def marched(
         If the march would not end.
     """
     stride = 1 if envelope else march.store_every
-    estimate = estimate and not envelope
     options = MarchOptions(march.time_step, stride, tolerance, estimate=estimate)
     demand_end(loads, options, REMEDY, stored=not envelope)
     segments, begun = loads.segments(), None

@@ -39,6 +39,14 @@ def history() -> TimeHistory:
     )
 
 
+def estimated(whole: TimeHistory) -> TimeHistory:
+    """Return the same with errors that grow from row to row."""
+    grows = np.arange(1.0, ROWS + 1)
+    return dataclasses.replace(
+        whole, energy_error=grows, peak_error=2.0 * grows, work_difference=-grows
+    )
+
+
 def cut(whole: TimeHistory, edges: list[int]) -> Iterator[TimeHistory]:
     """Yield the rows between edges."""
     for first, last in zip([0, *edges], [*edges, ROWS], strict=True):
@@ -119,3 +127,16 @@ def test_a_stopped_envelope_goes_on() -> None:
     again = joined([first, *rest], "complete")
     for name in ("time", "highest", "lowest", "fastest", "normal_largest", "energy"):
         np.testing.assert_array_equal(getattr(again, name), getattr(whole, name))
+
+
+def test_errors_are_those_at_the_ends_of_the_cycles() -> None:
+    whole = estimated(history())
+
+    envelope, bare = of(cut(whole, [777, 20_000])), of(cut(history(), [777]))
+
+    rows = np.rint(envelope.time * ROWS / LOADS.duration)
+    np.testing.assert_array_equal(envelope.energy_error, rows)
+    np.testing.assert_array_equal(envelope.peak_error, 2.0 * rows)
+    np.testing.assert_array_equal(envelope.work_difference, -rows)
+    assert bare.peak_error.size == bare.energy_error.size == 0
+    np.testing.assert_array_equal(envelope.energy, bare.energy)

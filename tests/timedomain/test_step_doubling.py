@@ -1,4 +1,4 @@
-"""The error of equal steps, told by a march of twice the step beside."""
+"""The error of a march, told by one with steps of twice the length beside."""
 
 from dataclasses import replace
 
@@ -10,6 +10,7 @@ from microslip_mechanics.excitation import Dwell, SweptSine
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
+from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.system import system
 from microslip_mechanics.time_history import joined
@@ -95,14 +96,68 @@ def test_a_linear_decay_has_the_error_of_its_closed_form_and_order() -> None:
         assert told.peak_error[-1] == pytest.approx(CAUTION * 3.0 * missed, rel=0.05)
 
 
-@pytest.mark.parametrize("stride", [1, 2])
-@pytest.mark.parametrize("method", ["fast", "reference"])
+def bouncing(hertz: float) -> tuple[Problem, Dwell]:
+    """Return a mass on a soft spring that bounces on a stop, from where it touches."""
+    stop = Element(UnilateralSpring(stiffness=1e4), between=("x1", "ground"))
+    problem = system(
+        mass=[1.0],
+        stiffness=[[1.0]],
+        damping_ratio=0.01,
+        elements=[stop],
+        drive={"x1": 1.0},
+    )
+    return problem, Dwell(hertz, 60.0)
+
+
+@pytest.mark.parametrize("hertz", [2.8, 3.0])
+def test_where_motions_part_a_tolerance_tells_more_than_its_steps_do(
+    hertz: float,
+) -> None:
+    problem, dwell = bouncing(hertz)
+    known = marched(problem, dwell, MarchOptions(0.1, 1, 1e-6, estimate=True))
+    assert known.peak_error[-1] > 1e-2  # nobody knows it better, with any steps
+
+    for tolerance in (1e-2, 1e-3):
+        options = MarchOptions(0.1, 1, tolerance)
+        told = marched(problem, dwell, replace(options, estimate=True))
+
+        away = abs(swing(told.displacement) / swing(known.displacement) - 1.0)
+        assert away <= told.peak_error[-1] + known.peak_error[-1]
+        alone = marched(problem, dwell, options)
+        np.testing.assert_array_equal(alone.displacement, told.displacement)
+        assert alone.peak_error[-1] < 0.3 * told.peak_error[-1]
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_a_regular_motion_is_told_about_its_tolerance(tolerance: float) -> None:
+    options = MarchOptions(1e-2, 1, tolerance, estimate=True)
+    exact = marched(rubbing(SOFT), SWEEP, MarchOptions(1e-2, 1, 1e-8))
+
+    told = marched(rubbing(SOFT), SWEEP, options)
+
+    away = abs(swing(told.displacement) / swing(exact.displacement) - 1.0)
+    assert away <= told.peak_error[-1] <= 3.0 * tolerance
+    energy = exact.of("friction")[-1]
+    assert abs(told.of("friction")[-1] - energy) <= told.energy_error[-1]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        MarchOptions(5e-5, 1),
+        MarchOptions(5e-5, 2),
+        MarchOptions(5e-5, 1, method="reference"),
+        MarchOptions(5e-5, 2, method="reference"),
+        MarchOptions(5e-5, 1, 1e-3),
+    ],
+    ids=["odd", "even", "reference, odd", "reference, even", "tolerance"],
+)
 def test_a_march_with_estimates_goes_on_as_if_it_had_never_stopped(
-    method: str, stride: int
+    options: MarchOptions,
 ) -> None:
     problem = rig_problem(model="B")
     sweep = SweptSine(0.005, 0.01, 0.04, 0.05, 125.0, 145.0)
-    options = MarchOptions(5e-5, stride, method=method, estimate=True)  # type: ignore[arg-type]
+    options = replace(options, estimate=True)
     blocks = list(integrate(problem, sweep, options, block=0.01))
 
     after = integrate(problem, sweep, options, start=blocks[1].checkpoint, block=0.01)
@@ -113,10 +168,14 @@ def test_a_march_with_estimates_goes_on_as_if_it_had_never_stopped(
     assert len(expected.time) % 2 == 0
 
 
-def test_a_march_without_estimates_does_not_go_on_with_them() -> None:
+@pytest.mark.parametrize("tolerance", [None, 1e-3])
+def test_a_march_without_estimates_does_not_go_on_with_them(
+    tolerance: float | None,
+) -> None:
     dwell = Dwell(3.0, 1.0)
-    block = next(integrate(oscillator(), dwell, MarchOptions(0.01)))
-    told = MarchOptions(0.01, estimate=True)
+    options = MarchOptions(0.01, tolerance=tolerance)
+    block = next(integrate(oscillator(), dwell, options))
+    told = replace(options, estimate=True)
 
     with pytest.raises(ValueError, match="cannot go on"):
         next(integrate(oscillator(), dwell, told, start=block.checkpoint))

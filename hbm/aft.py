@@ -16,9 +16,10 @@ from hbm.sampled_tangents import SampledTangents
 from hbm.sampling import sample
 from hbm.symmetry import Symmetry, holds, symmetry
 from hbm.tangent_entries import kinds, tangent_entries
+from hbm.touches import Touches, add_touches, touches
 from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import RIGID, ContactPoints
+from microslip_mechanics.contact.points import ONE_SIDED, RIGID, ContactPoints
 from microslip_mechanics.errors import MicroslipError
 
 
@@ -204,6 +205,23 @@ class AlternatingFrequencyTime:
             self._memory.add_jacobian(
                 self._points, self._moved, frequency, places, jacobian
             )
+
+    def add_touches(
+        self, frequency: float, places: NDArray[np.int64], jacobian: Array
+    ) -> None:
+        """Add ∂force/∂y of the last call where faces touch or part between samples.
+
+        ``places`` are those of :meth:`add_remembered`.
+        """
+        if not (self._points.normal == ONE_SIDED).any():
+            return
+        half = self._symmetry.signs.size > 0
+        seen = self.samples // 2 if half else self.samples
+        found = touches(self._points, *self._moved, seen)
+        if half:
+            # the other half, seen by coordinates that it mirrors, is the same again
+            found = Touches(found.point, found.place, 2.0 * found.shared)
+        add_touches(found, self._basis, frequency, self.samples, places, jacobian)
 
     @property
     def samples(self) -> int:

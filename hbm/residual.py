@@ -109,6 +109,7 @@ class HarmonicBalance:
             self._terms,
         )
         self.contact.add_remembered(frequency, self._places, jacobian)
+        self.contact.add_touches(frequency, self._places, jacobian)
         return jacobian
 
     def _slope(self, point: Array) -> Array:

@@ -16,7 +16,7 @@ from hbm.sampled_tangents import SampledTangents
 from hbm.sampling import sample
 from hbm.symmetry import Symmetry, holds, symmetry
 from hbm.tangent_entries import kinds, tangent_entries
-from hbm.touches import Touches, add_touches, touches
+from hbm.touches import Factors, Touches, touch_factors, touches
 from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ONE_SIDED, RIGID, ContactPoints
@@ -206,22 +206,24 @@ class AlternatingFrequencyTime:
                 self._points, self._moved, frequency, places, jacobian
             )
 
-    def add_touches(
-        self, frequency: float, places: NDArray[np.int64], jacobian: Array
-    ) -> None:
-        """Add ∂force/∂y of the last call where faces touch or part between samples.
+    def touched(self, frequency: float, places: NDArray[np.int64]) -> Factors | None:
+        """Return what :attr:`tangents` leave out of ∂force/∂y of the last call.
 
-        ``places`` are those of :meth:`add_remembered`.
+        That is of cells in which faces touch or part; None if there are none.
+        ``places``, shape ``(2H + 1, rank)``, are those of the coefficients among the
+        unknowns; negative ones are left out.
         """
         if not (self._points.normal == ONE_SIDED).any():
-            return
+            return None
         half = self._symmetry.signs.size > 0
         seen = self.samples // 2 if half else self.samples
         found = touches(self._points, *self._moved, seen)
+        if not found.place.size:
+            return None
         if half:
             # the other half, seen by coordinates that it mirrors, is the same again
             found = Touches(found.point, found.place, 2.0 * found.shared)
-        add_touches(found, self._basis, frequency, self.samples, places, jacobian)
+        return touch_factors(found, self._basis, frequency, self.samples, places)
 
     @property
     def samples(self) -> int:

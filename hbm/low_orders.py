@@ -31,6 +31,7 @@ class LowOrders:
         self._harmonics = low
         self._terms = terms(active[: 2 * low + 1])
         self._unknowns = np.flatnonzero(active)
+        self._places = np.where(active, 0, -1)
         self._high = BandedOrders(active[2 * low + 1 :: 2], low + 1)
         self._outer = np.flatnonzero(active[2 * low + 1 :])
 
@@ -71,6 +72,9 @@ class LowOrders:
             frequency,
             self._terms,
         )
+        touched = contact.touched(frequency, self._places)
+        if touched is not None:
+            corner += touched.up_to(len(corner)).matrix
         high = self._high.factored(stiffness[low + 1 :], *tangents, frequency)
 
         def times(step: Array) -> Array:
@@ -78,7 +82,8 @@ class LowOrders:
             moved.ravel()[self._unknowns] = step
             felt = (stiffness @ to_complex(moved)[..., None])[..., 0]
             changed = to_real(felt) + product(moved, frequency)
-            return changed.ravel()[self._unknowns]
+            forces: Array = changed.ravel()[self._unknowns]
+            return forces if touched is None else forces + touched.product(step)
 
         def apart(right: Array) -> Array:
             forces = np.zeros((2 * (len(stiffness) - low - 1), stiffness.shape[1]))

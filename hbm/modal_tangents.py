@@ -53,6 +53,9 @@ class ModalTangents:
         )
         matrix = stiff + self._rated(damped, pole)
         self._contact.add_remembered(pole.imag, self._places, matrix)
+        touched = self._contact.touched(pole.imag, self._places)
+        if touched is not None:
+            matrix += touched.matrix
         by_logarithm = matrix @ shape[self._active] - reaction[self._active]
         return matrix, by_pole, by_logarithm
 

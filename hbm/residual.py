@@ -109,7 +109,9 @@ class HarmonicBalance:
             self._terms,
         )
         self.contact.add_remembered(frequency, self._places, jacobian)
-        self.contact.add_touches(frequency, self._places, jacobian)
+        touched = self.contact.touched(frequency, self._places)
+        if touched is not None:
+            jacobian += touched.matrix
         return jacobian
 
     def _slope(self, point: Array) -> Array:

@@ -34,15 +34,34 @@ class Touches(NamedTuple):
     motion of either end; shape ``(cells, 2, 2 forces, 2 motions, 3, 3)``"""
 
 
-def add_touches(
+class Factors(NamedTuple):
+    """Two matrices, shape ``(unknowns, columns)``, whose product is a derivative."""
+
+    left: Array
+    right: Array
+
+    @property
+    def matrix(self) -> Array:
+        """The derivative, shape ``(unknowns, unknowns)``."""
+        return self.left @ self.right.T
+
+    def product(self, change: Array) -> Array:
+        """Return it times a vector, shape ``(unknowns,)``."""
+        return self.left @ (self.right.T @ change)
+
+    def up_to(self, unknowns: int) -> Factors:
+        """Return those of the first unknowns alone."""
+        return Factors(self.left[:unknowns], self.right[:unknowns])
+
+
+def touch_factors(
     found: Touches,
     basis: Array,
     frequency: float,
     samples: int,
     places: NDArray[np.int64],
-    jacobian: Array,
-) -> None:
-    """Add to a Jacobian what tangents at the samples leave out of these cells.
+) -> Factors:
+    """Return what of ∂force/∂y tangents at the samples leave out of these cells.
 
     Parameters
     ----------
@@ -55,11 +74,9 @@ def add_touches(
     samples
         Per period.
     places
-        Rows and columns of the coefficients in ``jacobian``, ``(2H + 1, rank)``;
-        negative ones are left out.
+        Of the coefficients among the unknowns, ``(2H + 1, rank)``; negative ones are
+        left out.
     """
-    if not found.place.size:
-        return
     term, coordinate = np.nonzero(places >= 0)
     orders = (np.arange(len(places)) + 1) // 2
     fading = hat(len(places) // 2, samples)
@@ -76,12 +93,12 @@ def add_touches(
         for series, tangents in ((analysis / fading, shared), (analysis, alone)):
             # what acts on an end (e) by the motion of an end (m), of both kinds (k)
             seen = np.einsum(
-                "kemij,kmt,jr->etri", tangents[..., moves, :], np.stack(motion), faces
+                "kemij,kmt,jr->eitr", tangents[..., moves, :], np.stack(motion), faces
             )
-            acts = np.einsum("et,ir->etri", series, faces[moves])
-            left += list(acts[:, term, coordinate])
-            right += list(seen[:, term, coordinate])
-    jacobian += np.hstack(left) @ np.hstack(right).T
+            acts = np.einsum("et,ir->eitr", series, faces[moves])
+            left.append(acts[:, :, term, coordinate].reshape(-1, term.size))
+            right.append(seen[:, :, term, coordinate].reshape(-1, term.size))
+    return Factors(np.vstack(left).T, np.vstack(right).T)
 
 
 def _waves(phase: Array) -> Array:

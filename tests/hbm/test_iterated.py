@@ -117,6 +117,36 @@ def test_products_by_samples_are_those_by_the_assembled_jacobian(
     assert np.abs(expected).max() > 1e-6 * np.abs(whole).max()
 
 
+def test_products_where_faces_part_are_those_of_the_jacobian() -> None:
+    problem = rig_problem(model="full", contact__damping_ratio=0.0)
+    rest = static_equilibrium(problem)
+    path = along_frequency(problem, rest, FREQUENCY, 1.01 * FREQUENCY)
+    balance = path.balance(FOURIER)
+    assert isinstance(balance, HarmonicBalance)
+    unknowns = np.flatnonzero(path.mask(FOURIER.harmonics))
+    motion = np.zeros(FOURIER.coefficients * balance.rank)
+    draw = np.random.default_rng(6).standard_normal(unknowns.size)
+    orders = (unknowns // balance.rank + 1) // 2
+    depth = np.abs(problem.interface.displacement @ rest.displacement).max()
+    motion[unknowns] = 3.0 * depth * draw / np.maximum(orders, 1) ** 2
+    coefficients = motion.reshape(FOURIER.coefficients, balance.rank)
+    _, linearised = balance(balance.point(coefficients, FREQUENCY))
+    places = np.where(path.mask(FOURIER.harmonics), 0, -1)
+    assert linearised.parts is not None
+    parts, step = (
+        linearised.parts(),
+        np.random.default_rng(7).standard_normal(draw.size),
+    )
+
+    found, expected = parts.product(step), linearised.jacobian @ step
+
+    assert np.abs(found - expected).max() <= 1e-11 * np.abs(expected).max()
+    low = len(parts.corner)
+    corner = linearised.jacobian[:low, :low]
+    assert np.abs(parts.corner - corner).max() <= 1e-11 * np.abs(corner).max()
+    assert balance.contact.touched(FREQUENCY, places) is not None
+
+
 def test_what_takes_too_many_products_is_solved_by_factors(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

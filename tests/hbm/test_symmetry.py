@@ -12,6 +12,7 @@ from hbm.fourier import FourierBasis
 from hbm.relative import RelativeProblem, relative_problem
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
+from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from rigs import rig_problem
@@ -107,6 +108,34 @@ def test_a_normal_force_is_never_the_mirror_image_of_its_own() -> None:
     ]
 
     np.testing.assert_allclose(forces[0], forces[1], rtol=0.0, atol=1e-14)
+
+
+def test_faces_that_part_in_half_a_period_part_in_the_other_too() -> None:
+    stop = UnilateralSpring(stiffness=1e5, gap=0.3)
+    pairs = ("x", "ground"), ("ground", "x")
+    made = system(
+        mass=[1.0],
+        stiffness=[1e3],
+        names=("x",),
+        elements=[Element(stop, between=pair) for pair in pairs],
+        drive={"x": 1.0},
+    )
+    whole = relative_problem(made, static_equilibrium(made))
+    moved = np.array([0.0, 0.8, -0.3, 0.0, 0.0, 0.2, 0.1])[:, None]
+    odd, places = np.array([True]), np.array([-1, 0, 0, -1, -1, 0, 0])[:, None]
+
+    touched = []
+    for each in (dataclasses.replace(whole, odd=odd), whole):
+        contact = each.contact(FourierBasis(3, 64))
+        contact(moved, 1.0)
+        touched.append(contact.touched(1.0, places))
+
+    assert touched[0] is not None
+    assert touched[1] is not None
+    exact = touched[1].matrix
+    atol = 1e-12 * np.abs(exact).max()
+    np.testing.assert_allclose(touched[0].matrix, exact, rtol=0.0, atol=atol)
+    assert touched[0].left.shape[1] == touched[1].left.shape[1] // 2
 
 
 def sliders(*friction: float) -> RelativeProblem:

@@ -1,0 +1,129 @@
+"""A mass that strikes a stiff stop, against its exact piecewise linear motion."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from scipy.optimize import root
+
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
+from microslip.rigs import problem_of
+from microslip.scene_file import load_scene
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+
+MASS, STIFFNESS, GAP, DRIVE = 1.0, 1e3, 5e-4, 0.05
+DAMPING = 2.0 * 0.03 * np.sqrt(MASS * STIFFNESS)
+"""of the scene "gap", but for the drive, in SI units"""
+
+
+@dataclass(frozen=True)
+class Struck:
+    """Motions that touch a stop once a period; exact but for rounding."""
+
+    stop: float
+    """its stiffness [N/m]"""
+
+    def carried(self, omega: float, time: float, *, touching: bool) -> Array:
+        """Return what carries x, v, cos ωt, sin ωt and 1 on over a time, (5, 5)."""
+        held = self.stop if touching else 0.0
+        rates = np.zeros((5, 5))
+        rates[0, 1] = 1.0
+        rates[1] = [-(STIFFNESS + held), -DAMPING, 0.0, DRIVE, held * GAP]
+        rates[1] /= MASS
+        rates[2, 3], rates[3, 2] = -omega, omega
+        return np.asarray(expm(rates * time))
+
+    def period(self, omega: float, touching: float) -> tuple[Array, Array]:
+        """Return the maps of the time that it touches and of the rest of a period."""
+        rest = 2.0 * np.pi / omega - touching
+        return (
+            self.carried(omega, touching, touching=True),
+            self.carried(omega, rest, touching=False),
+        )
+
+    def missed(self, unknown: Array, phase: float) -> Array:
+        """Return what a motion that touches first at a phase of the drive misses.
+
+        ``unknown`` is ω, the time of touch over a period, and the speed over ω GAP.
+        """
+        omega, share, speed = unknown
+        size = GAP * omega
+        begin = np.array([GAP, speed * size, np.cos(phase), np.sin(phase), 1.0])
+        on, off = self.period(omega, share * 2.0 * np.pi / omega)
+        left = on @ begin
+        again = off @ left
+        return np.array(
+            [left[0] / GAP - 1.0, again[0] / GAP - 1.0, again[1] / size - speed]
+        )
+
+    def multiplier(self, omega: float, touching: float) -> float:
+        """Return the largest Floquet multiplier's modulus: forces are continuous."""
+        on, off = self.period(omega, touching)
+        values = np.linalg.eigvals(off[:2, :2] @ on[:2, :2])
+        return float(np.abs(values).max())
+
+    def near(self, response: PeriodicResponse) -> tuple[float, Array]:
+        """Return the phase of first touch, and the unknowns, of about a response."""
+        phase = np.linspace(0.0, 2.0 * np.pi, 100_001)
+        orders = np.arange(1, len(response.coefficients) // 2 + 1)[:, None]
+        cosines, sines = response.coefficients[1::2, 0], response.coefficients[2::2, 0]
+        waves = np.cos(orders * phase), np.sin(orders * phase)
+        moved = response.coefficients[0, 0] + cosines @ waves[0] + sines @ waves[1]
+        speed = (orders[:, 0] * sines) @ waves[0] - (orders[:, 0] * cosines) @ waves[1]
+        on = moved > GAP
+        first = int(np.flatnonzero(on & ~np.roll(on, 1))[0])
+        return float(phase[first]), np.array(
+            [response.frequency, on.mean(), speed[first] / GAP]
+        )
+
+    def fold(self, response: PeriodicResponse) -> float:
+        """Return the frequency [rad/s] of the fold near a response.
+
+        Along the phase of first touch ω is largest there.
+        """
+        phase, unknown = self.near(response)
+        phases = phase + np.linspace(-0.1, 0.1, 9)
+        omegas = []
+        for each in phases:
+            exact = root(self.missed, unknown, args=(each,), tol=1e-13).x
+            assert np.abs(self.missed(exact, each)).max() < 1e-10
+            omegas.append(exact[0])
+        fitted = np.polynomial.Polynomial.fit(phases, omegas, 6)
+        turns = [
+            float(turn.real)
+            for turn in fitted.deriv().roots()
+            if abs(turn.imag) < 1e-9 and phases[0] < turn.real < phases[-1]
+        ]
+        assert len(turns) == 1
+        return float(fitted(turns[0]))
+
+
+@pytest.mark.parametrize("stop", [2e4, 6e4, 1e5, 2e5])
+def test_the_curve_of_a_mass_that_strikes_a_stiff_stop_is_whole(stop: float) -> None:
+    scene = load_scene("gap", [f"drive.x={DRIVE}", f"element.stop.stiffness={stop}"])
+    problem = problem_of(scene)
+    options = CurveOptions(2.0 * np.pi * 4.5, 2.0 * np.pi * 8.0)
+    struck = Struck(stop)
+
+    found = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    events = [each.event for each in found if each.event]
+    assert events.count("fold") == 2
+    assert "restart" not in events
+    assert len(found) < 130  # 642 where Newton's iteration crept from sample to sample
+    upper = next(each for each in found if each.event == "fold")
+    exact = struck.fold(upper)
+    assert upper.frequency == pytest.approx(exact, rel=2e-5)
+    assert abs(upper.frequency - exact) <= upper.parameter_error
+    for each in found:
+        size = np.hypot(*each.coefficients[1:3, 0])
+        if not each.event and size > 1.02 * GAP:
+            _, (omega, share, _) = struck.near(each)
+            exactly = struck.multiplier(omega, share * 2.0 * np.pi / omega)
+            largest = float(np.abs(each.multipliers).max())
+            assert largest == pytest.approx(exactly, rel=0.1)
+            assert each.unstable == (exactly > 1.0) or abs(exactly - 1.0) < 0.02

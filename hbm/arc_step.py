@@ -58,9 +58,13 @@ def next_point(
             smooth = turn(candidate, direction, scale) > control.sharpest_turn
             passed = settler.overlooks(candidate.point, scale, step)
             passed |= _turned_twice(candidate, past.predict(0.0), direction)
+            passed |= (
+                settler.changed and candidate.orientation == -past.orientation != 0
+            )
             seen = not passed or step <= control.narrowest
             if (close and smooth and seen) or step <= control.smallest:
                 settler.keep(step)
+                past.orientation = candidate.orientation
                 candidate.linearised.forget()
                 if not smooth:
                     candidate = _away(candidate, past.predict(0.0), scale, step)
@@ -160,7 +164,8 @@ def _directed(candidate: Correction, direction: Array, scale: Array) -> Correcti
         turned = tangent(candidate.linearised, direction, scale)
     except SingularError:
         return replace(candidate, outcome=Outcome.SINGULAR)
-    return replace(candidate, tangent=turned)
+    sign = candidate.linearised.orientation(turned)
+    return replace(candidate, tangent=turned, orientation=sign)
 
 
 def _away(candidate: Correction, start: Array, scale: Array, step: float) -> Correction:

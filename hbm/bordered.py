@@ -39,6 +39,14 @@ class Bordered:
         if failed != 0:
             raise SingularError
 
+    @property
+    def sign(self) -> float:
+        """That of the determinant."""
+        factors, pivots = self._factors
+        negative = np.count_nonzero(factors.diagonal() < 0.0)
+        swapped = np.count_nonzero(pivots != np.arange(pivots.size))
+        return 1.0 if (negative + swapped) % 2 == 0 else -1.0
+
     def solve(self, right: Array) -> Array:
         """Return the solution, of shape ``(unknowns + 1,)`` or with several columns.
 

@@ -129,6 +129,18 @@ class Linearisation:
             return factors.solve(right)
         return _turned(factors, border, right)
 
+    def orientation(self, tangent: Array) -> float:
+        """Return the sign of the determinant that has the tangent as its border.
+
+        0 if what solves is not factors of all unknowns, or none yet.
+        """
+        if self._factors is None:
+            return 0.0
+        border, factors = self._factors
+        if isinstance(factors, Iterated):
+            return 0.0
+        return factors.sign * float(np.sign(border @ tangent[self._places]))
+
     def forget(self) -> None:
         """Let go of derivatives and factors: what solves again makes them anew."""
         self._made, self._factors = None, None

@@ -42,6 +42,12 @@ class Linearised(Protocol):
             If there is no solution.
         """
 
+    def orientation(self, tangent: Array) -> float:
+        """Return the sign of the determinant that has the tangent as its border.
+
+        Along a curve it changes at branch points alone. 0 if it is not known.
+        """
+
     def forget(self) -> None:
         """Let go of what takes memory: solving again makes it anew."""
 
@@ -86,6 +92,8 @@ class Correction:
     """largest residual before the first and after each iteration"""
     tangent: Array | None = None
     """of the curve at the point, shape (n + 1,), if it is known"""
+    orientation: float = 0.0
+    """that of its linearisation by the tangent; 0 if it is not known"""
     joined: bool = True
     """whether the curve comes from the point before"""
     turns: bool = False

@@ -27,6 +27,8 @@ class Predictor:
         self._scale: Array = np.empty(0)
         self.order = 1
         """of the extrapolation that predicted the last point best"""
+        self.orientation = 0.0
+        """of the last point, as a correction has it"""
 
     def append(self, point: Array, tangent: Array, scale: Array, step: float) -> float:
         """Add a point that lies ``step`` further on, and its unit tangent.

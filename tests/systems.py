@@ -23,5 +23,9 @@ class Dense:
         except np.linalg.LinAlgError as error:
             raise SingularError from error
 
+    def orientation(self, tangent: Array) -> float:
+        """Return the sign of the determinant with the tangent as its last row."""
+        return float(np.linalg.slogdet(np.vstack([self.rows, tangent])).sign)
+
     def forget(self) -> None:
         """Keep the rows."""

@@ -43,3 +43,22 @@ def test_folds_are_those_of_many_harmonics(
     assert [name for _, name in found] == [name for _, name in known()]
     for (place, _), (exact, _) in zip(found, known(), strict=True):
         assert place == pytest.approx(exact, rel=5e-6)
+
+
+def softening(tolerance: float) -> list[tuple[float, str]]:
+    """Return the events of a mass on a spring that softens, under 0.15 N."""
+    sets = ("drive.x=0.15", "element.cubic.cubic=-2e7")
+    problem = problem_of(load_scene("duffing", sets))
+    wanted = CurveOptions(HERTZ * 3.5, HERTZ * 5.5, error=tolerance)
+    return events(
+        list(frequency_response(problem, static_equilibrium(problem), wanted))
+    )
+
+
+def test_more_harmonics_do_not_leap_across_the_tip_of_a_resonance() -> None:
+    # both sides of the tip are as close as three and seven harmonics are
+    found = softening(1e-3)
+
+    assert [name for _, name in found] == ["fold", "peak", "fold"]
+    for (place, _), (exact, _) in zip(found, softening(1e-5), strict=True):
+        assert place == pytest.approx(exact, rel=2e-5)

@@ -34,6 +34,24 @@ def test_solutions_are_those_of_the_bordered_matrix(several: tuple[int, ...]) ->
     np.testing.assert_array_equal(jacobian, before)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_the_orientation_is_the_sign_of_the_determinant(seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    jacobian, slope = draw.normal(size=(4, 4)), draw.normal(size=4)
+    normal, right, unit = draw.normal(size=SIZE), draw.normal(size=SIZE), np.eye(SIZE)
+    linearised = Linearisation(lambda: (jacobian, slope), PLACES, SIZE)
+    assert linearised.orientation(normal) == 0.0  # nothing is factored yet
+    linearised.solve(normal, right)
+
+    tangent = linearised.solve(draw.normal(size=SIZE), unit[-1])
+
+    rows = np.column_stack([jacobian, slope])
+    places = np.append(PLACES, SIZE - 1)
+    expected = np.linalg.slogdet(np.vstack([rows, tangent[places]])).sign
+    assert linearised.orientation(tangent) == expected
+    assert linearised.orientation(-tangent) == -expected
+
+
 @pytest.mark.parametrize("size", [1.0, 3e17, 3e-17])
 def test_another_border_may_be_of_any_size(size: float) -> None:
     jacobian, slope, normal = drawn()

@@ -26,6 +26,10 @@ class Slope:
         del normal
         return np.array([right[0] / self._slope, right[1]])
 
+    def orientation(self, tangent: Array) -> float:
+        del tangent
+        return 0.0
+
     def forget(self) -> None:
         """Keep the slope."""
 

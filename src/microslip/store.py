@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import io
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -118,8 +119,10 @@ def save_figure(path: Path, figure: Figure) -> None:
         raise WrongFileError(
             f"{path} cannot be written: give an ending such as .png, .pdf or .svg"
         )
+    drawn = io.BytesIO()  # an interruption leaves no half a picture
+    figure.savefig(drawn, format=ending, dpi=160)
     with told(path):
-        figure.savefig(path, dpi=160)
+        path.write_bytes(drawn.getvalue())
 
 
 def save_table(

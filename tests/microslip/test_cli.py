@@ -149,7 +149,8 @@ def test_curve_is_written_drawn_and_told(
     assert re.search(
         r"estimated error of amplitude: at most \S+ % at a point, \S+ % in the "
         r"median; 1 to 1 harmonics, 16 to 16 samples$",
-        output.rstrip(),
+        output,
+        re.MULTILINE,
     )
     assert "normal force at rest [N]: B1 2.924, A1 2.747" in output
 

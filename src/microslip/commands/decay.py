@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments, dwell
 from microslip.commands.decay_march import marched, recorded
 from microslip.commands.decay_tables import COLUMNS, cycles
+from microslip.commands.written import written
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
@@ -86,9 +87,9 @@ def _run(options: argparse.Namespace) -> int:
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
     save_table(table, COLUMNS, zip(*columns, strict=True))
     title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:g} Hz"
-    save_figure(picture, decay_figure(history, decay, probe, title))
-    print("\n".join(cycles(decay, history.probes[probe])))
-    print(f"decay in {data}, table in {table}, picture in {picture}")
+    with written(f"decay in {data}, table in {table}", picture):
+        print("\n".join(cycles(decay, history.probes[probe])))
+        save_figure(picture, decay_figure(history, decay, probe, title))
     if ending == "complete":
         ending = _tell_step_errors(options, scene, problem, begin, history, probe)
     return arguments.ended(ending)
@@ -122,6 +123,7 @@ def _driven(
         return last_state(options.file, scene.text)
     history, _, ending = dwell.dwelled(options, scene, problem, data)
     if ending == "interrupted":
+        print(f"motion before the decay in {data}")
         raise KeyboardInterrupt
     if ending != "complete":
         print(f"microslip: let go when {ending}", file=sys.stderr)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.sweep_tables import energy_table, estimates
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -79,11 +80,11 @@ def _run(options: argparse.Namespace) -> int:
     problem = problem_of(scene)
     history, distances, ending = dwelled(options, scene, problem, data)
     title = f"{arguments.title(options)}, {options.frequency:g} Hz"
-    figure = dwell_figure(history, distances, options.tolerance, title)
-    save_figure(picture, figure)
-    print("\n".join(_lines(options, history, distances)))
-    print("\n".join([energy_table(history), *estimates(history)]))
-    print(f"{len(distances)} periods in {data}, picture in {picture}")
+    with written(f"{len(distances)} periods in {data}", picture):
+        print("\n".join(_lines(options, history, distances)))
+        print("\n".join([energy_table(history), *estimates(history)]))
+        figure = dwell_figure(history, distances, options.tolerance, title)
+        save_figure(picture, figure)
     return arguments.ended(ending)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.columns import KEY, decimal, keyed
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -150,5 +151,6 @@ def _keep(
         ]
     table, picture = paths
     save_table(table, keyed(COLUMNS, options.key), rows)
-    save_figure(picture, folds_figure(lines, along.label, arguments.title(options)))
-    print(f"table in {table}, picture in {picture}")
+    title = arguments.title(options)
+    with written(f"table in {table}", picture):
+        save_figure(picture, folds_figure(lines, along.label, title))

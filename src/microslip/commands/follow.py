@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.columns import about, decimal, headed, tabled, titled
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from microslip_mechanics.response_curve import ResponseCurve
@@ -62,9 +63,9 @@ def _run(options: argparse.Namespace) -> int:
     )
     save(data, Stored(curve, followed.scene.text, options.command))
     title = f"{arguments.title(options)}, {options.frequency:g} Hz"
-    save_figure(picture, curve_figure(curve, title))
-    print(_table(curve))
-    print(f"{curve.frequency.size} points in {data}, picture in {picture}")
+    with written(f"{curve.frequency.size} points in {data}", picture):
+        print(_table(curve))
+        save_figure(picture, curve_figure(curve, title))
     return arguments.ended(curve.ending)
 
 

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc_tables
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from microslip.experiments import Curve
@@ -85,11 +86,17 @@ def _run(options: argparse.Namespace) -> int:
         )
     traced = _traced(options, scene)
     save(data, Stored(traced.curve, scene.text, options.command))
-    save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
+    with written(f"{len(traced.responses)} points in {data}", picture):
+        _tell(options, scene, traced)
+        save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
+    return arguments.ended(traced.curve.ending)
+
+
+def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
+    """Print the curve, its events, its errors, and what was sought."""
     print(frc_tables.table(traced))
     if traced.rest.normal_force.any():
         print(frc_tables.rest(traced.curve.contacts, traced.rest))
-    print(f"{len(traced.responses)} points in {data}, picture in {picture}")
     print(frc_tables.events(traced.curve))
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in frc_tables.barren(traced.curve) if sought else ():
@@ -97,7 +104,6 @@ def _run(options: argparse.Namespace) -> int:
     print(frc_tables.resolution(traced.curve), *frc_tables.uncounted(scene), sep="\n")
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
-    return arguments.ended(traced.curve.ending)
 
 
 def _traced(options: argparse.Namespace, scene: Scene) -> Traced:

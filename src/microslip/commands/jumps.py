@@ -82,13 +82,12 @@ def _run(options: argparse.Namespace) -> int:
         return 0
     print(HEADER)
     found, ending = _collected(jumps(problem, folds, options.rates), len(folds))
-    _draw(options, traced, found, picture)
-    print(f"picture in {picture}")
-    status = arguments.ended(ending)
     agree = all(_agrees(each) for each in found if each.whole)
     if not agree and beyond_motion(problem.interface.points):
         print(HELD)
-    return status or (0 if agree else 1)
+    _draw(options, traced, found, picture)
+    print(f"picture in {picture}")
+    return arguments.ended(ending) or (0 if agree else 1)
 
 
 def _collected(swept: Iterator[Jump], count: int) -> tuple[list[Jump], str]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.columns import decimal
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -185,8 +186,8 @@ def _keep(
     ]
     save_table(table, COLUMNS, rows)
     lines = [_line(mode) for mode in modes if mode.points]
-    save_figure(picture, modes_figure(lines, arguments.title(options)))
-    print(f"table in {table}, picture in {picture}")
+    with written(f"table in {table}", picture):
+        save_figure(picture, modes_figure(lines, arguments.title(options)))
 
 
 def _line(mode: FollowedMode) -> ModeLine:

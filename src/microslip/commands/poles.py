@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.columns import KEY, keyed
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -127,14 +128,27 @@ def _keep(
     picture: Path,
 ) -> None:
     """Write table and picture of the values that have a response."""
+    from microslip.studies.poles import branches, limits_of
+
+    lines = branches(found, limits_of(question.at(found[0].value)))
+    _write(table, options.key, found, lines)
+    with written(f"table in {table}", picture):
+        _draw(options, question, (found, lines), picture)
+
+
+def _draw(
+    options: argparse.Namespace,
+    question: Question,
+    linear: tuple[list[Linearised], ComplexArray],
+    picture: Path,
+) -> None:
     from microslip.figures.poles import poles_figure
     from microslip.store import save_figure
     from microslip.studies.axis import axis
-    from microslip.studies.poles import branches, limit_lines, limits_of
+    from microslip.studies.poles import limit_lines, limits_of
 
+    found, lines = linear
     span = limits_of(question.at(found[0].value))
-    lines = branches(found, span)
-    _write(table, options.key, found, lines)
     limits = {name: limit_lines(found, name, span) for name in ("free", "stuck")}
     values = [each.value for each in found]
     scenes = [question.at(value) for value in values]
@@ -142,7 +156,6 @@ def _keep(
     key = "friction coefficient µd" if options.key == "friction" else key
     title = arguments.title(options)
     save_figure(picture, poles_figure(places, lines, limits, span, key, title, names))
-    print(f"table in {table}, picture in {picture}")
 
 
 def _write(path: Path, key: str, found: list[Linearised], lines: ComplexArray) -> None:

@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, precision_tables
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -91,9 +92,10 @@ def _keep(
     print(precision_tables.summary(found, exact))
     save_table(table, precision_tables.COLUMNS, precision_tables.rows(found))
     doubts = dict(zip(QUANTITIES, exact.spread, strict=True))
-    drawn = precision_figure(_lines(found, exact), doubts, arguments.title(options))
-    save_figure(picture, drawn)
-    print(f"table in {table}, picture in {picture}")
+    title = arguments.title(options)
+    with written(f"table in {table}", picture):
+        drawn = precision_figure(_lines(found, exact), doubts, title)
+        save_figure(picture, drawn)
 
 
 def _lines(found: list[Run], exact: Reference) -> dict[str, Line]:

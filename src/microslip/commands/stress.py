@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -151,8 +152,8 @@ def _write(
     ]
     table = picture.with_suffix(".csv")
     save_table(table, COLUMNS, rows)
-    _draw(options, picture, chosen, found)
-    print(f"picture in {picture}, table in {table}")
+    with written(f"table in {table}", picture):
+        _draw(options, picture, chosen, found)
 
 
 def _draw(

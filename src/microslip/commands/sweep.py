@@ -15,6 +15,7 @@ from microslip.commands.sweep_tables import (
     extremes,
     parting,
 )
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from microslip.progress import Watch
@@ -64,7 +65,6 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
-    from microslip_mechanics.contact.memory import beyond_motion
 
     data, picture = _places(options)
     scene = load_scene(options.scene, options.overrides)
@@ -81,14 +81,9 @@ def _run(options: argparse.Namespace) -> int:
     with recording:
         ending = kept(watched(loads.duration)(blocks), recording.keep)
         recording.end(ending)
-    closed = _show(options, problem, data, picture)
     unit = "cycles" if envelope else "times"
-    print(f"{recording.rows} {unit} in {data}, picture in {picture}")
-    if options.tolerance and beyond_motion(problem.interface.points):
-        print(
-            "contacts that remember or are rigid are marched with the scene's steps, "
-            f"{scene.march.time_step:g} s, and no tolerance"
-        )
+    with written(f"{recording.rows} {unit} in {data}", picture):
+        closed = _show(options, scene, problem, (data, picture))
     if ending == "complete" and not closed:
         ending = (
             "the energy balance does not close, so the march is wrong: give a smaller "
@@ -160,22 +155,32 @@ def _begun(
 
 
 def _show(
-    options: argparse.Namespace, problem: Problem, data: Path, picture: Path
+    options: argparse.Namespace,
+    scene: Scene,
+    problem: Problem,
+    paths: tuple[Path, Path],
 ) -> bool:
     """Print and draw what the file holds; return whether its energies balance."""
     from microslip.figures.result import result_figure
     from microslip.result_file import load
     from microslip.store import save_figure
+    from microslip_mechanics.contact.memory import beyond_motion
     from timedomain.closure import closes
 
+    data, picture = paths
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)
-    save_figure(picture, result_figure(result, arguments.title(options)))
     print(energy_table(result))
     normals = problem.interface.displacement[::3]
     pairs = zip(problem.interface.names, normals, strict=True)
     pressed = [name for name, normal in pairs if normal.any()]
     errors = [*estimates(result), *parting(result, options.tolerance)]
     print("\n".join([*errors, *extremes(result, pressed)]))
+    if options.tolerance and beyond_motion(problem.interface.points):
+        print(
+            "contacts that remember or are rigid are marched with the scene's steps, "
+            f"{scene.march.time_step:g} s, and no tolerance"
+        )
+    save_figure(picture, result_figure(result, arguments.title(options)))
     return closes(result)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.columns import KEY, about, decimal, keyed
+from microslip.commands.written import written
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -94,12 +95,7 @@ def _keep(
     options: argparse.Namespace, found: list[Tracked], table: Path, picture: Path
 ) -> None:
     """Write table and picture."""
-    from statistics import median
-
-    from microslip.figures.track import track_figure
-    from microslip.scene_file import load_scene
-    from microslip.store import save_figure, save_table
-    from microslip.studies.axis import axis
+    from microslip.store import save_table
 
     rows = [
         (
@@ -114,6 +110,18 @@ def _keep(
         for event in each.events
     ]
     save_table(table, keyed(COLUMNS, options.key), rows)
+    with written(f"table in {table}", picture):
+        _draw(options, found, picture)
+
+
+def _draw(options: argparse.Namespace, found: list[Tracked], picture: Path) -> None:
+    from statistics import median
+
+    from microslip.figures.track import track_figure
+    from microslip.scene_file import load_scene
+    from microslip.store import save_figure
+    from microslip.studies.axis import axis
+
     values = [each.value for each in found]
     places, label, names = axis(
         options.key,
@@ -145,4 +153,3 @@ def _keep(
         picture,
         track_figure(peaks, others, label, title, names, median(errors or [0.0])),
     )
-    print(f"table in {table}, picture in {picture}")

@@ -113,9 +113,10 @@ def _run(options: argparse.Namespace) -> int:
         return arguments.ended("interrupted", kept=False)
     finally:
         report(found)
+    status = verdict(found, options.tolerance)
     draw(found, traced.curve, picture, arguments.title(options))
     print(f"picture in {picture}")
-    return verdict(found, options.tolerance)
+    return status
 
 
 def _check_covered(options: argparse.Namespace, curve: Curve, swept: Sweep) -> None:

@@ -1,0 +1,76 @@
+"""What is written and printed when the drawing of a picture is interrupted."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import pytest
+from matplotlib.figure import Figure
+
+from microslip.store import save_figure
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+SAID = "microslip: interrupted; no file is written but those named above\n"
+RANGE = ("--set=curve.lowest=30 Hz", "--set=curve.highest=32 Hz")
+CASES = {
+    "frc": (("frc", "jenkins", *RANGE), "points in it.nc", "estimated error"),
+    "follow": (
+        ("follow", "jenkins", "drive.x", "5", "5.1", "--frequency=30 Hz"),
+        "points in it.nc",
+        "parameter",
+    ),
+    "sweep": (
+        ("sweep", "jenkins", "--set=sweep.duration=1 s", "--set=sweep.end=1 s"),
+        "times in it.nc",
+        "closing error",
+    ),
+    "dwell": (
+        ("dwell", "gap", "--frequency=30 Hz", "--most-periods=2"),
+        "2 periods in it.nc",
+        "closing error",
+    ),
+    "track": (("track", "jenkins", "drive.x", "5", *RANGE), "table in it.csv", "Hz"),
+    "modes": (("modes", "jenkins"), "table in it.csv", "damping"),
+    "poles": (
+        ("poles", "jenkins", "element.slider.limit", "1", *RANGE),
+        "table in it.csv",
+        "poles",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_an_interrupted_picture_leaves_tables_and_names_of_files(
+    case: str, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("microslip.store.save_figure", interrupted)
+    words, told, table = CASES[case]
+
+    status, output, error = run(*words, "-o", "it")
+
+    assert status == 130
+    assert error == SAID
+    *lines, last = output.splitlines()
+    assert last.endswith(told)
+    assert any(table in line for line in lines)
+    assert [each.name for each in tmp_path.iterdir()] == [told.split()[-1]]
+
+
+def test_an_interrupted_picture_leaves_no_half_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = Figure.savefig
+
+    def interrupted(figure: Figure, *where: object, **named: object) -> None:
+        whole(figure, *where, **named)  # type: ignore[arg-type]
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Figure, "savefig", interrupted)
+
+    with pytest.raises(KeyboardInterrupt):
+        save_figure(tmp_path / "it.png", Figure(figsize=(1.0, 1.0)))
+
+    assert list(tmp_path.iterdir()) == []

@@ -1,9 +1,10 @@
-"""Interruptions that kernels, or what compiles them, turn into something else."""
+"""Interruptions that kernels turn into something else, or that come too early."""
 
 from __future__ import annotations
 
 import _thread
 import contextlib
+import signal
 import sys
 from collections.abc import Iterator
 from threading import Timer
@@ -60,3 +61,19 @@ def heeded() -> Iterator[None]:
         sys.unraisablehook = before
         for again in lost:
             again.cancel()
+
+
+@contextlib.contextmanager
+def held_back() -> Iterator[None]:
+    """Hold interruptions back; a process that starts meanwhile does so too."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    from multiprocessing.resource_tracker import ensure_running
+
+    ensure_running()  # it would let interruptions through when it starts
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

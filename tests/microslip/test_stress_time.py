@@ -1,9 +1,12 @@
 """The time of cases under stress: shares of it, and what does not heed them."""
 
+import contextlib
+import multiprocessing
 import os
 import signal
 import time
 from collections.abc import Iterator
+from threading import Thread
 
 import pytest
 
@@ -58,6 +61,30 @@ def test_what_hangs_dies_or_fails_does_not_stop_the_others() -> None:
     assert found["dies"] == ("half of dies", "its process ended with 3")
     assert found["fails"] == ("half of fails", "RuntimeError: a defect")
     assert found["last"] == ("last", "")
+
+
+def interrupt_children() -> None:
+    """Send an interruption to the first process that starts, again and again."""
+    while not (children := multiprocessing.active_children()):
+        time.sleep(1e-3)
+    for _ in range(50):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(children[0].pid or 0, signal.SIGINT)
+        time.sleep(1e-2)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no signals to processes")
+def test_a_process_that_starts_leaves_interruptions_to_its_parent(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    sender = Thread(target=interrupt_children)
+    sender.start()
+
+    (ended,) = bounded(work, ["one"], seconds=lambda _: 3.0, processes=1, prepare=ready)
+
+    sender.join()
+    assert (ended.result, ended.cause) == ("one", "")
+    assert capfd.readouterr().err == ""
 
 
 def use_processor(until: float) -> None:

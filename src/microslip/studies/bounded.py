@@ -17,6 +17,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 from typing import Any, Generic, TypeVar
 
+from microslip.interruption import held_back
+
 Item = TypeVar("Item")
 Task = Callable[[Any, float], Iterator[Any]]
 """yields better and better results of an item within seconds; the last one counts"""
@@ -110,7 +112,8 @@ class _Worker(Generic[Item]):
         self._process: SpawnProcess = context.Process(
             target=_serve, args=(theirs, task, prepare), daemon=True
         )
-        self._process.start()
+        with held_back():
+            self._process.start()
         theirs.close()
         self._items: list[Item] = []
         self._result: Any = None
@@ -182,6 +185,8 @@ def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
     """Work on items until the other end closes."""
     # the interruption is the parent's to handle: it ends this process
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     faulthandler.enable()  # a process that dies says where
     warnings.simplefilter("error", RuntimeWarning)
     with contextlib.suppress(EOFError, ConnectionError):

@@ -339,6 +339,29 @@ def test_plot_that_fails_says_why(
     assert len(error.splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("plot", "it.png"),
+        ("plot", "it.nc", "-o", "it.png"),
+        ("sweep", "duffing", "--resume", "it.png"),
+    ],
+)
+def test_a_picture_is_not_written_over_its_result(
+    words: tuple[str, ...], run: Run, small_history: TimeHistory, tmp_path: Path
+) -> None:
+    save(tmp_path / "it.nc", Stored(small_history, "", ""))
+    (tmp_path / "it.png").hardlink_to(tmp_path / "it.nc")
+    before = (tmp_path / "it.nc").read_bytes()
+
+    status, output, error = run(*words)
+
+    assert (status, output) == (2, "")
+    assert error.startswith("microslip: it.png holds the result")
+    assert len(error.splitlines()) == 1
+    assert (tmp_path / "it.nc").read_bytes() == before
+
+
 def test_module_runs_as_the_command_does() -> None:
     command = [sys.executable, "-W", "error", "-m", "microslip", "scenes", "disc"]
 

@@ -55,6 +55,21 @@ def demand_place(path: Path) -> None:
         raise OutputError(f"{path} cannot be written to: give another name")
 
 
+def demand_apart(picture: Path, data: Path) -> None:
+    """Refuse a picture that would be written over the data that it shows.
+
+    Raises
+    ------
+    OutputError
+        If both are one file.
+    """
+    if data.exists() and picture.exists() and picture.samefile(data):
+        raise OutputError(
+            f"{picture} holds the result, and its picture would be written over it: "
+            "give the result a name that ends with .nc, or the picture another name"
+        )
+
+
 def _refused(path: Path, error: OSError) -> OutputError:
     reason = error.strerror or error
     name = f"{path.name[:40]}…" if len(path.name) > 40 else path.name

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from microslip.commands import arguments
-from microslip.commands.places import demand_place
+from microslip.commands.places import demand_apart, demand_place
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -37,6 +37,7 @@ def _run(options: argparse.Namespace) -> int:
     stored = load(options.file, arguments.MOST_ROWS)
     picture = options.output or options.file.with_suffix(".png")
     demand_place(picture)
+    demand_apart(picture, options.file)
     title = f"{options.file.name}: {stored.command}"
     save_figure(picture, result_figure(stored.result, title))
     print(f"picture in {picture}")

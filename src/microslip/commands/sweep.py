@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from microslip.commands import arguments
-from microslip.commands.places import demand_place
+from microslip.commands.places import demand_apart, demand_place
 from microslip.commands.sweep_tables import (
     energy_table,
     estimates,
@@ -126,6 +126,7 @@ def _places(options: argparse.Namespace) -> tuple[Path, Path]:
         )
     picture = options.resume.with_suffix(".png")
     demand_place(picture)
+    demand_apart(picture, options.resume)
     return options.resume, picture
 
 

@@ -159,6 +159,19 @@ def test_a_dwell_of_one_probe_has_no_empty_panel(small_history: TimeHistory) -> 
     assert all(axes.lines for axes in figure.axes)
 
 
+@pytest.mark.parametrize(("known", "marker"), [(1, "."), (12, "."), (400, "None")])
+def test_a_single_distance_is_seen(
+    known: int, marker: str, small_history: TimeHistory
+) -> None:
+    distances = [math.inf, math.inf, *[1e-2] * known]
+
+    figure = dwell_figure(small_history, distances, 1e-3, "few")
+
+    (line, _) = figure.axes[4].lines
+    assert len(line.get_xdata()) == known  # type: ignore[arg-type]
+    assert line.get_marker() == marker
+
+
 def test_a_dwell_of_few_periods_counts_them_and_says_what_is_unknown(
     small_history: TimeHistory,
 ) -> None:

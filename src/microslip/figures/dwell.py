@@ -22,6 +22,9 @@ from microslip.figures.style import (
 from microslip.figures.sweep import displacement, energies
 from microslip_mechanics.time_history import TimeHistory
 
+FEW = 40
+"""distances up to which each is a dot: a line through one alone would not be seen"""
+
 
 def dwell_figure(
     history: TimeHistory, distances: Sequence[float], tolerance: float, title: str
@@ -91,7 +94,11 @@ def _velocities(axes: Axes, history: TimeHistory, rows: int) -> None:
 def _distance(axes: Axes, distances: Sequence[float], tolerance: float) -> None:
     values = np.array(distances)
     known = np.isfinite(values) & (values > 0.0)
-    axes.plot(np.flatnonzero(known) + 1, values[known], color=COLOURS[0], lw=WIDTH)
+    shown = np.flatnonzero(known) + 1
+    style = ".-" if len(shown) <= FEW else "-"
+    axes.plot(
+        shown, values[known], style, color=COLOURS[0], lw=WIDTH, ms=5.0, clip_on=False
+    )
     axes.axhline(tolerance, color="0.15", linewidth=WIDTH, linestyle="--")
     axes.set_yscale("log")
     axes.set_xlim(0.0, max(1, len(distances)))

@@ -106,6 +106,27 @@ def test_the_command_writes_what_its_sections_print_and_draw(
         assert f"<code>microslip {command} {quick_scene}" in text
 
 
+@pytest.mark.usefixtures("no_hang", "no_picture")
+def test_the_summary_tells_the_error_of_a_sweeps_friction(
+    run: Run, quick_scene: Path, only: Callable[..., None]
+) -> None:
+    only("sweep")
+
+    status, output, _ = run("report", str(quick_scene), "--quick", "-o", "page")
+
+    assert status == 0
+    assert re.search(r"sweep +done +friction, error \S+ \(\S+ of it\)", output)
+
+
+def test_a_report_promises_sweeps_of_its_verification_unless_it_is_quick() -> None:
+    (part,) = [each for each in PARTS if each.command == "verify"]
+
+    assert part.quick is not None
+    assert part.quick[-1] == "--slower"  # no sweep
+    assert "--slower" in part.more
+    assert "unless the report is quick, sweeps" in part.about
+
+
 @pytest.mark.usefixtures("no_hang")
 def test_a_section_that_fails_says_why_and_the_others_are_made(
     run: Run, quick_scene: Path, tmp_path: Path, only: Callable[..., None]

@@ -66,14 +66,14 @@ PARTS = (
         "The sine test of the scene by time integration, with its energies.",
         ("--envelope",),
         ("--envelope",),
-        tells=("  closing error",),
+        tells=("  closing error", "  friction, error"),
         excuse=one_sector,
     ),
     Part(
         "verify",
         "Do both solvers agree?",
-        "Orbits of the curve found again by shooting; sweeps, slower and slower, "
-        "beside the curve.",
+        "Orbits of the curve found again by shooting; unless the report is quick, "
+        "sweeps, slower and slower, beside the curve.",
         ("--slower", "1", "4"),
         ("--frequencies", "3", "--slower"),
         tells=("agree: largest", "DISAGREE"),

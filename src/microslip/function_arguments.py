@@ -50,8 +50,17 @@ def named(function: str) -> Iterator[None]:
 
 def read(function: str, table: type, **values: object) -> Any:  # noqa: ANN401
     """Return the arguments of a function as the keys of a scene's table are read."""
+    for name, value in values.items():
+        _check_unmasked(function, name, value)
     given = {name: _plain(value) for name, value in values.items() if value is not None}
     return read_table(function, "", table, given)
+
+
+def _check_unmasked(function: str, name: str, value: object) -> None:
+    from microslip_mechanics.arrays import masked
+
+    if masked(value):
+        raise GivenError(f"{function}: {name} is masked: give a number in its place")
 
 
 def _plain(value: Any) -> object:  # noqa: ANN401  (whatever is given)

@@ -20,8 +20,20 @@ def largest(values: Array | ComplexArray) -> float:
     return float(np.abs(values).max(initial=0.0))
 
 
+def masked(given: object) -> bool:
+    """Return whether some entries of an array are masked: they hold no numbers."""
+    return bool(np.ma.is_masked(given))
+
+
+def shown(given: object) -> str:
+    """Return what was given, arrays too, in one line."""
+    return " ".join(repr(given).split())
+
+
 def numbers_of(given: object) -> Array:
     """Return finite real numbers as an array; one of shape (0,) if they are none."""
+    if masked(given):
+        return np.empty(0)
     try:
         found: Array = np.asarray(given, dtype=float)
     except (TypeError, ValueError):

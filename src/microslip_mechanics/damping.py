@@ -10,7 +10,7 @@ import scipy.sparse
 from numpy.typing import ArrayLike
 from scipy.sparse.linalg import LinearOperator
 
-from microslip_mechanics.arrays import Array, Matrix, numbers_of
+from microslip_mechanics.arrays import Array, Matrix, numbers_of, shown
 from microslip_mechanics.factors import indefinite_factors
 from microslip_mechanics.given_matrices import check_like, square_matrix
 from microslip_mechanics.hysteretic import Hysteretic
@@ -64,15 +64,16 @@ class Damping:
         if self.rayleigh is not None:
             if numbers_of(self.rayleigh).shape != (2,):
                 raise ValueError(
-                    f"rayleigh_damping = {self.rayleigh!r}: give two numbers, of the "
-                    "mass [1/s] and of the stiffness [s]"
+                    f"rayleigh_damping = {shown(self.rayleigh)}: give two numbers, of "
+                    "the mass [1/s] and of the stiffness [s]"
                 )
             return Rayleigh(*self.rayleigh).matrix(bare)
         if self.loss_factor is not None:
             _check_all(bare, "loss_factor")
             if numbers_of(self.loss_factor).shape != ():
                 raise ValueError(
-                    f"loss_factor = {self.loss_factor!r}: give a number such as 0.01"
+                    f"loss_factor = {shown(self.loss_factor)}: give a number such as "
+                    "0.01"
                 )
             return Hysteretic(self.loss_factor).viscous(bare.dofs).matrix(bare)
         return ModalDamping(self._ratios(bare)).matrix(bare)
@@ -90,8 +91,8 @@ class Damping:
         given = numbers_of(self.ratio)
         if not given.size or given.ndim > 1:
             raise ValueError(
-                f"damping_ratio = {self.ratio!r}: give a number such as 0.01, a share "
-                "of critical damping, or a list of them"
+                f"damping_ratio = {shown(self.ratio)}: give a number such as 0.01, a "
+                "share of critical damping, or a list of them"
             )
         single, ratios = given.ndim == 0, np.atleast_1d(given)
         for ratio in ratios:

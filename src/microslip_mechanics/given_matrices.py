@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import scipy.sparse
 
-from microslip_mechanics.arrays import Array, Matrix
+from microslip_mechanics.arrays import Array, Matrix, masked
 from microslip_mechanics.quantity import LARGEST
 
 
@@ -19,6 +19,8 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
         raise ValueError(
             f"{what} is complex: give real values, structural damping as loss_factor"
         )
+    if masked(given):
+        raise ValueError(f"{what} has masked entries: give a number for each")
     if sparse:
         return scipy.sparse.csc_array(given, dtype=float, copy=True)
     try:

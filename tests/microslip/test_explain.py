@@ -82,6 +82,16 @@ def test_tangents_are_those_that_the_laws_can_have(
     assert tangents.whole == 18 * 8
 
 
+@pytest.mark.parametrize(("name", "told"), [("jenkins", False), ("gap", True)])
+def test_tangents_of_contacts_that_remember_are_not_counted(
+    name: str, *, told: bool
+) -> None:
+    found = counted(source=name)
+
+    assert ("tangents at a moment" in found) == told
+    assert "calls of the contact law" in found
+
+
 @pytest.mark.parametrize("stiffness", [0, 10])
 def test_rope_without_stiffness_is_no_spring(stiffness: int) -> None:
     spring = counted(f"rope.stiffness={stiffness}")["springs to ground"]

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hbm.fourier import FourierBasis
+from hbm.memory import marched
 from hbm.path import AlongFrequency
 from microslip.scene_tables import Scene
 from microslip.studies.pruned import Pruned, part
@@ -49,7 +50,7 @@ def balance(
     yield part(name, int(one.sum()), int(every.sum()), why)
     fourier = FourierBasis(harmonics, samples)
     evaluated = zip(*(_evaluated(each, fourier) for each in (path, whole)), strict=True)
-    for (name, why), (some, most) in zip(EVALUATED, evaluated, strict=True):
+    for (name, why), (some, most) in zip(EVALUATED, evaluated, strict=False):
         yield part(name.format(samples), some, most, why)
 
 
@@ -58,10 +59,15 @@ def _orders(mask: np.ndarray) -> int:
     return int(mask[0].any()) + int(mask[1::2].any(axis=1).sum())
 
 
-def _evaluated(path: AlongFrequency, fourier: FourierBasis) -> tuple[int, int, int]:
-    """Return moments in a period, calls of the law in all, and tangents at a moment."""
+def _evaluated(path: AlongFrequency, fourier: FourierBasis) -> list[int]:
+    """Return moments in a period, calls of the law in all, and tangents at a moment.
+
+    Contacts that remember have tangents by all moments before, which are no such count.
+    """
     contact = path.problem.contact(fourier)
     halved = contact.symmetry.signs.size > 0
     moments = fourier.samples // 2 if halved else fourier.samples
     points = int(contact.points.load.size)
-    return moments, moments * points, len(contact.tangents.samples)
+    counts = [moments, moments * points]
+    recalls = marched(contact.points).any()
+    return counts if recalls else [*counts, len(contact.tangents.samples)]

@@ -86,16 +86,17 @@ def _path(path: str | PathLike[str], function: str) -> Path:
     Raises
     ------
     GivenError
-        If it is none.
+        If it is none, or has a character that no path has.
     """
     from microslip.errors import GivenError
 
     try:
-        return Path(path)
+        place = Path(path)
     except TypeError:
-        raise GivenError(
-            f"{function}: path = {path!r}: give the path of a file"
-        ) from None
+        place = Path("\0")
+    if "\0" in str(place):
+        raise GivenError(f"{function}: path = {path!r}: give the path of a file")
+    return place
 
 
 def _check(result: Result, function: str) -> None:

@@ -78,6 +78,11 @@ def _with_force(path: Path, scene: Scene, name: str) -> Scene:
 
 
 def _read(source: str) -> str:
+    if not source.strip():
+        raise SceneError(
+            f"a scene of no name cannot be read: give a path, or one of "
+            f"{', '.join(BUILT_IN)}"
+        )
     try:
         return Path(source).read_text(encoding="utf-8-sig")
     except (FileNotFoundError, NotADirectoryError):
@@ -85,9 +90,15 @@ def _read(source: str) -> str:
         raise SceneError(
             f"there is no scene file {source}, and no built-in scene of that name{hint}"
         ) from None
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
-        raise SceneError(f"{source} cannot be read: {reason}") from None
+    except (OSError, ValueError) as error:
+        coded = isinstance(error, UnicodeDecodeError)
+        reason = "it is not UTF-8 text" if coded else getattr(error, "strerror", error)
+        raise SceneError(f"{_printed(source)} cannot be read: {reason}") from None
+
+
+def _printed(source: str) -> str:
+    """Return a name without characters that none can have."""
+    return source.replace("\0", "\\0")
 
 
 def _apply(document: dict[str, typing.Any], override: str) -> None:

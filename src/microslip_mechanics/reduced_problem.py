@@ -38,15 +38,16 @@ class ReducedProblem:
         whole = self.reduction.whole.dofs
         return f"<ReducedProblem: of {whole} degrees of freedom; {self.problem!r}>"
 
-    def error(self, hertz: float) -> float:
+    def error(self, hertz: float | str) -> float:
         """Return the relative error of stiffness or motion at what is kept.
 
         Raises
         ------
         ValueError
-            If it is a natural frequency of the structure.
+            If it is no frequency, or a natural one of the structure.
         """
-        return self.reduction.error(2.0 * math.pi * hertz)
+        told = "error: hertz"
+        return self.reduction.error(2.0 * math.pi * _hertz(hertz, told, zero=True))
 
 
 def reduced_problem(
@@ -88,7 +89,7 @@ def reduced_problem(
             f"reduced_problem: problem = {problem!r}: give what microslip.system or "
             "microslip.scene returns"
         )
-    limit = 2.0 * math.pi * _hertz(highest)
+    limit = 2.0 * math.pi * _hertz(highest, "reduced_problem: highest")
     kept = _kept(problem, selected(problem.structure.names, keep, sets or {}))
     made = METHODS[method](problem.structure, kept, limit)
     rows = made.rows(problem.interface.displacement)
@@ -104,12 +105,12 @@ def reduced_problem(
     )
 
 
-def _hertz(highest: float | str) -> float:
+def _hertz(given: float | str, told: str, *, zero: bool = False) -> float:
     """Return a frequency [Hz] that may be a text with a unit."""
     try:
-        return Quantity("Hz", 0.0, math.inf, positive=True).read(highest)
+        return Quantity("Hz", 0.0, math.inf, positive=not zero).read(given)
     except ValueError as error:
-        raise ValueError(f"reduced_problem: highest = {highest!r}: {error}") from None
+        raise ValueError(f"{told} = {given!r}: {error}") from None
 
 
 def _kept(problem: Problem, wanted: NDArray[np.int64]) -> NDArray[np.int64]:

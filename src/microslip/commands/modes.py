@@ -80,6 +80,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.studies.modes import ModeError, followed
+    from microslip_mechanics.contact.points import rubs
 
     data, picture = arguments.outputs(options, "modes", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
@@ -94,13 +95,19 @@ def _run(options: argparse.Namespace) -> int:
         return shown(points, total=decades, done=done, unit="decades", name="mode")
 
     frequencies = math.tau * lowest, math.tau * highest
+    problem = problem_of(scene)
+    state = (
+        "while its contacts stick"
+        if rubs(problem.interface.points)
+        else "in small motions"
+    )
     modes: list[FollowedMode] = []
     ending = "complete"
     try:
-        for mode in followed(problem_of(scene), frequencies, chosen, watch):
+        for mode in followed(problem, frequencies, chosen, watch):
             modes.append(mode)
             ending = mode.ending if ending == "complete" else ending
-            print("\n".join(_lines(mode)), flush=True)
+            print("\n".join(_lines(mode, state)), flush=True)
     except KeyboardInterrupt:
         ending = "interrupted"
         if not any(mode.points for mode in modes):
@@ -133,8 +140,8 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
     return ModeOptions(1e-3 * smallest, 1e-3 * largest, harmonics=options.harmonics)
 
 
-def _lines(mode: FollowedMode) -> list[str]:
-    """Return the table of one mode."""
+def _lines(mode: FollowedMode, state: str) -> list[str]:
+    """Return the table of one mode; ``state`` is that of its small motions."""
     from statistics import median
 
     from microslip.studies.modes import shown_points
@@ -142,7 +149,7 @@ def _lines(mode: FollowedMode) -> list[str]:
     hertz = mode.linear.frequency / math.tau
     rows = [
         f"mode at {hertz:.4f} Hz, damping ratio {100.0 * mode.linear.damping:.4f} %, "
-        "while its contacts stick",
+        f"{state}",
     ]
     if not mode.points:
         return [*rows, f"it has no first point: {mode.ending}"]

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.places import OutputError, demand_place
+from microslip.commands.places import OutputError, demand_place, is_folder
 from microslip.commands.report_parts import PARTS
 from microslip.commands.report_sections import section_of, words_of
 from microslip.page import DONE, LEFT_OUT, STOPPED, Section, page
@@ -85,6 +85,10 @@ def _folder(options: argparse.Namespace) -> Path:
         If it cannot be made.
     """
     chosen: Path = options.output or Path(f"{Path(options.scene).stem}-report")
+    if is_folder(chosen.parent) and chosen.exists() and not is_folder(chosen):
+        raise OutputError(
+            f"{chosen} is a file: the page goes into a folder, give the name of one"
+        )
     try:
         chosen.mkdir(exist_ok=True)
     except OSError as error:

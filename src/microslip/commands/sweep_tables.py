@@ -28,18 +28,22 @@ def energy_table(result: TimeHistory | Envelope) -> str:
 
 
 def estimates(result: TimeHistory | Envelope) -> list[str]:
-    """Return lines of the estimated errors, as far as the result tells them."""
+    """Return lines of the estimated errors, as far as the result tells them.
+
+    Where there is no friction, that of its energy is none.
+    """
     from microslip_mechanics.between_rows import rows_error
     from microslip_mechanics.envelope import Envelope
 
     if not result.energy_error.size:
         return []
-    friction, lines = abs(result.of("friction")[-1]), []
+    rows, lines = result.of("friction"), []
+    friction = abs(rows[-1])
     for name, values in (
         ("friction, error", result.energy_error),
         ("quadrature - work", result.work_difference),
     ):
-        for value in values[-1:]:
+        for value in values[-1:] if rows.any() else ():
             share = f"  ({value / friction:.1e} of it)" if friction else ""
             lines.append(f"  {name:20s} {value:12.2g}{share}")
     peak = float(result.peak_error[-1])

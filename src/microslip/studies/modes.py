@@ -11,6 +11,7 @@ from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.quantity import SceneError
+from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
@@ -57,9 +58,10 @@ def followed(
     rest = static_equilibrium(problem)
     found = modes_in_range(problem, rest, *frequencies)
     if not found:
+        stuck = " while its contacts stick" if rubs(problem.interface.points) else ""
         raise SceneError(
-            "no mode has a natural frequency in this range while its contacts stick: "
-            "give another --range"
+            f"no mode has a natural frequency in this range{stuck}: give another "
+            "--range"
         )
     for linear in found:
         mode = _followed(linear, nonlinear_mode(problem, rest, linear, options), watch)

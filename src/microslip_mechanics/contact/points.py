@@ -93,6 +93,11 @@ def contact_table(laws: Sequence[PointLaw]) -> ContactPoints:
     )
 
 
+def rubs(points: ContactPoints) -> bool:
+    """Return whether some point has friction."""
+    return bool((points.friction != FRICTIONLESS).any())
+
+
 def repeated_points(points: ContactPoints, times: int) -> ContactPoints:
     """Return the table with all its points so many times, one after the other."""
     return ContactPoints(*(np.tile(column, times) for column in tuple(points)))

@@ -1,0 +1,84 @@
+"""What is said of names that are none, and of scenes without friction."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+import microslip
+from microslip.commands.sweep_tables import estimates
+from microslip_mechanics.time_history import TimeHistory
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("", "^a scene of no name"), ("a\0b", r"^a\\0b cannot be read: embedded null")],
+)
+def test_a_scene_of_no_possible_name_is_refused(name: str, said: str) -> None:
+    with pytest.raises(microslip.MicroslipError, match=said):
+        microslip.scene(name)
+
+
+@pytest.mark.parametrize("function", ["save", "load"])
+def test_a_path_that_no_file_has_is_refused(
+    function: str, small_history: TimeHistory
+) -> None:
+    given = (small_history, "a\0b.nc") if function == "save" else ("a\0b.nc",)
+
+    with pytest.raises(
+        microslip.MicroslipError, match=rf"^microslip\.{function}: path = 'a\\x00b.nc'"
+    ):
+        getattr(microslip, function)(*given)
+
+
+def test_a_report_goes_into_no_file(run: Run, quick_scene: Path) -> None:
+    status, output, error = run("report", str(quick_scene), "-o", quick_scene.name)
+
+    assert (status, output) == (2, "")
+    assert error == (
+        "microslip: quick.toml is a file: the page goes into a folder, give the name "
+        "of one\n"
+    )
+
+
+@pytest.mark.parametrize(("name", "sticks"), [("gap", False), ("jenkins", True)])
+def test_modes_stick_where_there_is_friction(
+    name: str, run: Run, monkeypatch: pytest.MonkeyPatch, *, sticks: bool
+) -> None:
+    monkeypatch.setattr("microslip.store.save_figure", lambda *_: None)
+    few = ("--amplitudes", "0.001", "0.002", "--range", "1", "100")
+
+    status, output, _ = run("modes", name, *few)
+
+    assert status == 0
+    assert ("while its contacts stick" in output) == sticks
+    *_, error = run("modes", name, "--range", "1e5 Hz", "2e5 Hz")
+    assert "no mode has a natural frequency in this range" in error
+    assert ("while its contacts stick" in error) == sticks
+
+
+@pytest.mark.parametrize("rubs", [True, False])
+def test_errors_of_friction_are_told_where_there_is_some(
+    small_history: TimeHistory, *, rubs: bool
+) -> None:
+    place = list(small_history.energies).index("friction")
+    if not rubs:
+        small_history.energy[:, place] = 0.0
+
+    lines = "\n".join(estimates(small_history))
+
+    assert ("friction, error" in lines) == rubs
+    assert "estimated error of the peak amplitude" in lines
+
+
+def test_the_error_of_a_reduction_is_asked_at_a_frequency() -> None:
+    reduced = microslip.reduced_problem(microslip.scene("chain"), "100 Hz")
+
+    assert reduced.error("0.001 kHz") == reduced.error(1.0)
+    for given in (np.nan, "1 m", -1.0):
+        with pytest.raises(ValueError, match=r"^error: hertz = .*: (is|has) "):
+            reduced.error(given)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
+from hbm.across_curve import responses_across
 from hbm.equivalent import SAMPLES
 from hbm.errors import ContinuationError, hertz
 from hbm.options import CurveOptions
@@ -20,6 +23,17 @@ ORDERS = (3, 7, 15, 31, 63, 127)
 """harmonics with which a one-harmonic response is solved again"""
 DETOUR = 15
 """harmonics of the curve that leads there if that fails"""
+ELSEWHERE = 0.3
+"""distance from which a response may be that of another branch"""
+
+
+class OneHarmonicError(NamedTuple):
+    """How far a response is from that with more harmonics; NaN if none was found."""
+
+    amplitude: float
+    """largest difference of the probes' amplitudes, over the largest amplitude"""
+    frequency: float
+    """relative; zero if it was to be the same, NaN too if none of another was found"""
 
 
 def one_harmonic_response(
@@ -60,38 +74,38 @@ def one_harmonic_error(
     response: PeriodicResponse,
     limits: tuple[float, float],
     tolerance: float,
-) -> float:
-    """Return how far a response is from that with more harmonics at its frequency.
+    *,
+    free: bool = False,
+) -> OneHarmonicError:
+    """Return how far a response is from that with more harmonics.
 
     Parameters
     ----------
     problem, rest, response
         What is solved, its static equilibrium, and the one-harmonic response.
     limits
-        Range [rad/s] of the curve that leads to the response, if Newton's iteration
-        from the one-harmonic response does not.
+        Range [rad/s] of its curve.
     tolerance
         Relative change of the amplitude from which more harmonics are taken.
-
-    Returns
-    -------
-    Largest difference of the probes' amplitudes, over the largest amplitude; NaN if no
-    response with more harmonics was found.
+    free
+        Whether the frequency is free, as at a peak: the response is sought across the
+        curve then, else at its own frequency. If that leads elsewhere, the other way is
+        tried.
     """
-    try:
-        better = _solved_again(problem, rest, response, tolerance)
-    except ContinuationError:
-        start = _towards(response.frequency, limits)
-        options = CurveOptions(
-            start, response.frequency, harmonics=DETOUR, stability=False
-        )
+    across = responses_across(problem, rest, response, limits, ORDERS)
+    at_frequency = _at_frequency(problem, rest, response, limits)
+    ways = (across, at_frequency) if free else (at_frequency, across)
+    for way in ways:
         try:
-            better = _met(
-                frequency_response(problem, rest, options), response.frequency
-            )
+            better = _converged(problem, response, way, tolerance)
         except ContinuationError:
-            return float("nan")
-    return _distance(problem, response, better)
+            continue
+        apart = _distance(problem, response, better)
+        if apart <= ELSEWHERE:
+            known = not free or way is across
+            shift = abs(response.frequency / better.frequency - 1.0)
+            return OneHarmonicError(apart, shift if known else math.nan)
+    return OneHarmonicError(math.nan, math.nan)
 
 
 def amplitudes(problem: Problem, response: PeriodicResponse) -> Array:
@@ -101,15 +115,45 @@ def amplitudes(problem: Problem, response: PeriodicResponse) -> Array:
     return found
 
 
-def _solved_again(
-    problem: Problem, rest: StaticState, response: PeriodicResponse, tolerance: float
+def _at_frequency(
+    problem: Problem,
+    rest: StaticState,
+    response: PeriodicResponse,
+    limits: tuple[float, float],
+) -> Iterator[PeriodicResponse]:
+    """Yield responses with more and more harmonics at the same frequency.
+
+    Where Newton's iteration does not lead there, the end of a curve is the last one.
+
+    Raises
+    ------
+    ContinuationError
+        If that curve does not get there.
+    """
+    frequency = response.frequency
+    try:
+        for harmonics in ORDERS:
+            response = periodic_response(
+                *(problem, rest, response),
+                harmonics=harmonics,
+                samples=16 * (harmonics + 1),
+            )
+            yield response
+    except ContinuationError:
+        start = _towards(frequency, limits)
+        options = CurveOptions(start, frequency, harmonics=DETOUR, stability=False)
+        yield _met(frequency_response(problem, rest, options), frequency)
+
+
+def _converged(
+    problem: Problem,
+    response: PeriodicResponse,
+    finer: Iterable[PeriodicResponse],
+    tolerance: float,
 ) -> PeriodicResponse:
-    """Return the response with as many harmonics as the tolerance asks for."""
-    for harmonics in ORDERS:
-        before = response
-        response = periodic_response(
-            problem, rest, before, harmonics=harmonics, samples=16 * (harmonics + 1)
-        )
+    """Return the first of finer responses that hardly differs from the one before."""
+    for better in finer:
+        before, response = response, better
         if _distance(problem, before, response) <= tolerance:
             break
     return response

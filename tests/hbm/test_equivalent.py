@@ -1,6 +1,7 @@
 """Equivalent springs and dampers: closed forms, energy, limits, time integration."""
 
 import functools
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -9,7 +10,9 @@ import scipy.linalg
 from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
 from hbm.errors import ContinuationError
 from hbm.one_harmonic import amplitudes, one_harmonic_error, one_harmonic_response
+from hbm.options import CurveOptions
 from hbm.poles import damping_ratios, frequencies, poles
+from hbm.solve import frequency_response
 from honesty import falling
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
@@ -238,7 +241,8 @@ def test_the_error_is_the_distance_from_a_march(kind: str, frequency: float) -> 
     true = np.abs(last_harmonic(history))
     found = np.abs(amplitudes(problem, response) - true).max() / true.max()
     assert response.frequency == frequency
-    assert error == pytest.approx(found, rel=0.05, abs=2e-5)
+    assert error.amplitude == pytest.approx(found, rel=0.05, abs=2e-5)
+    assert error.frequency == 0.0
 
 
 def test_the_response_is_that_of_largest_amplitude() -> None:
@@ -280,16 +284,65 @@ def test_the_error_is_told_at_the_frequency_of_the_response(
     rest = static_equilibrium(problem)
     limits = (TURN * 5.8, TURN * 9.0)
     found = one_harmonic_response(problem, rest, DUFFING, TURN * 9.0)
-    expected = one_harmonic_error(problem, rest, found, limits, 1e-3)
+    expected = one_harmonic_error(problem, rest, found, limits, 1e-3).amplitude
 
     def lost(*_: object, **__: object) -> PeriodicResponse:
         raise ContinuationError("no response is found")
 
     monkeypatch.setattr("hbm.one_harmonic.periodic_response", lost)
-    error = one_harmonic_error(problem, rest, found, limits, 1e-3)
+    error = one_harmonic_error(problem, rest, found, limits, 1e-3).amplitude
 
     assert expected < 1e-3
     assert error == pytest.approx(expected, rel=1e-2, abs=1e-6)
+
+
+def test_the_error_at_a_bent_peak_is_that_of_the_peak_with_more_harmonics() -> None:
+    settings = ["drive.x=0.002", "structure.damping_ratio=0.0005"]
+    problem = problem_of(load_scene("duffing", settings))
+    rest, limits = static_equilibrium(problem), (TURN * 4.9, TURN * 6.0)
+    options = CurveOptions(*limits, error=1e-5, stability=False)
+    curve = list(frequency_response(problem, rest, options))
+    (peak,) = (each for each in curve if each.event == "peak")
+
+    found = one_harmonic_response(problem, rest, limits)
+    error = one_harmonic_error(problem, rest, found, limits, 1e-6, free=True)
+
+    size = amplitudes(problem, found) / amplitudes(problem, peak)
+    shift = abs(found.frequency / peak.frequency - 1.0)
+    assert error.frequency == pytest.approx(shift, abs=1e-6)
+    assert error.amplitude == pytest.approx(abs(float(size[0]) - 1.0), abs=1e-5)
+    assert 1e-4 < error.frequency < error.amplitude < 1e-3
+
+
+def test_the_shift_is_unknown_where_only_the_same_frequency_has_a_response(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = problem_of(load_scene("duffing", []))
+    rest, limits = static_equilibrium(problem), (TURN * 4.0, TURN * 7.0)
+    found = one_harmonic_response(problem, rest, limits)
+    monkeypatch.setattr("hbm.one_harmonic.responses_across", lambda *_: lost())
+
+    def lost() -> Iterator[PeriodicResponse]:
+        raise ContinuationError("no response is found")
+        yield
+
+    error = one_harmonic_error(problem, rest, found, limits, 1e-3, free=True)
+
+    assert 0.0 < error.amplitude < 0.01
+    assert np.isnan(error.frequency)
+
+
+def test_a_response_of_another_branch_has_no_error(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = problem_of(load_scene("duffing", []))
+    rest, limits = static_equilibrium(problem), (TURN * 4.0, TURN * 7.0)
+    found = one_harmonic_response(problem, rest, limits)
+    monkeypatch.setattr("hbm.one_harmonic.ELSEWHERE", 1e-4)
+
+    error = one_harmonic_error(problem, rest, found, limits, 1e-3)
+
+    assert np.isnan(error).all()
 
 
 def test_a_curve_that_does_not_pass_a_frequency_is_refused(

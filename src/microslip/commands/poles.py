@@ -20,11 +20,13 @@ if TYPE_CHECKING:
 COLUMNS = (
     *(KEY, "branch", "frequency_hz", "damping_ratio", "real_1_s", "imag_rad_s"),
     *("response_frequency_hz", "response_amplitude_m", "response_error"),
-    "friction_energy_j",
+    *("response_frequency_error", "friction_energy_j"),
 )
-HEADER = """\
-value      response in one harmonic                poles of the linearised scene
-      frequency [Hz]  amplitude [mm]  off by   frequency [Hz] (damping ratio [%])"""
+HEADER = (
+    f"{'value      response in one harmonic':58s}poles of the linearised scene\n"
+    "      frequency [Hz]  off by  amplitude [mm]  off by   "
+    "   frequency [Hz] (damping ratio [%])"
+)
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -113,11 +115,17 @@ def _line(question: Question, each: Linearised) -> str:
             frequencies(values), damping_ratios(values), strict=True
         )
     ]
-    off = "unknown" if math.isnan(linear.error) else f"{100.0 * linear.error:.3f} %"
+    beyond = "  (the peak lies outside the range)" if linear.outside else ""
     return (
         f"{each.value:<10} {linear.response.frequency / math.tau:9.4f} "
-        f"{1e3 * linear.amplitude:15.6f} {off:>9}   {'  '.join(shown) or 'none'}"
+        f"{_off(linear.error.frequency)} {1e3 * linear.amplitude:14.6f} "
+        f"{_off(linear.error.amplitude)}   {'  '.join(shown) or 'none'}{beyond}"
     )
+
+
+def _off(error: float) -> str:
+    """Return a relative error as it is printed."""
+    return f"{'unknown' if math.isnan(error) else f'{100.0 * error:.3f} %':>9}"
 
 
 def _keep(
@@ -175,7 +183,7 @@ def _rows(each: Linearised, poles: ComplexArray) -> list[list[object]]:
         return []
     response, error = each.linear.response, each.linear.error
     hertz = response.frequency / math.tau
-    shared = [hertz, each.linear.amplitude, error, response.friction_energy]
+    shared = [hertz, each.linear.amplitude, *error, response.friction_energy]
     columns = zip(frequencies(poles), damping_ratios(poles), poles, strict=True)
     return [
         [each.value, branch, decay, ratio, pole.real, pole.imag, *shared]

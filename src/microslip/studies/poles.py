@@ -10,7 +10,12 @@ from numpy.typing import NDArray
 
 from hbm.dense_problem import RESOLVED
 from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
-from hbm.one_harmonic import amplitudes, one_harmonic_error, one_harmonic_response
+from hbm.one_harmonic import (
+    OneHarmonicError,
+    amplitudes,
+    one_harmonic_error,
+    one_harmonic_response,
+)
 from hbm.poles import NONE, followed, poles
 from microslip.rigs import problem_of
 from microslip.scene_tables import Scene
@@ -32,8 +37,10 @@ class Linear:
     response: PeriodicResponse
     amplitude: float
     """of the response, largest of the probes [m]"""
-    error: float
-    """of its amplitudes against more harmonics, relative; NaN if not known"""
+    error: OneHarmonicError
+    """against more harmonics"""
+    outside: bool
+    """whether its amplitude is the largest of the range, and at an end of it"""
     free: ComplexArray
     """poles on the normal contacts at rest, without friction [rad/s]"""
     stuck: ComplexArray
@@ -75,19 +82,30 @@ def _answer(question: Question, scene: Scene) -> Linear:
         problem = reduced(problem, RESOLVED * limits[1]).problem
     rest = static_equilibrium(problem)
     response = one_harmonic_response(problem, rest, limits, question.frequency)
-    error = one_harmonic_error(problem, rest, response, limits, scene.curve.tolerance)
-    return _linear(problem, rest, response, error)
+    free = question.frequency is None
+    error = one_harmonic_error(
+        problem, rest, response, limits, scene.curve.tolerance, free=free
+    )
+    outside = free and response.frequency in limits
+    return _linear(problem, rest, response, error, outside=outside)
 
 
 def _linear(
-    problem: Problem, rest: StaticState, response: PeriodicResponse, error: float
+    problem: Problem,
+    rest: StaticState,
+    response: PeriodicResponse,
+    error: OneHarmonicError,
+    *,
+    outside: bool,
 ) -> Linear:
     stuck = stuck_structure(problem, rest)
+    amplitude = float(amplitudes(problem, response).max(initial=0.0))
     return Linear(
         equivalent_contact(problem, response).joined(problem),
         response,
-        float(amplitudes(problem, response).max(initial=0.0)),
+        amplitude,
         error,
+        outside and amplitude > 0.0,
         poles(free_structure(problem, rest)).values,
         np.empty(0, complex) if stuck is None else poles(stuck).values,
     )

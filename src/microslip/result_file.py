@@ -24,6 +24,9 @@ LATER = ("parameter_error",)
 """what files of earlier versions do not have"""
 CHUNK = 50_000
 """rows that are read at a time"""
+SHARED = 6
+"""rows that a stretch has of the one before: even, and what lies between two rows, of
+every second one too, is told with their neighbours"""
 
 
 def load(path: Path, most: int | None = None) -> Stored:
@@ -45,6 +48,23 @@ def load(path: Path, most: int | None = None) -> Stored:
             return Stored(_curve(file), texts["scene"], texts["command"])
     with _told(path):
         return Stored(_grown(path, head, most), texts["scene"], texts["command"])
+
+
+def stretches(path: Path) -> Iterator[Growing]:
+    """Yield all rows of what has grown, stretch by stretch.
+
+    Raises
+    ------
+    WrongFileError
+        If there is no such file, or it is not a result.
+    """
+    with _told(path), netcdf_file(path, "r", mmap=True) as file:
+        head = Head.read(file, _known(path, getattr(file, TEXTS[0]).decode()))
+    for first in range(0, max(head.rows - SHARED, 1), CHUNK):
+        count = min(CHUNK + SHARED, head.rows - first)
+        with _told(path):
+            part = _result(head, rows_of(path, head, first, count))
+        yield part
 
 
 def end_of(path: Path) -> tuple[Growing, Head]:

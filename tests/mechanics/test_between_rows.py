@@ -4,17 +4,8 @@ import numpy as np
 import pytest
 
 from microslip_mechanics import between_rows
-from microslip_mechanics.arrays import Array
-from microslip_mechanics.between_rows import DENSE, largest, rows_error
-
-
-def swings(step: float, end: float = 40.0) -> tuple[Array, Array, Array]:
-    """Return rows of two motions: amplitude 1 about 0, and 2 about 1."""
-    time = np.arange(0.013, end, step)
-    other = time + 0.3
-    moved = np.stack([np.sin(time), 1.0 + 2.0 * np.cos(other)], axis=1)
-    moving = np.stack([np.cos(time), -2.0 * np.sin(other)], axis=1)
-    return time, moved, moving
+from microslip_mechanics.between_rows import DENSE, largest
+from row_motions import bounces, swings
 
 
 def test_the_largest_values_are_found_with_fourth_and_third_order() -> None:
@@ -25,16 +16,6 @@ def test_the_largest_values_are_found_with_fourth_and_third_order() -> None:
 
     assert (errors[:, 0] <= steps[:, None] ** 4 / 384.0).all()
     assert (errors[:, 1] <= steps[:, None] ** 3 / 50.0).all()
-
-
-@pytest.mark.parametrize("step", [0.2, 0.5, 0.9])
-def test_the_error_covers_what_rows_miss(step: float) -> None:
-    time, moved, moving = swings(step, end=7.0)
-
-    far, _ = largest(time, moved, moving)
-
-    true = np.abs(far - [1.0, 3.0]).max() / 3.0
-    assert true <= rows_error(time, moved, moving) < 0.5
 
 
 def test_histories_may_be_longer_than_a_block(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -54,12 +35,10 @@ def test_sparse_rows_are_taken_as_they_are() -> None:
     np.testing.assert_array_equal(fast, np.abs(moving).max(axis=0))
 
 
-def test_rest_and_a_single_row_have_no_error() -> None:
+def test_rest_and_a_single_row_are_as_large_as_they_are() -> None:
     one = np.ones((1, 2))
-    assert rows_error(np.zeros(1), one, one) == 0.0
     np.testing.assert_array_equal(largest(np.zeros(1), one, one), 1.0)
     still = np.zeros((5, 1))
-    assert rows_error(np.arange(5.0), still, still) == 0.0
     assert not largest(np.arange(5.0), still, still).any()
 
 
@@ -69,3 +48,12 @@ def test_what_only_creeps_goes_as_far_as_its_rows() -> None:
     speed = np.tile([1.0, -1.0], (6, 1))
 
     np.testing.assert_allclose(largest(time, line, speed), [[1.0, 2.0], [1.0, 1.0]])
+
+
+@pytest.mark.parametrize("step", [0.02, 0.045, 0.11, 0.2])
+def test_no_velocity_is_made_across_impacts(step: float) -> None:
+    time, moved, moving = bounces(step)
+
+    _, fast = largest(time, moved, moving)
+
+    assert np.abs(moving).max() <= fast[0] <= 1.0 + 1e-3

@@ -74,6 +74,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.store import save_figure
+    from microslip_mechanics.extremes import extremes
 
     data, picture = arguments.outputs(options, "dwell")
     scene = load_scene(options.scene, options.overrides)
@@ -82,7 +83,8 @@ def _run(options: argparse.Namespace) -> int:
     title = f"{arguments.title(options)}, {options.frequency:g} Hz"
     with written(f"{len(distances)} periods in {data}", picture):
         print("\n".join(_lines(options, history, distances)))
-        print("\n".join([energy_table(history), *estimates(history)]))
+        errors = estimates(history, extremes(history))
+        print("\n".join([energy_table(history), *errors]))
         figure = dwell_figure(history, distances, options.tolerance, title)
         save_figure(picture, figure)
     return arguments.ended(ending)

@@ -12,7 +12,7 @@ from microslip.commands.places import demand_apart, demand_place
 from microslip.commands.sweep_tables import (
     energy_table,
     estimates,
-    extremes,
+    extreme_lines,
     parting,
 )
 from microslip.commands.written import written
@@ -163,9 +163,10 @@ def _show(
 ) -> bool:
     """Print and draw what the file holds; return whether its energies balance."""
     from microslip.figures.result import result_figure
-    from microslip.result_file import load
+    from microslip.result_file import load, stretches
     from microslip.store import save_figure
     from microslip_mechanics.contact.memory import beyond_motion
+    from microslip_mechanics.extremes import extremes, of_all
     from timedomain.closure import closes
 
     data, picture = paths
@@ -174,8 +175,9 @@ def _show(
     normals = problem.interface.displacement[::3]
     pairs = zip(problem.interface.names, normals, strict=True)
     pressed = [name for name, normal in pairs if normal.any()]
-    errors = [*estimates(result), *parting(result, options.tolerance)]
-    print("\n".join([*errors, *extremes(result, pressed)]))
+    found = of_all([extremes(each) for each in stretches(data)])
+    errors = [*estimates(result, found), *parting(result, options.tolerance)]
+    print("\n".join([*errors, *extreme_lines(result, found, pressed)]))
     if options.tolerance and beyond_motion(problem.interface.points):
         print(
             "contacts that remember or are rigid are marched with the scene's steps, "

@@ -8,10 +8,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from microslip_mechanics.envelope import Envelope
+    from microslip_mechanics.extremes import Extremes
     from microslip_mechanics.time_history import TimeHistory
 
 PARTED = 30.0
 """times its tolerance from which a march's peak is known less than steps explain"""
+TOLD, SPARSE = 0.01, 0.2
+"""share of an extreme that rows may miss, from which that is told; and from which they
+are too sparse to tell how much it is"""
 
 
 def energy_table(result: TimeHistory | Envelope) -> str:
@@ -27,14 +31,12 @@ def energy_table(result: TimeHistory | Envelope) -> str:
     return "\n".join(lines)
 
 
-def estimates(result: TimeHistory | Envelope) -> list[str]:
+def estimates(result: TimeHistory | Envelope, found: Extremes) -> list[str]:
     """Return lines of the estimated errors, as far as the result tells them.
 
-    Where there is no friction, that of its energy is none.
+    Where there is no friction, that of its energy is none. ``found`` are the result's
+    extremes, of all rows.
     """
-    from microslip_mechanics.between_rows import rows_error
-    from microslip_mechanics.envelope import Envelope
-
     if not result.energy_error.size:
         return []
     rows, lines = result.of("friction"), []
@@ -46,10 +48,7 @@ def estimates(result: TimeHistory | Envelope) -> list[str]:
         for value in values[-1:] if rows.any() else ():
             share = f"  ({value / friction:.1e} of it)" if friction else ""
             lines.append(f"  {name:20s} {value:12.2g}{share}")
-    peak = float(result.peak_error[-1])
-    if not isinstance(result, Envelope):
-        between = rows_error(result.time, result.displacement, result.velocity)
-        peak = max(peak, between)
+    peak = max(float(result.peak_error[-1]), float(found.errors[0]))
     return [*lines, f"estimated error of the peak amplitude {peak:.1e}"]
 
 
@@ -63,33 +62,35 @@ def parting(result: TimeHistory | Envelope, tolerance: float) -> list[str]:
     ]
 
 
-def extremes(result: TimeHistory | Envelope, pressed: Sequence[str]) -> list[str]:
+def extreme_lines(
+    result: TimeHistory | Envelope, found: Extremes, pressed: Sequence[str]
+) -> list[str]:
     """Return lines of the extremes of displacements, velocities and forces.
 
-    ``pressed`` are the contacts that have normal forces at all.
+    ``found`` are those of all rows; ``pressed`` are the contacts that have normal
+    forces at all.
     """
-    import numpy as np
-
-    from microslip_mechanics.between_rows import largest
-    from microslip_mechanics.envelope import Envelope
-
-    if isinstance(result, Envelope):
-        far = np.maximum(-result.lowest, result.highest).max(axis=0)
-        fast = result.fastest.max(axis=0)
-        normal = result.normal_smallest, result.normal_largest
-    else:
-        far, fast = largest(result.time, result.displacement, result.velocity)
-        normal = (result.normal_force,) * 2
     lines = ["largest displacement [mm] and velocity [m/s]"]
-    for place, name in enumerate(result.probes):
-        lines.append(f"  {name:20s} {1e3 * far[place]:12.6g} {fast[place]:12.6g}")
+    for name, far, fast in zip(result.probes, *found.largest, strict=True):
+        lines.append(f"  {name:20s} {1e3 * far:12.6g} {fast:12.6g}")
+    lines += _missed("velocity", float(found.errors[1]))
     if pressed:
         lines.append("normal force [N], least and most")
-    for place, name in enumerate(result.contacts):
-        if name not in pressed:
-            continue
-        least, most = normal[0][:, place].min(), normal[1][:, place].max()
-        lines.append(f"  {name:20s} {least:12.6g} {most:12.6g}")
+        for name, least, most in zip(result.contacts, *found.normal, strict=True):
+            if name in pressed:
+                lines.append(f"  {name:20s} {least:12.6g} {most:12.6g}")
+        lines += _missed("normal force", found.force_error)
     if result.divided:
         lines.append(f"{result.divided} steps converged only when divided")
     return lines
+
+
+def _missed(name: str, share: float) -> list[str]:
+    """Return a line where rows may miss much of a largest value."""
+    if share <= TOLD:
+        return []
+    more = " or more" if share > SPARSE else ""
+    return [
+        f"  rows may miss {100.0 * share:.0f} %{more} of the largest {name}: a smaller "
+        "march.store_every or march.time_step tells more"
+    ]

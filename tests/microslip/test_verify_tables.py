@@ -104,6 +104,22 @@ def test_what_is_known_of_stability_is_said(
     assert text in events(curve)
 
 
+@pytest.mark.parametrize(
+    ("largest", "said"),
+    [(1.0 + 2.34e-5, "1.000023"), (1.0 + 1.1e-5, "1.000011"), (3.5, "3.5000")],
+)
+def test_a_multiplier_outside_the_circle_is_not_said_to_be_one(
+    largest: float, said: str, small_curve: ResponseCurve
+) -> None:
+    curve = dataclasses.replace(
+        small_curve,
+        unstable=np.array([0.0, 0.0, 1.0, 0.0]),
+        multiplier=np.array([0.9, 0.8, largest, 0.7]),
+    )
+
+    assert events(curve).endswith(f"multiplier {said}")
+
+
 def test_events_and_errors_are_told_in_the_units_beside_them(
     small_curve: ResponseCurve,
 ) -> None:

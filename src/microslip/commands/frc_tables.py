@@ -95,7 +95,7 @@ def _stability(curve: ResponseCurve) -> str:
         return (
             f"unstable at {unstable.sum()} of {unstable.size} points, between "
             f"{hertz.min():.4f} and {hertz.max():.4f} Hz; largest Floquet multiplier "
-            f"{curve.multiplier.max():.4f}"
+            f"{_multiplier(float(curve.multiplier.max()))}"
         )
     stable = curve.unstable == 0
     if stable.all():
@@ -106,6 +106,14 @@ def _stability(curve: ResponseCurve) -> str:
             "stability is not known"
         )
     return "stability is not known: no Floquet multipliers are computed"
+
+
+def _multiplier(value: float) -> str:
+    """Return one outside the unit circle with so many digits that it is not 1."""
+    from microslip_mechanics.response import MARGIN
+
+    digits = 1 - math.floor(math.log10(max(value - 1.0, MARGIN)))
+    return f"{value:.{max(4, digits)}f}"
 
 
 def barren(curve: ResponseCurve) -> list[float]:

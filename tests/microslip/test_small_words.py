@@ -9,6 +9,7 @@ import pytest
 
 import microslip
 from microslip.commands.sweep_tables import estimates
+from microslip_mechanics.extremes import extremes
 from microslip_mechanics.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -69,7 +70,7 @@ def test_errors_of_friction_are_told_where_there_is_some(
     if not rubs:
         small_history.energy[:, place] = 0.0
 
-    lines = "\n".join(estimates(small_history))
+    lines = "\n".join(estimates(small_history, extremes(small_history)))
 
     assert ("friction, error" in lines) == rubs
     assert "estimated error of the peak amplitude" in lines

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from microslip.cli import main
-from microslip.studies.gaps import gaps, lines, told, uncovered
+from microslip.studies.gaps import broken, gaps, lines, told, uncovered
 from microslip_mechanics.response_curve import ResponseCurve
 
 
@@ -66,6 +66,43 @@ def test_a_gap_that_is_not_narrow_stands_in_the_ending(
     found = told(replace(curve, along="mass", ending=ending))
 
     assert found.ending.startswith(said)
+
+
+@pytest.mark.parametrize(
+    ("places", "sizes", "restarts", "expected"),
+    [
+        ([1.0, 2.0, 1.5, 2.0, 3.0], [1.0, 4.0, 3.0, 0.1, 0.1], [3], [1.5]),
+        ([1.0, 2.0, 1.5, 1.6, 3.0], [1.0, 4.0, 3.0, 3.1, 0.1], [3], []),
+        ([1.0, 2.0, 1.5, 3.0, 1.8, 1.0], [1.0, 4.0, 3.0, 0.1, 3.9, 2.0], [3], []),
+        ([1.0, 2.0, 1.0, 3.0, 2.0], [1.0, 4.0, 0.5, 0.1, 0.1], [3], []),
+        ([1.0, 1.5, 2.0, 2.0, 3.0], [1.0, 2.0, 4.0, 0.1, 0.1], [3], []),
+        ([3.0, 2.0, 2.5, 2.0, 1.0], [1.0, 4.0, 3.0, 0.1, 0.1], [3], [2.5]),
+    ],
+    ids=[
+        "behind a fold",
+        "goes on beside",
+        "comes from the other end",
+        "back to where it began",
+        "ahead",
+        "downwards",
+    ],
+)
+def test_a_piece_that_breaks_off_on_its_way_back_is_told(
+    small_curve: ResponseCurve,
+    places: list[float],
+    sizes: list[float],
+    restarts: list[int],
+    expected: list[float],
+) -> None:
+    curve = _pieces(small_curve, places, dict.fromkeys(restarts, "restart"))
+    size = np.outer(sizes, np.ones(curve.amplitude.shape[1]))
+    curve = replace(curve, amplitude=size, along="mass")
+
+    assert broken(curve) == expected
+    for place in expected:
+        said = f"breaks off on its way back, at {place} of mass, and what lies behind"
+        assert said in told(curve).ending
+        assert said in "\n".join(lines(curve))
 
 
 def test_gaps_along_frequency_are_told_in_hertz(small_curve: ResponseCurve) -> None:

@@ -16,7 +16,7 @@ from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.quantity import SceneError
 from microslip.studies.detached import Searched, search
-from microslip.studies.gaps import MISSING, told
+from microslip.studies.gaps import BROKEN, MISSING, told
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -72,7 +72,7 @@ def trace_curve(
     options = replace(curve_options(curve), pruned=pruned, stability=stability)
     traced = traced_of(problem, rest, _all(problem, rest, options, wanted), watch)
     ending = traced.curve.ending
-    ended = ending == "complete" or ending.startswith((LOST, MISSING))
+    ended = ending == "complete" or ending.startswith((LOST, MISSING, BROKEN))
     if not wanted.detached or not ended:
         return traced
     known = traced.responses

@@ -14,26 +14,47 @@ NARROW = 0.01
 """share of its range that a whole curve may leave out"""
 MISSING = "no curve is found between"
 """begins the ending of a curve that comes to its end with a gap"""
+BROKEN = "the curve breaks off on its way back, at"
+"""begins the ending of one that comes to its end without what a fold has begun"""
+ALIKE = 0.05
+"""relative difference of the amplitudes of points that may be beside each other"""
 OTHERS = ("branch", "detached")
 """marks of the first point of what does not belong to the curve itself"""
 
 
 def told(curve: ResponseCurve) -> ResponseCurve:
     """Return a curve whose ending says where it is missing, if that is not narrow."""
-    if curve.ending != "complete" or uncovered(curve) <= NARROW:
+    wide = uncovered(curve) > NARROW
+    missing = [*(_gap_lines(curve) if wide else []), *_broken_lines(curve)]
+    if curve.ending != "complete" or not missing:
         return curve
-    missing = " and ".join(lines(curve))
-    return replace(curve, ending=f"{missing}: {REMEDY}")
+    return replace(curve, ending=f"{' and '.join(missing)}: {REMEDY}")
 
 
 def lines(curve: ResponseCurve) -> list[str]:
-    """Return what is said of each gap."""
-    unit = 1.0 if curve.along else math.tau
-    aside = f" of {curve.along}" if curve.along else " Hz"
+    """Return what is said of each gap, and of each end that is none."""
+    return [*_gap_lines(curve), *_broken_lines(curve)]
+
+
+def _gap_lines(curve: ResponseCurve) -> list[str]:
+    unit, aside = _unit(curve)
     return [
         f"{MISSING} {low / unit:.8g} and {high / unit:.8g}{aside}"
         for low, high in gaps(curve)
     ]
+
+
+def _broken_lines(curve: ResponseCurve) -> list[str]:
+    unit, aside = _unit(curve)
+    return [
+        f"{BROKEN} {place / unit:.8g}{aside}, and what lies behind is missing"
+        for place in broken(curve)
+    ]
+
+
+def _unit(curve: ResponseCurve) -> tuple[float, str]:
+    """Return the unit of what the curve is followed along, and its name."""
+    return (1.0, f" of {curve.along}") if curve.along else (math.tau, " Hz")
 
 
 def uncovered(curve: ResponseCurve) -> float:
@@ -61,6 +82,34 @@ def gaps(curve: ResponseCurve) -> list[tuple[float, float]]:
             found.append((reached, low))
         reached = high if math.isinf(reached) else max(reached, high)
     return found
+
+
+def broken(curve: ResponseCurve) -> list[float]:
+    """Return where pieces break off on their way back, along what is followed.
+
+    That is behind a fold, within the range, and where no later piece goes on with about
+    that amplitude: what a fold has begun does not lead there.
+    """
+    own, size = _own(curve), curve.amplitude.max(axis=1, initial=0.0)
+    begins = [n for n, name in enumerate(curve.event[: own.size]) if name == "restart"]
+    found: list[float] = []
+    for first, after in zip([0, *begins], begins, strict=False):
+        last = after - 1
+        steps = np.diff(own[first:after])
+        back = steps.size > 1 and steps[0] * steps[-1] < 0.0
+        inside = own.min() < own[last] < own.max()
+        if back and inside and not _goes_on(own, size[: own.size], last):
+            found.append(float(own[last]))
+    return found
+
+
+def _goes_on(own: np.ndarray, size: np.ndarray, last: int) -> bool:
+    """Return whether a later piece begins where one ends, or passes there."""
+    later, sizes = own[last + 1 :], size[last + 1 :]
+    passing = (later[:-1] - own[last]) * (later[1:] - own[last]) <= 0.0
+    near = np.append(sizes[:1], 0.5 * (sizes[:-1] + sizes[1:])[passing])
+    alike = np.abs(near - size[last]) <= ALIKE * np.maximum(near, size[last])
+    return bool(alike.any())
 
 
 def _own(curve: ResponseCurve) -> np.ndarray:

@@ -108,7 +108,6 @@ def _waves(phase: Array) -> Array:
     return waves
 
 
-@kernel
 def touches(
     points: ContactPoints, displacement: Array, velocity: Array, seen: int
 ) -> Touches:
@@ -117,29 +116,47 @@ def touches(
     ``displacement`` and ``velocity`` are those of the points at the samples, shape
     ``(3 points, samples)``.
     """
+    point, place = _cells(points, displacement, seen)
+    shared = np.zeros((point.size, 2, 2, 2, 3, 3))
+    _share(points, displacement, velocity, point, place, shared)
+    return Touches(point, place, shared)
+
+
+@kernel
+def _cells(
+    points: ContactPoints, displacement: Array, seen: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return points and samples of these cells."""
+    room = points.load.size * seen
+    found = np.empty((2, room), dtype=np.int64)
     count = int(0.0)  # kernels are compiled anew for a literal
     for point in range(points.load.size):
         for place in range(seen):
-            count += int(_touches(points, point, displacement, place))
-    found = Touches(
-        np.zeros(count, dtype=np.int64),
-        np.zeros(count, dtype=np.int64),
-        np.zeros((count, 2, 2, 2, 3, 3)),
-    )
+            if _touches(points, point, displacement, place):
+                found[0, count], found[1, count] = point, place
+                count += 1
+    return found[0, :count].copy(), found[1, :count].copy()
+
+
+@kernel
+def _share(
+    points: ContactPoints,
+    displacement: Array,
+    velocity: Array,
+    point: NDArray[np.int64],
+    place: NDArray[np.int64],
+    shared: Array,
+) -> None:
+    """Write what :class:`Touches` has of the cells."""
+    events = np.zeros(EVENTS + 2)
     work = Work(
         np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
     )
-    cell, events = int(0.0), np.zeros(EVENTS + 2)
-    for point in range(points.load.size):
-        for place in range(seen):
-            if _touches(points, point, displacement, place):
-                found.point[cell], found.place[cell] = point, place
-                _fill(
-                    points, point, displacement, velocity, place, work, events,
-                    found.shared[cell],
-                )  # fmt: skip
-                cell += 1
-    return found
+    for cell in range(point.size):
+        _fill(
+            points, point[cell], displacement, velocity, place[cell], work, events,
+            shared[cell],
+        )  # fmt: skip
 
 
 @inner_kernel

@@ -208,6 +208,9 @@ def small_envelope() -> Envelope:
         divided=2,
         ending="interrupted",
         checkpoint=Checkpoint(draw.normal(size=3), draw.normal(size=3), np.ones(6)),
+        energy_error=draw.uniform(0.0, 1e-5, cycles),
+        peak_error=draw.uniform(0.0, 1e-3, cycles),
+        work_difference=draw.uniform(-1e-5, 1e-5, cycles),
     )
 
 

@@ -105,7 +105,7 @@ def test_dwell_tells_the_errors_of_its_steps(scene: str, run: Run) -> None:
 
     words = output.split("estimated error of the peak amplitude ")[1].split()
     assert 1e-9 < float(words[0]) < 0.1
-    assert "friction, error" in output
+    assert ("friction, error" in output) == (scene == "jenkins")  # which rubs
 
 
 def test_dwell_that_is_not_steady_in_time_says_so(

@@ -21,11 +21,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import RIGID
+from microslip_mechanics.contact.points import ONE_SIDED, RIGID
 from timedomain.carried import carried
 from timedomain.period_map import BLOCK, Period, PeriodMap
 from timedomain.start import Start
 
+PARTS = 32
+"""of a step, in which tangents are looked at"""
 NUDGE = 1e-6
 """of the vibration, for derivatives by differences"""
 
@@ -45,6 +47,18 @@ def sensitivity_of(period_map: PeriodMap, period: Period) -> Sensitivity:
         whole = _without_memory(period_map, period)
         return Sensitivity(whole, np.zeros((0, len(whole))))
     return _with_memory(period_map, period)
+
+
+def small_motions(period_map: PeriodMap, period: Period) -> Array | None:
+    """Return what becomes of a small motion in a period, (states, states).
+
+    The march's own derivative knows the time that a stop is touched to whole steps
+    only. Here tangents are means over a step, along a motion that is linear from sample
+    to sample. None where no point touches or parts, or contacts remember.
+    """
+    if period_map.sliders.count or not _touches(period_map, period):
+        return None
+    return _carried(period_map, _mean_tangents(period_map, period))
 
 
 def gap_slope(period_map: PeriodMap, period: Period, sensitivity: Sensitivity) -> Array:
@@ -96,11 +110,16 @@ def _without_memory(period_map: PeriodMap, period: Period) -> Array:
     """
     if (period_map.problem.interface.points.friction == RIGID).any():
         return _differences(period_map, period)
-    free, push = period_map.step(-period_map.structure.selection.T)
-    seen = period_map.seen
     tangents = period_map.tangents(
         *period_map.points(period.displacement, period.velocity)
     )
+    return _carried(period_map, tangents)
+
+
+def _carried(period_map: PeriodMap, tangents: Array) -> Array:
+    """Return the derivative over a period from the tangents at the samples."""
+    free, push = period_map.step(-period_map.structure.selection.T)
+    seen = period_map.seen
     answers = np.linalg.solve(
         np.eye(push.shape[1]) - tangents @ (seen @ push), tangents
     )
@@ -109,6 +128,33 @@ def _without_memory(period_map: PeriodMap, period: Period) -> Array:
     before = whole - push @ tangents[0] @ seen
     made: Array = (whole + push @ answers[-1] @ seen) @ product @ before
     return made
+
+
+def _touches(period_map: PeriodMap, period: Period) -> bool:
+    """Return whether a point touches or lifts off in a period."""
+    points = period_map.problem.interface.points
+    moved, _ = period_map.points(period.displacement, period.velocity)
+    closed = moved[:, :, 0] > points.gap
+    passes = (closed != closed[0]).any(axis=0)
+    return bool((passes & (points.normal == ONE_SIDED)).any())
+
+
+def _mean_tangents(period_map: PeriodMap, period: Period) -> Array:
+    """Return the mean of the tangents over the half steps around each sample."""
+    halves: list[Array] = []
+    for shares in np.split((np.arange(PARTS) + 0.5) / PARTS, 2):
+        at = [
+            period_map.points(
+                (1.0 - share) * period.displacement[:-1]
+                + share * period.displacement[1:],
+                (1.0 - share) * period.velocity[:-1] + share * period.velocity[1:],
+            )
+            for share in shares
+        ]
+        found = [period_map.tangents(*each) for each in at]
+        halves.append(np.sum(found, axis=0) / PARTS)
+    mean = halves[0] + np.roll(halves[1], 1, axis=0)
+    return np.concatenate([mean, mean[:1]])
 
 
 def _differences(period_map: PeriodMap, period: Period) -> Array:

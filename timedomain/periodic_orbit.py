@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array, ComplexArray
 from timedomain.closed_march import ClosedMarch
 from timedomain.floquet import extrapolated_multipliers
-from timedomain.period_sensitivity import loose_monodromy
+from timedomain.period_sensitivity import loose_monodromy, small_motions
 from timedomain.start import Start
 
 SHARE = 8
@@ -83,7 +83,7 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
     moved = (after - before) / 3.0
     stuck = coarse.period.slides.stuck | fine.period.slides.stuck
     multipliers = extrapolated_multipliers(
-        *(loose_monodromy(each.map, each.monodromy, stuck) for each in (coarse, fine))
+        *(_small_motions(each, stuck) for each in (coarse, fine))
     )
     more = (fine.period.friction - coarse.period.friction) / 3.0
     return PeriodicOrbit(
@@ -107,6 +107,14 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
 def first_harmonic(marched: ClosedMarch) -> Array:
     """Return a₁ and b₁ of the displacement [m or rad], shape (2, dofs)."""
     return _coefficients(marched, 1)[1:]
+
+
+def _small_motions(marched: ClosedMarch, stuck: NDArray[np.bool_]) -> Array:
+    """Return what becomes of a small motion in a period, (states, states)."""
+    found = small_motions(marched.map, marched.period)
+    if found is None:
+        return loose_monodromy(marched.map, marched.monodromy, stuck)
+    return found
 
 
 def _points(marched: ClosedMarch, stuck: NDArray[np.bool_]) -> NDArray[np.bool_]:

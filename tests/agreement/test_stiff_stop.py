@@ -14,10 +14,18 @@ from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from timedomain.shooting import ShootingOptions, periodic_orbit
+from timedomain.start import Start
 
 MASS, STIFFNESS, GAP, DRIVE = 1.0, 1e3, 5e-4, 0.05
 DAMPING = 2.0 * 0.03 * np.sqrt(MASS * STIFFNESS)
 """of the scene "gap", but for the drive, in SI units"""
+
+UNSTABLE = {
+    6e4: [(3.13, (39.6, 0.0738, 0.83)), (3.55, (37.3, 0.0663, 0.59))],
+    2e5: [(3.08, (40.8, 0.0436, 0.81)), (3.55, (38.8, 0.0406, 0.61))],
+}
+"""phases of first touch of unstable motions, and about what they are then"""
 
 
 @dataclass(frozen=True)
@@ -65,6 +73,17 @@ class Struck:
         on, off = self.period(omega, touching)
         values = np.linalg.eigvals(off[:2, :2] @ on[:2, :2])
         return float(np.abs(values).max())
+
+    def start(self, unknown: Array, phase: float) -> Start:
+        """Return the state of a motion where the drive's sine goes up through zero."""
+        omega, share, speed = unknown
+        begin = np.array([GAP, speed * GAP * omega, np.cos(phase), np.sin(phase), 1.0])
+        touching = share * 2.0 * np.pi / omega
+        left = (2.0 * np.pi - phase) / omega
+        state = self.carried(omega, min(left, touching), touching=True) @ begin
+        if left > touching:
+            state = self.carried(omega, left - touching, touching=False) @ state
+        return Start(state[:1], state[1:2])
 
     def near(self, response: PeriodicResponse) -> tuple[float, Array]:
         """Return the phase of first touch, and the unknowns, of about a response."""
@@ -127,3 +146,26 @@ def test_the_curve_of_a_mass_that_strikes_a_stiff_stop_is_whole(stop: float) -> 
             largest = float(np.abs(each.multipliers).max())
             assert largest == pytest.approx(exactly, rel=0.1)
             assert each.unstable == (exactly > 1.0) or abs(exactly - 1.0) < 0.02
+
+
+@pytest.mark.parametrize(("stop", "steps"), [(6e4, 1024), (2e5, 2048)])
+def test_shooting_knows_the_multipliers_of_a_mass_that_strikes(
+    stop: float, steps: int
+) -> None:
+    scene = load_scene("gap", [f"drive.x={DRIVE}", f"element.stop.stiffness={stop}"])
+    problem = problem_of(scene)
+    struck, options = Struck(stop), ShootingOptions(steps=steps, most=2 * steps)
+
+    for phase, guess in UNSTABLE[stop]:
+        exact = root(struck.missed, guess, args=(phase,), tol=1e-13).x
+        assert np.abs(struck.missed(exact, phase)).max() < 1e-10
+        omega, share, _ = exact
+        expected = struck.multiplier(omega, share * 2.0 * np.pi / omega)
+
+        orbit = periodic_orbit(
+            problem, omega, start=struck.start(exact, phase), options=options
+        )
+
+        assert expected > 1.0
+        # tangents at whole steps made -20 % to +11 % of it
+        assert np.abs(orbit.multipliers).max() == pytest.approx(expected, rel=0.02)

@@ -16,7 +16,8 @@ from hbm.sampled_tangents import SampledTangents
 from hbm.sampling import sample
 from hbm.symmetry import Symmetry, holds, symmetry
 from hbm.tangent_entries import kinds, tangent_entries
-from hbm.touches import Factors, Touches, touch_factors, touches
+from hbm.touch_factors import Factors, touch_factors
+from hbm.touches import Touches, touches
 from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ONE_SIDED, RIGID, ContactPoints

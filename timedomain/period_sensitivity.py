@@ -54,9 +54,10 @@ def small_motions(period_map: PeriodMap, period: Period) -> Array | None:
 
     The march's own derivative knows the time that a stop is touched to whole steps
     only. Here tangents are means over a step, along a motion that is linear from sample
-    to sample. None where no point touches or parts, or contacts remember.
+    to sample. None where no point touches or parts, or contacts remember or are rigid.
     """
-    if period_map.sliders.count or not _touches(period_map, period):
+    rigid = (period_map.problem.interface.points.friction == RIGID).any()
+    if rigid or period_map.sliders.count or not _touches(period_map, period):
         return None
     return _carried(period_map, _mean_tangents(period_map, period))
 

@@ -121,7 +121,15 @@ class Struck:
         return float(fitted(turns[0]))
 
 
-@pytest.mark.parametrize("stop", [2e4, 6e4, 1e5, 2e5])
+@pytest.mark.parametrize(
+    "stop",
+    [
+        pytest.param(2e4, marks=pytest.mark.long),
+        6e4,
+        pytest.param(1e5, marks=pytest.mark.long),
+        2e5,
+    ],
+)
 def test_the_curve_of_a_mass_that_strikes_a_stiff_stop_is_whole(stop: float) -> None:
     scene = load_scene("gap", [f"drive.x={DRIVE}", f"element.stop.stiffness={stop}"])
     problem = problem_of(scene)

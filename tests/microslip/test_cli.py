@@ -174,24 +174,6 @@ def test_sweep_is_written_drawn_and_told(
 
 
 @pytest.mark.usefixtures("no_picture")
-def test_a_sweep_tells_what_its_rows_miss_however_many_a_picture_shows(
-    run: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    keys = ("drive.x=0.5", "sweep.kind=linear", "sweep.start=0", "sweep.end=1")
-    stiff = (*keys, "sweep.duration=1", "element.stop.stiffness=1e6")
-    words = ("sweep", "gap", *(f"--set={each}" for each in stiff))
-
-    _, whole, _ = run(*words)
-    monkeypatch.setattr("microslip.commands.arguments.MOST_ROWS", 100)
-    monkeypatch.setattr("microslip.result_file.CHUNK", 64)
-    _, thinned, _ = run(*words)
-
-    # closing errors between the rows of a picture are not looked at
-    assert thinned[thinned.index("estimated") :] == whole[whole.index("estimated") :]
-    assert re.search(r"rows may miss \d\d %.* of the largest normal force", whole)
-
-
-@pytest.mark.usefixtures("no_picture")
 def test_what_has_no_normal_force_is_not_told_one(run: Run) -> None:
     short = [f"--set=sweep.{key}=0.01" for key in ("end", "duration")]
 
@@ -355,29 +337,6 @@ def test_plot_that_fails_says_why(
     assert (status, output) == (2, "")
     assert words in error
     assert len(error.splitlines()) == 1
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("plot", "it.png"),
-        ("plot", "it.nc", "-o", "it.png"),
-        ("sweep", "duffing", "--resume", "it.png"),
-    ],
-)
-def test_a_picture_is_not_written_over_its_result(
-    words: tuple[str, ...], run: Run, small_history: TimeHistory, tmp_path: Path
-) -> None:
-    save(tmp_path / "it.nc", Stored(small_history, "", ""))
-    (tmp_path / "it.png").hardlink_to(tmp_path / "it.nc")
-    before = (tmp_path / "it.nc").read_bytes()
-
-    status, output, error = run(*words)
-
-    assert (status, output) == (2, "")
-    assert error.startswith("microslip: it.png holds the result")
-    assert len(error.splitlines()) == 1
-    assert (tmp_path / "it.nc").read_bytes() == before
 
 
 def test_module_runs_as_the_command_does() -> None:

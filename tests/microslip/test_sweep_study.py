@@ -1,7 +1,9 @@
 """The study of a sweep: the scene's load history, slower ones, parts and wholes."""
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate
 
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
 MARCH = "microslip.studies.sweep.integrate"
 
 
@@ -152,3 +155,21 @@ def test_sparser_rows_tell_as_large_extremes_within_their_error(
     assert abs(sparse[0] / dense[0] - 1.0) <= error < 0.05
     # the rows themselves end 5 % before it
     np.testing.assert_allclose(sparse, dense, rtol=1e-3)
+
+
+@pytest.mark.usefixtures("no_picture")
+def test_a_sweep_tells_what_its_rows_miss_however_many_a_picture_shows(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    keys = ("drive.x=0.5", "sweep.kind=linear", "sweep.start=0", "sweep.end=1")
+    stiff = (*keys, "sweep.duration=1", "element.stop.stiffness=1e6")
+    words = ("sweep", "gap", *(f"--set={each}" for each in stiff))
+
+    _, whole, _ = run(*words)
+    monkeypatch.setattr("microslip.commands.arguments.MOST_ROWS", 100)
+    monkeypatch.setattr("microslip.result_file.CHUNK", 64)
+    _, thinned, _ = run(*words)
+
+    # closing errors between the rows of a picture are not looked at
+    assert thinned[thinned.index("estimated") :] == whole[whole.index("estimated") :]
+    assert re.search(r"rows may miss \d\d %.* of the largest normal force", whole)

@@ -96,7 +96,7 @@ def test_a_linear_decay_has_the_error_of_its_closed_form_and_order() -> None:
         assert told.peak_error[-1] == pytest.approx(CAUTION * 3.0 * missed, rel=0.05)
 
 
-def bouncing(hertz: float) -> tuple[Problem, Dwell]:
+def bouncing(omega: float) -> tuple[Problem, Dwell]:
     """Return a mass on a soft spring that bounces on a stop, from where it touches."""
     stop = Element(UnilateralSpring(stiffness=1e4), between=("x1", "ground"))
     problem = system(
@@ -106,14 +106,14 @@ def bouncing(hertz: float) -> tuple[Problem, Dwell]:
         elements=[stop],
         drive={"x1": 1.0},
     )
-    return problem, Dwell(hertz, 60.0)
+    return problem, Dwell(omega, 60.0)
 
 
-@pytest.mark.parametrize("hertz", [2.8, 3.0])
+@pytest.mark.parametrize("omega", [2.8, 3.0])
 def test_where_motions_part_a_tolerance_tells_more_than_its_steps_do(
-    hertz: float,
+    omega: float,
 ) -> None:
-    problem, dwell = bouncing(hertz)
+    problem, dwell = bouncing(omega)
     known = marched(problem, dwell, MarchOptions(0.1, 1, 1e-6, estimate=True))
     assert known.peak_error[-1] > 1e-2  # nobody knows it better, with any steps
 

@@ -1,4 +1,4 @@
-"""What is written and printed when the drawing of a picture is interrupted."""
+"""Pictures that take nothing away: interrupted ones, and those named like results."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -7,7 +7,8 @@ from typing import TypeAlias
 import pytest
 from matplotlib.figure import Figure
 
-from microslip.store import save_figure
+from microslip.store import Stored, save, save_figure
+from microslip_mechanics.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 SAID = "microslip: interrupted; no file is written but those named above\n"
@@ -74,3 +75,26 @@ def test_an_interrupted_picture_leaves_no_half_of_it(
         save_figure(tmp_path / "it.png", Figure(figsize=(1.0, 1.0)))
 
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("plot", "it.png"),
+        ("plot", "it.nc", "-o", "it.png"),
+        ("sweep", "duffing", "--resume", "it.png"),
+    ],
+)
+def test_a_picture_is_not_written_over_its_result(
+    words: tuple[str, ...], run: Run, small_history: TimeHistory, tmp_path: Path
+) -> None:
+    save(tmp_path / "it.nc", Stored(small_history, "", ""))
+    (tmp_path / "it.png").hardlink_to(tmp_path / "it.nc")
+    before = (tmp_path / "it.nc").read_bytes()
+
+    status, output, error = run(*words)
+
+    assert (status, output) == (2, "")
+    assert error.startswith("microslip: it.png holds the result")
+    assert len(error.splitlines()) == 1
+    assert (tmp_path / "it.nc").read_bytes() == before

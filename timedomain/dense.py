@@ -5,38 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
-
-
-@kernel
-def solve_in_place(matrix: Array, right: Array) -> bool:
-    """Solve by Gaussian elimination with row pivots; return False if singular.
-
-    ``right``, shape ``(n,)``, becomes the solution; ``matrix`` is overwritten.
-    """
-    size = right.size
-    for k in range(size):
-        pivot = k + np.argmax(np.abs(matrix[k:, k]))
-        if not abs(matrix[pivot, k]) > 0.0:
-            return False
-        for j in range(k, size):
-            matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
-        right[k], right[pivot] = right[pivot], right[k]
-        for i in range(k + 1, size):
-            factor = matrix[i, k] / matrix[k, k]
-            for j in range(k + 1, size):
-                matrix[i, j] -= factor * matrix[k, j]
-            right[i] -= factor * right[k]
-    for k in range(size - 1, -1, -1):
-        for j in range(k + 1, size):
-            right[k] -= matrix[k, j] * right[j]
-        right[k] /= matrix[k, k]
-    return True
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 
 
 @bare_kernel
 def eliminate(matrix: Array, right: Array) -> bool:
-    """Solve in place like :func:`solve_in_place`, without memory of its own."""
+    """Solve by Gaussian elimination with row pivots; return False if singular.
+
+    ``right``, shape ``(n,)``, becomes the solution; ``matrix`` is overwritten.
+    """
     size = right.size
     for k in range(size):
         if not _pivoted(matrix, right, k):
@@ -85,7 +62,14 @@ def copy_rows(source: Array, target: Array) -> None:
             target[i, j] = source[i, j]
 
 
-@kernel
+@bare_kernel
+def combine(first: Array, factor: float, second: Array, target: Array) -> None:
+    """Write a vector plus a multiple of another."""
+    for i in range(target.size):
+        target[i] = first[i] + factor * second[i]
+
+
+@bare_kernel
 def dot(left: Array, right: Array) -> float:
     """Return the inner product of two vectors."""
     total = 0.0
@@ -94,7 +78,7 @@ def dot(left: Array, right: Array) -> float:
     return total
 
 
-@kernel
+@bare_kernel
 def norm(vector: Array) -> float:
     """Return the Euclidean length of a vector."""
     return float(np.sqrt(dot(vector, vector)))

@@ -6,11 +6,11 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ELASTIC, FRICTIONLESS, ContactPoints
-from microslip_mechanics.jit import kernel
-from timedomain.dense import norm, solve_in_place
+from microslip_mechanics.jit import bare_kernel, kernel
+from timedomain.dense import copy, eliminate, norm
 from timedomain.operators import Operators
 from timedomain.projection import projected
-from timedomain.reaction import reaction_of
+from timedomain.reaction import react
 from timedomain.record import Meters, accumulate, store
 from timedomain.state import State
 
@@ -93,7 +93,7 @@ def _advance(
     )
     if taken < 0 and _rub(points):
         start = np.stack((displacement, velocity, relative))
-        state.forces[:] = before
+        copy(before.ravel(), state.forces.ravel())
         reaction, taken = projected(
             operators.compliance, operators.basis, points, half, start, state.forces,
             state.gaps, state.slips, tolerance,
@@ -101,8 +101,8 @@ def _advance(
     if taken < 0:
         return taken
     free -= np.dot(operators.contact, reaction)
-    state.reaction[:] = reaction
-    state.past[:] = state.fresh
+    copy(reaction, state.reaction)
+    copy(state.fresh.ravel(), state.past.ravel())
     for i in range(dofs):
         state.acceleration[i] = free[i]
         state.displacement[i] = predicted[i] + half**2 * free[i]
@@ -110,11 +110,15 @@ def _advance(
     return taken
 
 
-@kernel
+@bare_kernel
 def _rub(points: ContactPoints) -> bool:
     """Return whether points rub, and none remembers or is rigid."""
-    kinds = points.friction
-    return bool((kinds > FRICTIONLESS).any() and not (kinds >= ELASTIC).any())
+    rub = False
+    for kind in points.friction:
+        if kind >= ELASTIC:
+            return False
+        rub = rub or kind > FRICTIONLESS
+    return rub
 
 
 @kernel
@@ -135,7 +139,7 @@ def _newton(
     """
     half = 0.5 * operators.step
     compliance = operators.compliance
-    tangent = np.empty_like(compliance)
+    tangent, reaction = np.empty_like(compliance), np.empty_like(free)
     guess = free - np.dot(compliance, state.reaction)
     change = np.zeros_like(guess)
     scale, size = norm(free) + 1e-300, np.inf
@@ -143,12 +147,13 @@ def _newton(
         shrink, reached = 1.0, np.inf
         for _ in range(HALVINGS):
             trial = guess - shrink * change
-            reaction = reaction_of(
+            react(
                 operators,
                 points,
                 state,
                 displacement + half**2 * trial,
                 velocity + half * trial,
+                reaction,
                 tangent,
                 tangents,
             )
@@ -166,6 +171,6 @@ def _newton(
         for i in range(guess.size):
             matrix[i, i] += 1.0
         change = residual.copy()
-        if not solve_in_place(matrix, change):
+        if not eliminate(matrix, change):
             return reaction, -1
     return reaction, -1

@@ -16,7 +16,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
-from timedomain.dense import solve_in_place
+from timedomain.dense import copy, dot, eliminate, norm
 from timedomain.point_law import linearise
 
 NEWTON_LIMIT = 40
@@ -83,24 +83,24 @@ def projected(
     )  # fmt: skip
     reaction = np.dot(forces.ravel(), basis)
     guess = start[2] - np.dot(compliance, reaction)
-    scale = _norm(start[2]) + 1e-300
+    scale = norm(start[2]) + 1e-300
     for iteration in range(1, NEWTON_LIMIT + 1):
         _see(basis, half, start, guess, gaps, slips)
         tangent = _linearised(basis, points, half, iteration, gaps, slips, lines)
         reaction = np.dot(lines.values.ravel(), basis)
         change = guess - start[2] + np.dot(compliance, reaction)
-        if _norm(change) <= tolerance * (scale + _norm(guess)):
-            forces[:] = lines.values
+        if norm(change) <= tolerance * (scale + norm(guess)):
+            copy(lines.values.ravel(), forces.ravel())
             return reaction, iteration
         matrix = np.dot(compliance, tangent)
         for i in range(rank):
             matrix[i, i] += 1.0
-        if not solve_in_place(matrix, change):
+        if not eliminate(matrix, change):
             return reaction, -1
         guess = guess - change
         _follow(basis, half, change, lines)
-        moving = _norm(start[1]) + half * _norm(guess)
-        if half * _norm(change) <= ROUNDING * moving:
+        moving = norm(start[1]) + half * norm(guess)
+        if half * norm(change) <= ROUNDING * moving:
             _see(basis, half, start, guess, gaps, slips)
             return np.dot(forces.ravel(), basis), iteration
         if not math.isfinite(moving):
@@ -127,8 +127,12 @@ def _see(
     basis: Array, half: float, start: Array, guess: Array, gaps: Array, slips: Array
 ) -> None:
     """Write the points' motion under a relative acceleration."""
-    gaps[:] = np.dot(basis, start[0] + half**2 * guess).reshape(gaps.shape)
-    slips[:] = np.dot(basis, start[1] + half * guess).reshape(slips.shape)
+    displacement, velocity = start[0] + half**2 * guess, start[1] + half * guess
+    for point in range(gaps.shape[0]):
+        for axis in range(3):
+            row = basis[3 * point + axis]
+            gaps[point, axis] = dot(row, displacement)
+            slips[point, axis] = dot(row, velocity)
 
 
 @kernel
@@ -150,7 +154,8 @@ def _linearised(
             lines.forces, lines.values, lines.by_gap, lines.by_slip,
         )  # fmt: skip
         slope = half * lines.by_slip[point]
-        slope[:, 0] += half**2 * lines.by_gap[point]
+        for axis in range(3):
+            slope[axis, 0] += half**2 * lines.by_gap[point, axis]
         rows = np.ascontiguousarray(basis[3 * point : 3 * point + 3])
         tangent += np.dot(rows.T, np.dot(slope, rows))
     return tangent
@@ -168,8 +173,3 @@ def _follow(basis: Array, half: float, change: Array, lines: Lines) -> None:
             for other in range(3):
                 force -= half * lines.by_slip[point, axis, other] * first[other]
             lines.forces[point, axis] = force
-
-
-@kernel
-def _norm(vector: Array) -> float:
-    return float(np.sqrt(np.dot(vector, vector)))

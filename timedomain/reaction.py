@@ -2,31 +2,30 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.memory import add_traction
 from microslip_mechanics.contact.points import ELASTIC, RIGID, ContactPoints
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 from timedomain.dense import dot
 from timedomain.operators import Operators
 from timedomain.state import State
 
 
-@kernel
-def reaction_of(
+@bare_kernel
+def react(
     operators: Operators,
     points: ContactPoints,
     state: State,
     displacement: Array,
     velocity: Array,
+    reaction: Array,
     tangent: Array,
     tangents: Array,
-) -> Array:
-    """Return the contact force on y; write its derivative by the acceleration."""
+) -> None:
+    """Write the contact force on y, and its derivative by the acceleration."""
     basis = operators.basis
-    reaction = np.zeros(displacement.size)
+    reaction[:] = 0.0
     tangent[:] = 0.0
     for point in range(points.load.size):
         rows = basis[3 * point : 3 * point + 3]
@@ -49,10 +48,9 @@ def reaction_of(
                 tangents[0], tangents[1],
             )  # fmt: skip
         _scatter(operators.step, rows, state.forces[point], tangents, reaction, tangent)
-    return reaction
 
 
-@kernel
+@bare_kernel
 def _scatter(
     step: float,
     rows: Array,

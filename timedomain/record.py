@@ -69,8 +69,8 @@ def store(meters: Meters, points: ContactPoints, state: State, row: Array) -> No
     """Write probes, their velocities, normal forces, friction power and energies."""
     probes, count = meters.probes.shape[0], points.load.size
     displacement, velocity = state.displacement, state.velocity
-    row[:probes] = np.dot(meters.probes, displacement)
-    row[probes : 2 * probes] = np.dot(meters.probes, velocity)
+    np.dot(meters.probes, displacement, row[:probes])
+    np.dot(meters.probes, velocity, row[probes : 2 * probes])
     place = 2 * probes
     stored = 0.0
     for point in range(count):
@@ -78,7 +78,8 @@ def store(meters: Meters, points: ContactPoints, state: State, row: Array) -> No
         stored += contact_energy(points, point, state.gaps[point, 0])
     place += count
     row[place] = meters.powers[1]
-    row[place + 1 : place + 5] = meters.energies
+    for flow in range(4):
+        row[place + 1 + flow] = meters.energies[flow]
     row[place + 5] = 0.5 * np.dot(velocity, np.dot(meters.mass, velocity))
     row[place + 6] = 0.5 * np.dot(displacement, np.dot(meters.stiffness, displacement))
     row[place + 7] = stored

@@ -15,6 +15,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
+from timedomain.dense import combine, copy
 from timedomain.operators import Operators
 from timedomain.record import FLOWS, Meters, accumulate, store
 from timedomain.rigid_points import Sliders
@@ -59,7 +60,9 @@ def march_sliders(
             made,
         )  # fmt: skip
         if taken < 0:  # its parts, too, begin where the step before has ended
-            state.gaps[:], state.slips[:], state.forces[:] = gaps, slips, forces
+            copy(gaps.ravel(), state.gaps.ravel())
+            copy(slips.ravel(), state.slips.ravel())
+            copy(forces.ravel(), state.forces.ravel())
             return step, iterations
         iterations += taken
         accumulate(meters, points, state, factors[step], operators.step)
@@ -125,8 +128,8 @@ def _advance(
     impulse = 2.0 * np.dot(sliders.rows.T, made.traction)
     free -= np.dot(operators.contact, smooth + impulse)
     later = np.dot(sliders.release, impulse)
-    state.past[:] = state.fresh
-    state.reaction[:] = smooth + impulse
+    copy(state.fresh.ravel(), state.past.ravel())
+    combine(smooth, 1.0, impulse, state.reaction)
     for i in range(dofs):
         state.displacement[i] = predicted[i] + half**2 * free[i]
         state.velocity[i] = predicted[dofs + i] + half * free[i]

@@ -11,10 +11,10 @@ from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.rigid import slide
 from microslip_mechanics.jit import kernel
-from timedomain.dense import solve_in_place
+from timedomain.dense import combine, eliminate, norm
 from timedomain.newmark import HALVINGS, NEWTON_LIMIT
 from timedomain.operators import Operators
-from timedomain.reaction import reaction_of
+from timedomain.reaction import react
 from timedomain.rigid_points import Sliders
 from timedomain.state import State
 
@@ -65,27 +65,27 @@ def solve_sliding(
     guess: Array = start[2] - np.dot(operators.compliance, state.reaction)
     pushed = made.push.copy()
     change: Array = np.zeros(made.residual.size)
-    scale, size = np.sqrt(np.dot(start[2], start[2])) + 1e-300, np.inf
+    scale, size = norm(start[2]) + 1e-300, np.inf
     smooth: Array = np.zeros(rank)
     for iteration in range(NEWTON_LIMIT + 1):
         shrink, reached = 1.0, np.inf
         for _ in range(HALVINGS):
-            made.acceleration[:] = guess - shrink * change[:rank]
-            made.push[:] = pushed - shrink * change[rank:]
+            combine(guess, -shrink, change[:rank], made.acceleration)
+            combine(pushed, -shrink, change[rank:], made.push)
             smooth = _assemble(
                 operators, sliders, compliance, points, state, start, made
             )
-            reached = np.sqrt(np.dot(made.residual, made.residual))
+            reached = norm(made.residual)
             if reached < size:
                 break
             shrink *= 0.5
         if not reached < size:
             return smooth, -1
         guess, pushed, size = made.acceleration.copy(), made.push.copy(), reached
-        if size <= tolerance * (scale + np.sqrt(np.dot(guess, guess))):
+        if size <= tolerance * (scale + norm(guess)):
             return smooth, iteration
         change = made.residual.copy()
-        if not solve_in_place(made.matrix, change):
+        if not eliminate(made.matrix, change):
             return smooth, -1
     return smooth, -1
 
@@ -102,13 +102,14 @@ def _assemble(
 ) -> Array:
     """Write tractions, residual and Newton's matrix; return the other contact force."""
     half, rank = 0.5 * operators.step, start.shape[1]
-    tangent = np.empty((rank, rank))
-    smooth = reaction_of(
+    tangent, smooth = np.empty((rank, rank)), np.empty(rank)
+    react(
         operators,
         points,
         state,
         start[0] + half**2 * made.acceleration,
         start[1] + half * made.acceleration,
+        smooth,
         tangent,
         np.zeros((2, 3, 3)),
     )
@@ -117,16 +118,20 @@ def _assemble(
     for place in range(sliders.points.size):
         _slide(operators, sliders, points, state, start, place, compliance[place], made)
     reaction = smooth + 2.0 * np.dot(sliders.rows.T, made.traction)
-    residual[:rank] = (
-        made.acceleration - start[2] + np.dot(operators.compliance, reaction)
-    )
-    matrix[:rank, :rank] += tangent
-    matrix[:rank] = np.dot(operators.compliance, matrix[:rank].copy())
+    balance = made.acceleration - start[2] + np.dot(operators.compliance, reaction)
+    for i in range(rank):
+        residual[i] = balance[i]
+        for j in range(rank):
+            matrix[i, j] += tangent[i, j]
+    np.dot(operators.compliance, matrix[:rank].copy(), matrix[:rank])
+    faster = (start[1] - start[3]) / half + made.acceleration
+    slid = np.dot(sliders.rows, faster)
     for i in range(rank):
         matrix[i, i] += 1.0
-    faster = (start[1] - start[3]) / half + made.acceleration
-    residual[rank:] += np.dot(sliders.rows, faster)
-    matrix[rank:, :rank] += sliders.rows
+        for j in range(slid.size):
+            matrix[rank + j, i] += sliders.rows[j, i]
+    for j in range(slid.size):
+        residual[rank + j] += slid[j]
     return smooth
 
 

@@ -12,7 +12,7 @@ import math
 from typing import NamedTuple
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel
 
 
 class Bristles(NamedTuple):
@@ -30,10 +30,10 @@ class Bristles(NamedTuple):
     """γ"""
 
 
-@kernel
+@bare_kernel
 def bristle_traction(
     law: Bristles,
-    slide: Array,
+    slide: tuple[float, float],
     velocity: Array,
     load: float,
     past_load: float,
@@ -79,7 +79,7 @@ def bristle_traction(
         by[row, 3] = by_limit * load * fall * velocity[1]
 
 
-@kernel
+@bare_kernel
 def _coefficient(law: Bristles, speed: float) -> tuple[float, float]:
     """Return µ(|v|), and its derivative by |v| over |v|."""
     if law.static == law.dynamic:

@@ -13,7 +13,7 @@ import math
 from typing import NamedTuple
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import inner_kernel, kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 
 ON = 1e-12
 """share of the limit's square by which a traction on it may seem to be within"""
@@ -28,10 +28,10 @@ class ElasticFriction(NamedTuple):
     """µd"""
 
 
-@kernel
+@bare_kernel
 def elastic_traction(
     law: ElasticFriction,
-    slide: Array,
+    slide: tuple[float, float],
     load: float,
     past_load: float,
     old: Array,
@@ -45,7 +45,7 @@ def elastic_traction(
     law
         Spring and friction coefficient.
     slide
-        Increment of the sliding displacement [m], shape ``(2,)``.
+        Increment of the sliding displacement [m] along both tangents.
     load, past_load
         Normal loads [N] at the end and the beginning of the slide; zero or less out of
         contact.

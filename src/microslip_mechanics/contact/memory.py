@@ -13,7 +13,7 @@ from microslip_mechanics.contact.bristle import Bristles, bristle_traction
 from microslip_mechanics.contact.elastic import ElasticFriction, elastic_traction
 from microslip_mechanics.contact.normal import normal_response
 from microslip_mechanics.contact.points import BRISTLE, ELASTIC, RIGID, ContactPoints
-from microslip_mechanics.jit import inner_kernel, kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
 
 MEMORIES = (ELASTIC, BRISTLE)
 """kinds of friction that remember"""
@@ -42,7 +42,7 @@ class Press(NamedTuple):
     """by which its faces overlap [m]; infinite under a constant load"""
 
 
-@kernel
+@bare_kernel
 def traction(
     points: ContactPoints,
     point: int,
@@ -75,16 +75,16 @@ def traction(
         load before (1), old traction (2), depth (1) and depth before (1), shape
         ``(2, 10)``.
     """
-    if not past.depth < 0.0 < press.depth:
-        _slid(points, point, slide, velocity, press.load, past.load, old, new, by)
+    touching, touches = 1.0, past.depth < 0.0 < press.depth
+    if touches:
+        touching = press.depth / (press.depth - past.depth)
+    slid = touching * slide[0], touching * slide[1]
+    _slid(points, point, slid, velocity, press.load, past.load, old, new, by)
+    if not touches:
         return
-    way = press.depth - past.depth
-    touching = press.depth / way
-    _slid(
-        points, point, touching * slide, velocity, press.load, past.load, old, new, by
-    )
     for row in range(2):
-        longer = (by[row, 0] * slide[0] + by[row, 1] * slide[1]) / way
+        longer = by[row, 0] * slide[0] + by[row, 1] * slide[1]
+        longer /= press.depth - past.depth
         by[row, 0], by[row, 1] = touching * by[row, 0], touching * by[row, 1]
         by[row, 8], by[row, 9] = longer * (1.0 - touching), longer * touching
 
@@ -93,7 +93,7 @@ def traction(
 def _slid(
     points: ContactPoints,
     point: int,
-    slide: Array,
+    slide: tuple[float, float],
     velocity: Array,
     load: float,
     past_load: float,
@@ -116,7 +116,7 @@ def _slid(
     bristle_traction(bristles, slide, velocity, load, past_load, old, new, by)
 
 
-@kernel
+@bare_kernel
 def friction_load(
     points: ContactPoints, point: int, displacement: float, velocity: float
 ) -> tuple[float, float, float]:
@@ -130,7 +130,7 @@ def friction_load(
     return normal_response(points, point, displacement, velocity)
 
 
-@kernel
+@bare_kernel
 def pressed(
     points: ContactPoints, point: int, displacement: float, velocity: float
 ) -> tuple[Press, float, float]:

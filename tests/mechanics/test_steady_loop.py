@@ -1,0 +1,60 @@
+"""Derivatives of friction that remembers, over a period that repeats itself."""
+
+import numpy as np
+import pytest
+
+from hbm.fourier import derivative, waves
+from law_examples import driven
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.points import ContactPoints
+from microslip_mechanics.contact.steady_loop import Waves, steady_loop
+
+pytestmark = pytest.mark.kernels
+
+HARMONICS, SAMPLES, OMEGA = 3, 40, 7.0
+STEP = 1e-6
+"""of a coefficient, over the size of all"""
+
+
+def series() -> Waves:
+    """Return the Fourier terms at the samples."""
+    value, _ = waves(HARMONICS, SAMPLES)
+    slope = -derivative(value)
+    return Waves(np.ascontiguousarray(value.T), np.ascontiguousarray(slope.T))
+
+
+def loop(
+    points: ContactPoints, coefficients: Array, gradient: Array, omega: float = OMEGA
+) -> tuple[Array, Array]:
+    """Return the tractions of a motion, (2, samples), and (∂/∂ω) ω of them."""
+    terms = series()
+    moved = np.ascontiguousarray((terms.value @ coefficients).T)
+    moving = np.ascontiguousarray(omega * (terms.slope @ coefficients).T)
+    axes = np.ones(3, dtype=bool)
+    return steady_loop(points, 0, moved, moving, terms, omega, axes, gradient)
+
+
+@pytest.mark.parametrize("case", ["elastic", "dahl", "lugre"])
+@pytest.mark.parametrize("size", [2e-3, 0.05, 0.3], ids=["sticks", "slips", "slides"])
+def test_derivatives_are_those_of_differences(case: str, size: float) -> None:
+    points = driven(case).interface.points
+    random = np.random.default_rng(3)
+    motion = size * random.standard_normal((2 * HARMONICS + 1, 3)) * [0.1, 1.0, 1.0]
+    motion[0, 0] = 0.02
+    none, gradient = np.zeros((2, 3, 0, 0)), np.empty((2, 3, SAMPLES, len(motion)))
+
+    _, by_frequency = loop(points, motion, gradient)
+
+    scale = np.abs(gradient).max()
+    for term, axis in np.ndindex(motion.shape):
+        change = np.zeros_like(motion)
+        change[term, axis] = STEP * size
+        more, less = (loop(points, motion + s * change, none)[0] for s in (1.0, -1.0))
+        expected = (more - less) / (2.0 * STEP * size)
+        found = gradient[:, axis, :, term]
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-5 * scale)
+    faster, slower = (
+        loop(points, motion, none, OMEGA * (1.0 + s * STEP))[0] for s in (1.0, -1.0)
+    )
+    expected = (faster - slower) / (2.0 * STEP)
+    np.testing.assert_allclose(by_frequency, expected, atol=1e-5 * scale * size)

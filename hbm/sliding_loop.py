@@ -13,7 +13,7 @@ from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.rigid import slide
 from microslip_mechanics.contact.steady_loop import Waves
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import bare_kernel, kernel
 
 TRIALS = 50
 """of the momentum with which a period begins and ends"""
@@ -57,7 +57,7 @@ def sliding_loop(
     start, steady = _begun(points, point, displacement, velocity, loss, step)
     columns = np.zeros((2, 1 + gradient.shape[1] * gradient.shape[3]))
     for repeated in range(2):
-        step.old[:] = start
+        _hand_over(start, step.old)
         for place in range(samples):
             by_depth, by_approach = _step(
                 points, point, displacement, velocity, loss, place, step
@@ -80,9 +80,9 @@ def sliding_loop(
                     points.tangential[point], points.dynamic[point] * by_depth,
                     points.dynamic[point] * by_approach, place,
                 )  # fmt: skip
-            step.old[:] = step.made[2:]
+            _hand_over(step.made[2:], step.old)
         if repeated == 0:
-            columns[:] = np.dot(steady.copy(), columns)
+            np.dot(steady.copy(), columns.copy(), columns)
     return made, change
 
 
@@ -99,11 +99,11 @@ def _begun(
     start, largest = np.zeros(2), 1e-300
     steady: Array = np.eye(2)
     for _ in range(TRIALS):
-        step.old[:] = start
+        _hand_over(start, step.old)
         carried = np.eye(2)
         for place in range(displacement.shape[1]):
             _step(points, point, displacement, velocity, loss, place, step)
-            step.old[:] = step.made[2:]
+            _hand_over(step.made[2:], step.old)
             carried = np.dot(step.by[2:, 3:5].copy(), carried)
             largest = max(largest, abs(step.push[0]), abs(step.push[1]))
             largest = max(largest, abs(step.old[0]), abs(step.old[1]))
@@ -115,7 +115,14 @@ def _begun(
     return start, steady
 
 
-@kernel
+@bare_kernel
+def _hand_over(made: Array, old: Array) -> None:
+    """Write the momentum with which the next step begins."""
+    for axis in range(2):
+        old[axis] = made[axis]
+
+
+@bare_kernel
 def _step(
     points: ContactPoints,
     point: int,
@@ -136,7 +143,7 @@ def _step(
     return by_depth, by_approach
 
 
-@kernel
+@bare_kernel
 def _carry(
     gradient: Array,
     columns: Array,

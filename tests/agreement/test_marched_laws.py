@@ -17,7 +17,7 @@ SETTLED = 25
 """periods in which what begins on an orbit that is none leaves it"""
 
 
-@pytest.mark.slow
+@pytest.mark.slow(seconds=90)  # the other worker finds its machine code
 @pytest.mark.parametrize(
     "case",
     [pytest.param(case, marks=[pytest.mark.long] * (case in SLOW)) for case in CASES],

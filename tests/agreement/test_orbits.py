@@ -105,7 +105,8 @@ def test_sharp_transitions_beyond_the_resonance_take_more_harmonics(
     assert difference[BLADES].max() < highest
 
 
-@pytest.mark.parametrize("hertz", [pytest.param(134.5, marks=pytest.mark.long), 135.0])
+@pytest.mark.long
+@pytest.mark.parametrize("hertz", [134.5, 135.0])
 def test_eight_harmonics_predict_all_of_the_jammed_rig_to_one_per_cent(
     hertz: float,
 ) -> None:

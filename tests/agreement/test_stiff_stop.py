@@ -127,7 +127,7 @@ class Struck:
         pytest.param(2e4, marks=pytest.mark.long),
         6e4,
         pytest.param(1e5, marks=pytest.mark.long),
-        2e5,
+        pytest.param(2e5, marks=pytest.mark.long),
     ],
 )
 def test_the_curve_of_a_mass_that_strikes_a_stiff_stop_is_whole(stop: float) -> None:

@@ -31,7 +31,7 @@ CASES = {
         "closing error",
     ),
     "track": (("track", "jenkins", "drive.x", "5", *RANGE), "table in it.csv", "Hz"),
-    "modes": (("modes", "jenkins"), "table in it.csv", "damping"),
+    "modes": (("modes", "gap"), "table in it.csv", "damping"),
     "poles": (
         ("poles", "jenkins", "element.slider.limit", "1", *RANGE),
         "table in it.csv",

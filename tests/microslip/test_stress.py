@@ -104,7 +104,6 @@ def test_what_a_scene_does_not_allow_does_not_end_the_process_before_a_case() ->
         stress._warmed("two-blades", still)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("overrides", "ends", "told"),
     [
@@ -252,7 +251,7 @@ def test_cases_are_solved_compared_and_refused(compiled: None) -> None:  # noqa:
     assert "preload.force=1: taken as it is" in taken.cause
 
 
-@pytest.mark.slow(seconds=30)
+@pytest.mark.slow(seconds=3)  # machine code is there by then
 def test_a_quick_look_runs_from_the_command_line(
     run: Run,
     tmp_path: Path,

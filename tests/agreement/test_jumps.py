@@ -24,7 +24,6 @@ from small_problems import cubic_oscillator
 TURN = 2.0 * np.pi
 RATES = [2e-4, 1e-4, 5e-5, 2.5e-5, 1.25e-5]
 """of the sweeps [Hz/s]: the slowest passes three thousand periods"""
-STEPS = 200
 RELATIVE = (2.2e-5, 1.1e-5, 5.5e-6, 2.75e-6)
 
 
@@ -46,7 +45,7 @@ def duffing() -> tuple[Problem, list[Fold]]:
 @functools.cache
 def jumped() -> list[Jump]:
     problem, folds = duffing()
-    return list(jumps(problem, folds, RATES, steps=STEPS))
+    return list(jumps(problem, folds, RATES))
 
 
 def admitted(jump: Jump) -> float:
@@ -134,8 +133,8 @@ def test_sweeps_from_far_away_jump_where_those_from_near_do() -> None:
     (far, _) = folds_of(problem, traced(problem, 0.8, 2.4), lead=0.8)
     rates = [4e-4, 2e-4, 1e-4, 5e-5]
 
-    (near_jump,) = jumps(problem, [fold], rates, steps=STEPS)
-    (far_jump,) = jumps(problem, [far], rates, steps=STEPS)
+    (near_jump,) = jumps(problem, [fold], rates)
+    (far_jump,) = jumps(problem, [far], rates)
 
     np.testing.assert_allclose(far_jump.frequency, near_jump.frequency, rtol=5e-4)
     # and the slowest ends there
@@ -195,14 +194,7 @@ def test_sweeps_too_fast_to_jump_on_their_way_are_refused(fastest: float) -> Non
     problem, (fold, _) = duffing()
 
     with pytest.raises(StudyError, match="give slower sweeps"):
-        list(
-            jumps(
-                problem,
-                [fold],
-                [fastest * each for each in (1.0, 0.9, 0.8, 0.7)],
-                steps=STEPS,
-            )
-        )
+        list(jumps(problem, [fold], [fastest * each for each in (1.0, 0.9, 0.8, 0.7)]))
 
 
 def test_too_few_rates_are_refused() -> None:

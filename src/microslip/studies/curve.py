@@ -23,6 +23,9 @@ from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.response_curve import ResponseCurve, response_curve
 from microslip_mechanics.static import StaticState, static_equilibrium
 
+SHOWN = 11
+"""points in a table, beside that of the largest amplitude"""
+
 
 @dataclass(frozen=True, slots=True)
 class Traced:
@@ -182,11 +185,11 @@ def gathered(
     return found, "complete"
 
 
-def shown_points(curve: ResponseCurve, largest: int, count: int = 11) -> list[int]:
+def shown_points(curve: ResponseCurve, largest: int) -> list[int]:
     """Return points evenly spread in frequency, and the one of largest amplitude.
 
     Over all that the curve covers: a part of it may run back to where it began.
     """
-    wanted = np.linspace(curve.frequency.min(), curve.frequency.max(), count)
+    wanted = np.linspace(curve.frequency.min(), curve.frequency.max(), SHOWN)
     places = {int(np.abs(curve.frequency - each).argmin()) for each in wanted}
     return sorted(places | {largest})

@@ -27,11 +27,10 @@ Sweep: TypeAlias = tuple[float, float, Envelope]
 """where it jumps, and where with steps twice as long [Hz]; its envelope"""
 
 
-def swept_through(problem: Problem, fold: Fold, rate: float, steps: int) -> Sweep:
-    """Sweep through a fold with these steps per period, and with half as many."""
-    half = ROWS * max(1, steps // (2 * ROWS))
-    place, envelope = _marched(problem, fold, rate, 2 * half)
-    other, _ = _marched(problem, fold, rate, half)
+def swept_through(problem: Problem, fold: Fold, rate: float) -> Sweep:
+    """Sweep through a fold with :data:`STEPS` per period, and with half as many."""
+    place, envelope = _marched(problem, fold, rate, STEPS)
+    other, _ = _marched(problem, fold, rate, STEPS // 2)
     return place, other, envelope
 
 

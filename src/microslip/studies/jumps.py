@@ -16,7 +16,7 @@ import numpy as np
 
 from microslip.interruption import unmasked
 from microslip.studies.jump_folds import Fold
-from microslip.studies.jump_sweeps import STEPS, Envelope, Sweep, swept_through
+from microslip.studies.jump_sweeps import Envelope, Sweep, swept_through
 from microslip.studies.verify import StudyError
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
@@ -62,16 +62,13 @@ def jumps(
     problem: Problem,
     folds: Sequence[Fold],
     rates: Sequence[float] | None = None,
-    *,
-    steps: int = STEPS,
 ) -> Iterator[Jump]:
     """Yield the jump at each fold; of one that is not swept to its end what there is.
 
     Parameters
     ----------
     problem
-        What is marched, with ``steps`` per period, rounded down to double steps of
-        whole rows, and beside with half as many.
+        What is marched.
     folds
         Of its curve.
     rates
@@ -94,7 +91,7 @@ def jumps(
         try:
             with unmasked():
                 for rate in ordered:
-                    swept.append(swept_through(problem, fold, rate, steps))  # noqa: PERF401  (what is there must be kept)
+                    swept.append(swept_through(problem, fold, rate))  # noqa: PERF401  (what is there must be kept)
         except (KeyboardInterrupt, MicroslipError):
             if swept:
                 yield _jump(fold, ordered[: len(swept)], swept)

@@ -16,6 +16,9 @@ from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 
+SHOWN = 20
+"""points of a mode in a table, beside the most damped one"""
+
 
 class ModeError(MicroslipError):
     """A scene without a point of a mode; the text says why."""
@@ -89,10 +92,10 @@ def _followed(
     return FollowedMode(linear, tuple(points), ending)
 
 
-def shown_points(mode: FollowedMode, count: int = 20) -> list[NonlinearMode]:
+def shown_points(mode: FollowedMode) -> list[NonlinearMode]:
     """Return points evenly spread along a mode, the most damped one among them."""
     last = len(mode.points) - 1
-    places = {round(last * share / (count - 1)) for share in range(count)}
+    places = {round(last * share / (SHOWN - 1)) for share in range(SHOWN)}
     places.add(_place(mode.points, mode.most_damped))
     return [mode.points[place] for place in sorted(places)]
 

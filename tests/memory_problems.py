@@ -46,15 +46,13 @@ CONTACTS = (
 """law, what the contact sees of the masses, and the drive [N]"""
 
 
-def masses(
-    law: PointLaw, seen: Array, drive: Array, *, damping: float = 4e-3
-) -> Problem:
+def masses(law: PointLaw, seen: Array, drive: Array) -> Problem:
     """Return masses on springs, each of 1 kg, that one contact sees."""
     dofs = seen.shape[1]
     stiffness = np.diag([30.0, 45.0, 60.0][:dofs])
     names = ("x", "y", "z")[:dofs]
     return Problem(
-        Structure(np.eye(dofs), damping * stiffness, stiffness, names),
+        Structure(np.eye(dofs), 4e-3 * stiffness, stiffness, names),
         Interface(contact_table([law]), seen, ("shoe",)),
         np.zeros(dofs),
         drive,

@@ -20,7 +20,6 @@ from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
 from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.options import Method
 from timedomain.start import Start
 
 ROWS = 20
@@ -178,7 +177,6 @@ def dwelled(
     periods: int,
     steps: int,
     start: Start | None = None,
-    method: Method = "reference",
 ) -> TimeHistory:
     """March whole periods with ``steps`` each, a multiple of :data:`ROWS`."""
     period = 2.0 * np.pi / frequency
@@ -186,7 +184,10 @@ def dwelled(
         problem,
         Dwell(frequency, periods * period),
         MarchOptions(
-            period / steps, store_every=steps // ROWS, method=method, residual=1e-13
+            period / steps,
+            store_every=steps // ROWS,
+            method="reference",
+            residual=1e-13,
         ),
         start=start,
         block=periods * period,

@@ -9,15 +9,15 @@ from benchmarks.stability import VARIANTS, Comparison, chosen, compared, traced
 
 
 @functools.cache
-def comparisons(name: str) -> list[Comparison]:
-    problem, curve = traced(VARIANTS[name])
+def comparisons() -> list[Comparison]:
+    problem, curve = traced(VARIANTS["A, gkf"])
     return [compared(problem, point) for point in chosen(curve, 4)]
 
 
 @pytest.mark.long
 @pytest.mark.slow
 def test_leading_multipliers_of_both_routes_agree() -> None:
-    for row in comparisons("A, gkf"):
+    for row in comparisons():
         # measured 2e-4 for the largest, 5e-4 for the first four
         assert row.agrees
         assert row.others <= 1e-3
@@ -26,7 +26,7 @@ def test_leading_multipliers_of_both_routes_agree() -> None:
 @pytest.mark.long
 @pytest.mark.slow
 def test_a_march_leaves_what_is_unstable_and_keeps_the_rest() -> None:
-    rows = comparisons("A, gkf")
+    rows = comparisons()
     largest = np.array([row.balance[0] for row in rows])
 
     assert all(row.kept for row in rows)

@@ -17,10 +17,8 @@ MEAN, COSINE, SINE = 0, 1, 2
 """places of the coefficients of the mean and of the first harmonic"""
 
 
-def one_point(
-    points: ContactPoints, *, harmonics: int = 3, samples: int = 256
-) -> AlternatingFrequencyTime:
-    return AlternatingFrequencyTime(points, np.eye(3), FourierBasis(harmonics, samples))
+def one_point(points: ContactPoints, *, samples: int = 256) -> AlternatingFrequencyTime:
+    return AlternatingFrequencyTime(points, np.eye(3), FourierBasis(3, samples))
 
 
 def moved(harmonics: int = 3, **coefficients: tuple[int, float]) -> Array:

@@ -92,23 +92,23 @@ def test_area_contact_has_a_twelfth_of_its_width_squared_in_rotation() -> None:
     ]  # fmt: skip
 
 
-def backbone(law: Iwan, motion: float) -> float:
+def backbone(motion: float) -> float:
     """Return Segalman's force on first loading [N]."""
-    chi, least = law.chi, min(motion, law.largest_slip)
-    below = law.density * least ** (chi + 2.0) / (chi + 2.0)
-    above = law.stiffness - law.density * least ** (chi + 1.0) / (chi + 1.0)
+    chi, least = IWAN.chi, min(motion, IWAN.largest_slip)
+    below = IWAN.density * least ** (chi + 2.0) / (chi + 2.0)
+    above = IWAN.stiffness - IWAN.density * least ** (chi + 1.0) / (chi + 1.0)
     return float(below + above * least)
 
 
-def loss(law: Iwan, amplitude: float) -> float:
+def loss(amplitude: float) -> float:
     """Return Segalman's dissipation in a cycle of microslip [J]."""
-    chi = law.chi
-    power = law.density * amplitude ** (chi + 3.0)
+    chi = IWAN.chi
+    power = IWAN.density * amplitude ** (chi + 3.0)
     return float(4.0 * power / ((chi + 2.0) * (chi + 3.0)))
 
 
-def first_loading(law: Iwan, motion: float) -> float:
-    stiffness, slip = law.spectrum
+def first_loading(motion: float) -> float:
+    stiffness, slip = IWAN.spectrum
     return float((stiffness * np.minimum(slip, motion)).sum())
 
 
@@ -117,16 +117,16 @@ def test_iwan_has_its_stiffness_and_its_slip_force() -> None:
 
     assert stiffness.sum() == pytest.approx(IWAN.stiffness, rel=1e-12)
     assert (stiffness * slip).sum() == pytest.approx(IWAN.slip_force, rel=1e-12)
-    assert backbone(IWAN, 2.0 * IWAN.largest_slip) == pytest.approx(
+    assert backbone(2.0 * IWAN.largest_slip) == pytest.approx(
         IWAN.slip_force, rel=1e-12
     )
 
 
 def test_iwan_is_exact_at_its_edges_and_within_its_stated_error_between() -> None:
     for edge in IWAN.edges[1:]:
-        assert first_loading(IWAN, edge) == pytest.approx(backbone(IWAN, edge))
+        assert first_loading(edge) == pytest.approx(backbone(edge))
     motions = np.linspace(0.0, 1.2 * IWAN.largest_slip, 5001)[1:]
-    away = [first_loading(IWAN, each) - backbone(IWAN, each) for each in motions]
+    away = [first_loading(each) - backbone(each) for each in motions]
     largest = max(away) / IWAN.slip_force
 
     assert min(away) > -1e-12 * IWAN.slip_force
@@ -146,7 +146,7 @@ def test_iwan_dissipates_microslips_power_law(share: float) -> None:
 
     _, cycle = cycled(IWAN, amplitude)
 
-    assert cycle.friction == pytest.approx(loss(IWAN, amplitude), rel=0.02)
+    assert cycle.friction == pytest.approx(loss(amplitude), rel=0.02)
 
 
 def test_iwan_in_macroslip_adds_the_rigid_loop() -> None:

@@ -18,12 +18,12 @@ CONTROL = StepControl(smallest=1e-5, largest=0.02, tolerance=1e-10)
 START = np.array([0.0, 0.0])
 
 
-def parabola(first: float, last: float) -> System:
-    """Return y = x², which has no residual between two values of x."""
+def parabola(last: float) -> System:
+    """Return y = x², which has no residual from x = 0.5 to ``last``."""
 
     def residual(point: Array) -> tuple[Array, Dense]:
         y, x = point
-        value = math.nan if first < x < last else y - x**2
+        value = math.nan if 0.5 < x < last else y - x**2
         return np.array([value]), Dense([[1.0, -2.0 * x]])
 
     return residual
@@ -34,7 +34,7 @@ def metric(point: Array) -> Array:
 
 
 def test_a_gap_is_passed_along_the_tangent() -> None:
-    system = parabola(0.5, 0.55)
+    system = parabola(0.55)
     with pytest.raises(ContinuationError):
         list(trace(system, START, 1.0, metric=metric, control=CONTROL))
 
@@ -51,7 +51,7 @@ def test_a_gap_is_passed_along_the_tangent() -> None:
 
 
 def test_what_is_wider_than_a_leap_ends_the_curve() -> None:
-    leaping = Leaping(parabola(0.5, 0.9), START, 1.0, metric, CONTROL, UNSETTLED)
+    leaping = Leaping(parabola(0.9), START, 1.0, metric, CONTROL, UNSETTLED)
 
     points: list[Array] = []
     with pytest.raises(ContinuationError, match="not even past it"):

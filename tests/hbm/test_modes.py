@@ -25,13 +25,12 @@ def grown(
     largest: float,
     *,
     frequencies: tuple[float, float] = EVERYTHING,
-    harmonics: int | None = None,
-    error: float = 1e-2,
+    harmonics: int,
 ) -> list[NonlinearMode]:
     """Return the lowest mode from one amplitude to another."""
     rest = static_equilibrium(problem)
     linear = modes_in_range(problem, rest, *frequencies)[0]
-    options = ModeOptions(smallest, largest, error, harmonics, 1e-9)
+    options = ModeOptions(smallest, largest, 1e-2, harmonics, 1e-9)
     return list(nonlinear_mode(problem, rest, linear, options))
 
 

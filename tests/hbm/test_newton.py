@@ -17,14 +17,13 @@ def corrected(
     system: System,
     start: float,
     *,
-    parameter: float = 0.0,
     max_iterations: int = 15,
     small: Small | None = None,
 ) -> Correction:
-    """Correct one unknown at a fixed parameter."""
+    """Correct one unknown at the parameter 0."""
     return correct(
         system,
-        np.array([start, parameter]),
+        np.array([start, 0.0]),
         AT_ITS_PARAMETER,
         tolerance=1e-12,
         max_iterations=max_iterations,

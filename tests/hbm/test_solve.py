@@ -33,7 +33,6 @@ def curve_of(
     highest: float = 145.0,
     harmonics: int = 8,
     samples: int = 1024,
-    tolerance: float = 1e-8,
     largest_step: float = 0.25,
 ) -> list[PeriodicResponse]:
     """Return the responses from one frequency [Hz] to another."""
@@ -42,7 +41,7 @@ def curve_of(
         TURN * highest,
         harmonics=harmonics,
         samples=samples,
-        tolerance=tolerance,
+        tolerance=1e-8,
         largest_step=largest_step,
     )
     return list(frequency_response(problem, static_equilibrium(problem), options))

@@ -123,8 +123,8 @@ def test_probes_are_degrees_of_freedom_forms_or_pairs() -> None:
     np.testing.assert_array_equal(rows, [[1, 0], [0.5, 0.5], [1, -1]])
 
 
-def between(*ends: Any, law: Any = SLIDER) -> dict[str, Any]:
-    return {"elements": [Element(law, between=ends, name="slider")]}
+def between(*ends: Any) -> dict[str, Any]:
+    return {"elements": [Element(SLIDER, between=ends, name="slider")]}
 
 
 FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {

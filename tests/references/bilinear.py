@@ -88,7 +88,7 @@ class Pieces:
         def misses(unknown: Array) -> list[float]:
             touched, velocity, left = unknown
             out = _flow(1.0 + STOP, frequency, left - touched) @ _state(
-                frequency, touched, GAP, velocity
+                frequency, touched, velocity
             )
             period = 2.0 * math.pi / frequency
             back = _flow(1.0, frequency, touched + period - left) @ out
@@ -102,7 +102,7 @@ class Pieces:
         """Amplitude of the first harmonic [m], by Gauss' rule on each piece."""
         period = 2.0 * math.pi / self.frequency
         nodes, weights = np.polynomial.legendre.leggauss(40)
-        state = _state(self.frequency, self.touched, GAP, self.speed)
+        state = _state(self.frequency, self.touched, self.speed)
         total, time = 0.0j, self.touched
         for stiffness, until in ((1.0 + STOP, self.left), (1.0, self.touched + period)):
             span = until - time
@@ -124,10 +124,10 @@ class Pieces:
         return float(np.abs(np.linalg.eigvals(once)).max())
 
 
-def _state(frequency: float, time: float, place: float, speed: float) -> Array:
-    """Return place, velocity, the stop's pull, and the drive's phase at a time."""
+def _state(frequency: float, time: float, speed: float) -> Array:
+    """Return place, velocity, the stop's pull, and the drive's phase at a touch."""
     turn = frequency * time
-    return np.array([place, speed, 1.0, math.cos(turn), math.sin(turn)])
+    return np.array([GAP, speed, 1.0, math.cos(turn), math.sin(turn)])
 
 
 def _flow(stiffness: float, frequency: float, duration: float) -> Array:

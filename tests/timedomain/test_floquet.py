@@ -24,6 +24,8 @@ from small_problems import (
 
 TURN = 2.0 * np.pi
 FREQUENCY, MASS = 3.0, 2.0
+STRENGTH = 0.4
+"""q of Mathieu's equation"""
 
 
 def orbit(*coefficients: float, frequency: float = FREQUENCY) -> PeriodicResponse:
@@ -64,22 +66,23 @@ def test_without_contact_multipliers_are_exponentials(make: type) -> None:
     assert np.all(np.diff(np.abs(found.values)) < 1e-12)
 
 
-def parametric(*, boundary: int, strength: float) -> tuple[Problem, PeriodicResponse]:
+def parametric(boundary: int) -> tuple[Problem, PeriodicResponse]:
     """Return Mathieu's equation on a boundary of its stability.
 
     On a quadratic contact without damping the stiffness 2 K (δ₀ + δ₁ cos ωt) varies
-    with the orbit; in t' = ωt/2, a = 8 K δ₀/(m ω²) and −2 q = 8 K δ₁/(m ω²).
+    with the orbit; in t' = ωt/2, a = 8 K δ₀/(m ω²) and −2 q = 8 K δ₁/(m ω²), with
+    q = :data:`STRENGTH`.
     """
     points = contact_points(damping=0.0, friction=FRICTIONLESS, stiffness=5.0)
     unit = 8.0 * 5.0 / (MASS * FREQUENCY**2)
-    mean = float(mathieu_a(boundary, strength)) / unit
+    mean = float(mathieu_a(boundary, STRENGTH)) / unit
     problem = mass_on_contact(points, direction=NORMAL, mass=MASS)
-    return problem, orbit(mean, -2.0 * strength / unit, 0.0)
+    return problem, orbit(mean, -2.0 * STRENGTH / unit, 0.0)
 
 
 @pytest.mark.parametrize(("boundary", "trace"), [(1, -2.0), (2, 2.0), (3, -2.0)])
 def test_mathieu_boundaries_have_their_trace(boundary: int, trace: float) -> None:
-    problem, response = parametric(boundary=boundary, strength=0.4)
+    problem, response = parametric(boundary)
 
     found = monodromy(problem, response, steps=2000)
 
@@ -88,7 +91,7 @@ def test_mathieu_boundaries_have_their_trace(boundary: int, trace: float) -> Non
 
 
 def test_the_monodromy_converges_with_second_order() -> None:
-    problem, response = parametric(boundary=1, strength=0.4)
+    problem, response = parametric(1)
     steps = [96, 192, 384, 768]
 
     errors = [
@@ -100,7 +103,7 @@ def test_the_monodromy_converges_with_second_order() -> None:
 
 
 def test_extrapolated_multipliers_converge_with_fourth_order() -> None:
-    problem, response = parametric(boundary=1, strength=0.4)
+    problem, response = parametric(1)
     steps = [96, 192, 384, 768]
 
     errors = [

@@ -80,8 +80,8 @@ def errors(model: str, states: Array) -> tuple[float, float]:
     return float(away), float(closing)
 
 
-def by_lsoda(model: str, relative: float, absolute: float) -> Array:
-    form, state = rig(model)
+def by_lsoda(relative: float, absolute: float) -> Array:
+    form, state = rig("A")
     states, said = odeint(
         rate,
         state,
@@ -100,9 +100,9 @@ def by_lsoda(model: str, relative: float, absolute: float) -> Array:
 
 
 def by_scipy(
-    model: str, method: Literal["BDF", "Radau"], relative: float, absolute: float
+    method: Literal["BDF", "Radau"], relative: float, absolute: float
 ) -> Array:
-    form, state = rig(model)
+    form, state = rig("A")
     found = solve_ivp(
         lambda time, state: rate(time, state, form),
         (0.0, WINDOW),
@@ -126,9 +126,9 @@ def test_high_order_bdf_is_wrong_with_success_reported_and_closure_tells(
     method: str, tolerance: float, least: float
 ) -> None:
     if method == "LSODA":
-        states = by_lsoda("A", tolerance, tolerance)
+        states = by_lsoda(tolerance, tolerance)
     else:
-        states = by_scipy("A", "BDF", tolerance, tolerance)
+        states = by_scipy("BDF", tolerance, tolerance)
 
     away, closing = errors("A", states)
 
@@ -137,14 +137,14 @@ def test_high_order_bdf_is_wrong_with_success_reported_and_closure_tells(
 
 
 def test_a_tight_tolerance_is_right_and_closure_agrees() -> None:
-    away, closing = errors("A", by_lsoda("A", 1e-4, 1e-7))
+    away, closing = errors("A", by_lsoda(1e-4, 1e-7))
 
     assert away < 1e-4
     assert closing < 0.01 * CLOSES
 
 
 def test_a_dissipative_method_errs_less_at_a_loose_tolerance() -> None:
-    away, closing = errors("A", by_scipy("A", "Radau", 1e-2, 1e-5))
+    away, closing = errors("A", by_scipy("Radau", 1e-2, 1e-5))
 
     assert away < 1e-2
     assert closing < CLOSES

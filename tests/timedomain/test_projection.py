@@ -58,12 +58,12 @@ def test_what_sticks_creeps_and_no_step_is_divided(
     assert np.abs(history.displacement).max() == pytest.approx(2.0 * creep, rel=0.02)
 
 
-def pushed(drive: float, rows: int, fine: int = 200) -> Array:
+def pushed(drive: float, rows: int) -> Array:
     """Return the motion under rigid friction, by steps so short that any rule does.
 
     A step's friction stops the block if it can.
     """
-    mass, stiffness, limit = 2.0, 300.0, FRICTION * LOAD
+    mass, stiffness, limit, fine = 2.0, 300.0, FRICTION * LOAD, 200
     step = PERIODS * 2.0 * np.pi / FREQUENCY / (rows * fine)
     moved, moving, found = 0.0, 0.0, []
     for number in range(rows * fine):

@@ -278,10 +278,10 @@ def test_an_unstable_orbit_is_found_and_known_as_one() -> None:
 
     low, middle, high = (
         periodic_orbit(problem, 1.6, start=one_harmonic(size, 1.6))
-        for size in duffing_amplitudes(1.6)
+        for size in duffing_amplitudes()
     )
 
-    for each, size in zip((low, middle, high), duffing_amplitudes(1.6), strict=True):
+    for each, size in zip((low, middle, high), duffing_amplitudes(), strict=True):
         assert each.amplitude[0] == pytest.approx(size, rel=0.03)
     assert np.abs(low.multipliers).max() < 1.0
     assert np.abs(high.multipliers).max() < 1.0
@@ -293,8 +293,9 @@ def test_an_unstable_orbit_is_found_and_known_as_one() -> None:
         assert product == pytest.approx(np.exp(-0.1 * TURN / 1.6), rel=1e-5)
 
 
-def duffing_amplitudes(frequency: float) -> Array:
-    """Return the amplitudes of one harmonic, least first (cubic in a²)."""
+def duffing_amplitudes() -> Array:
+    """Return the amplitudes of one harmonic at 1.6 rad/s, least first (cubic in a²)."""
+    frequency = 1.6
     detuned = 1.0 - frequency**2
     roots = np.roots(
         [0.5625, 1.5 * detuned, detuned**2 + (0.1 * frequency) ** 2, -(0.3**2)]

@@ -69,6 +69,20 @@ def contact_points(count: int = 1, **columns: ArrayLike) -> ContactPoints:
     )
 
 
+def linear_contact(
+    stiffness: float, damping: float, *, clamped: bool = False
+) -> ContactPoints:
+    """Return a point without friction: a spring [N/m] beside a dashpot [N s/m]."""
+    return contact_points(
+        stiffness=stiffness,
+        exponent=1.0,
+        damping=damping,
+        damping_exponent=0.0,
+        clamped=clamped,
+        friction=FRICTIONLESS,
+    )
+
+
 def every_combination(friction: int) -> ContactPoints:
     """Return points with all exponents, clamped or not, constant load or not."""
     rows = itertools.product(

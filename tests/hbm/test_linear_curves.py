@@ -9,7 +9,7 @@ import pytest
 import scipy.linalg
 import scipy.optimize
 
-from contact_tables import contact_points
+from contact_tables import contact_points, linear_contact
 from hbm.fourier import to_complex
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
@@ -99,13 +99,7 @@ def test_an_oscillator_without_contact_responds_in_closed_form() -> None:
 
 def test_a_mass_pressed_on_a_linear_contact_responds_in_closed_form() -> None:
     mass, stiffness, damping, press, force = 2.0, 300.0, 1.5, 4.0, 0.5
-    points = contact_points(
-        stiffness=stiffness,
-        exponent=1.0,
-        damping=damping,
-        damping_exponent=0.0,
-        friction=0,
-    )
+    points = linear_contact(stiffness, damping)
     problem = mass_on_contact(
         points, direction=NORMAL, mass=mass, preload=press, drive=force
     )

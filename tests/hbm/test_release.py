@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contact_tables import contact_points
+from contact_tables import linear_contact
 from hbm.aft import AlternatingFrequencyTime
 from hbm.fourier import FourierBasis
 from hbm.release import released
@@ -16,14 +16,7 @@ FREQUENCY, STIFFNESS, DAMPING = 11.0, 3.0, 0.1
 
 def stop(damping: float = DAMPING) -> ContactPoints:
     """Return a spring beside a dashpot of faces that do not stick together."""
-    return contact_points(
-        friction=0,
-        stiffness=STIFFNESS,
-        exponent=1.0,
-        damping=damping,
-        damping_exponent=0.0,
-        clamped=True,
-    )
+    return linear_contact(STIFFNESS, damping, clamped=True)
 
 
 def moved(before: tuple[float, float], behind: tuple[float, float]) -> float:

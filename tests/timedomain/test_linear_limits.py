@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contact_tables import contact_points
+from contact_tables import linear_contact
 from convergence import observed_order
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem
@@ -94,13 +94,7 @@ def test_an_oscillator_settles_on_its_transfer_function_to_1e_8() -> None:
 
 def test_a_mass_pressed_on_a_linear_contact_settles_on_its_transfer_function() -> None:
     stiffness, damping, press, force = 300.0, 6.0, 4.0, 0.5
-    points = contact_points(
-        stiffness=stiffness,
-        exponent=1.0,
-        damping=damping,
-        damping_exponent=0.0,
-        friction=0,
-    )
+    points = linear_contact(stiffness, damping)
     problem = mass_on_contact(
         points, direction=NORMAL, mass=2.0, preload=press, drive=force
     )

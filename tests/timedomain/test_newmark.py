@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import scipy.integrate
 
-from contact_tables import FRICTION_LAWS, contact_points
+from contact_tables import FRICTION_LAWS, contact_points, linear_contact
 from convergence import observed_order
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
@@ -197,13 +197,7 @@ def test_sliding_with_falling_friction_converges_with_second_order() -> None:
 @pytest.mark.parametrize("method", METHODS)
 def test_linear_contact_rebounds_with_second_order(method: Method) -> None:
     stiffness, damping, duration = 300.0, 1.5, 0.15
-    points = contact_points(
-        stiffness=stiffness,
-        exponent=1.0,
-        damping=damping,
-        damping_exponent=0.0,
-        friction=0,
-    )
+    points = linear_contact(stiffness, damping)
     problem = mass_on_contact(points, direction=NORMAL, mass=MASS)
     decay = damping / (2.0 * MASS)
     pole = -decay + 1j * np.sqrt(stiffness / MASS - decay**2)

@@ -81,6 +81,12 @@ def sliding_block(
     )
 
 
+def rubbing(**changed: float) -> Problem:
+    """Return a block on a spring that rubs, its friction turning within many steps."""
+    values = {"stiffness": 300.0, "damping": 2.0, "drive": 1.5, "load": 1.0}
+    return sliding_block(**{**values, "dynamic": 0.3, "threshold": 0.02, **changed})
+
+
 def cantilever(
     *, elements: int = 3, mass_damping: float = 20.0, stiffness_damping: float = 2e-5
 ) -> Problem:

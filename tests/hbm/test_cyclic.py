@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 import scipy.linalg
 
+from benchmarks.cyclic import around
 from hbm.cyclic import cyclic_response
-from hbm.fourier import to_complex, to_real
 from hbm.options import CurveOptions
 from hbm.periodic_response import periodic_response
 from memory_problems import JENKINS
-from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import (
     COULOMB,
@@ -21,7 +20,6 @@ from microslip_mechanics.contact.points import (
 )
 from microslip_mechanics.cyclic import Coupling, CyclicProblem
 from microslip_mechanics.problem import Probes
-from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
 
@@ -68,14 +66,6 @@ def first_frequency(problem: CyclicProblem) -> float:
         eigvals_only=True,
     )
     return float(np.sqrt(squares[0]))
-
-
-def around(problem: CyclicProblem, response: PeriodicResponse) -> Array:
-    """Return the coefficients of the disk when each sector leads the one before."""
-    waves = to_complex(response.coefficients)
-    orders = np.arange(len(waves))[:, None]
-    turns = [np.exp(1j * problem.lead * j * orders) for j in range(problem.sectors)]
-    return to_real(np.hstack([waves * turn for turn in turns]))
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,8 @@ from scipy.special import mathieu_a
 
 from contact_tables import contact_points
 from convergence import observed_order
-from microslip_mechanics.arrays import Array, ComplexArray
+from linear_poles import in_order, poles
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
@@ -44,24 +45,15 @@ def orbit(*coefficients: float, frequency: float = FREQUENCY) -> PeriodicRespons
     )
 
 
-def in_order(values: ComplexArray) -> ComplexArray:
-    """Return values in an order that rounding does not change."""
-    return values[np.lexsort((values.imag, values.real.round(8)))]
-
-
 @pytest.mark.parametrize("make", [oscillator, cantilever])
 def test_without_contact_multipliers_are_exponentials(make: type) -> None:
     problem: Problem = make()
-    structure, dofs = problem.structure, problem.structure.dofs
-    still = np.zeros((3, dofs))
+    still = np.zeros((3, problem.structure.dofs))
     response = dataclasses.replace(orbit(frequency=210.0), coefficients=still)
 
     found = floquet_multipliers(problem, response, steps=16)
 
-    block = np.hstack([structure.stiffness, structure.damping])
-    below = -np.linalg.solve(structure.mass, block)
-    poles = np.linalg.eigvals(np.vstack([np.eye(dofs, 2 * dofs, dofs), below]))
-    exact = np.exp(poles * TURN / 210.0)
+    exact = np.exp(poles(problem.structure) * TURN / 210.0)
     np.testing.assert_allclose(in_order(found.values), in_order(exact), atol=1e-9)
     assert np.all(np.diff(np.abs(found.values)) < 1e-12)
 
@@ -166,8 +158,8 @@ def test_varying_stiffness_and_damping_are_those_of_a_general_integrator() -> No
 
     accepted = 2e-7 * np.abs(exact).max()
     np.testing.assert_allclose(found, exact, rtol=0.0, atol=accepted)
-    poles = np.linalg.eigvals(exact).astype(complex)
-    away = np.abs(in_order(multipliers) - in_order(poles))
+    eigenvalues = np.linalg.eigvals(exact).astype(complex)
+    away = np.abs(in_order(multipliers) - in_order(eigenvalues))
     assert away.max() < 1e-9
 
 

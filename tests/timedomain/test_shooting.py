@@ -7,7 +7,8 @@ import pytest
 
 from contact_tables import contact_points
 from convergence import observed_order
-from microslip_mechanics.arrays import Array, ComplexArray
+from linear_poles import in_order, poles
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from small_problems import (
     NORMAL,
@@ -19,7 +20,7 @@ from small_problems import (
     last_harmonic,
     mass_on_contact,
     oscillator,
-    sliding_block,
+    rubbing,
 )
 from timedomain.closed_march import ShootingError, closed
 from timedomain.period_map import BLOCK, PeriodMap
@@ -40,12 +41,6 @@ def linear() -> Problem:
     )
 
 
-def rubbing(**changed: float) -> Problem:
-    """Return a block on a spring that rubs, its friction turning within many steps."""
-    values = {"stiffness": 300.0, "damping": 2.0, "drive": 1.5, "load": 1.0}
-    return sliding_block(**{**values, "dynamic": 0.3, "threshold": 0.02, **changed})
-
-
 def pressed() -> Problem:
     """Return a mass on Hunt and Crossley's contact that it never leaves."""
     points = contact_points(stiffness=2e3, exponent=1.5, damping=30.0, friction=0)
@@ -54,33 +49,14 @@ def pressed() -> Problem:
     )
 
 
-def still(problem: Problem) -> Start:
-    return from_rest(problem)
-
-
 def shot(problem: Problem, frequency: float, steps: int) -> PeriodicOrbit:
     """Return the orbit from ``steps`` and twice as many."""
     options = ShootingOptions(steps, ONCE, 2 * steps)
-    return periodic_orbit(problem, frequency, start=still(problem), options=options)
+    return periodic_orbit(problem, frequency, start=from_rest(problem), options=options)
 
 
 def receptance(rate: complex) -> complex:
     return 1.0 / (STIFFNESS + rate * DAMPING + rate**2 * MASS)
-
-
-def poles(problem: Problem) -> ComplexArray:
-    structure, dofs = problem.structure, problem.structure.dofs
-    block = np.hstack([structure.stiffness, structure.damping])
-    below = -np.linalg.solve(structure.mass, block)
-    found: ComplexArray = np.linalg.eigvals(
-        np.vstack([np.eye(dofs, 2 * dofs, dofs), below])
-    )
-    return found
-
-
-def in_order(values: ComplexArray) -> ComplexArray:
-    """Return values in an order that rounding does not change."""
-    return values[np.lexsort((values.imag, values.real.round(8)))]
 
 
 def test_a_linear_orbit_is_that_of_the_trapezoidal_rule_exactly() -> None:
@@ -88,7 +64,7 @@ def test_a_linear_orbit_is_that_of_the_trapezoidal_rule_exactly() -> None:
     problem, steps = linear(), 4 * BLOCK
     carried = PeriodMap.of(problem, FREQUENCY, steps)
 
-    found = closed(carried, carried.state(still(problem)))
+    found = closed(carried, carried.state(from_rest(problem)))
 
     half = np.pi / (FREQUENCY * steps)
     exact = DRIVE * receptance(1j * np.tan(FREQUENCY * half) / half)
@@ -105,9 +81,9 @@ def test_multipliers_of_the_march_are_those_of_the_trapezoidal_rule() -> None:
     problem, steps = cantilever(), 6 * BLOCK
     carried = PeriodMap.of(problem, 210.0, steps)
 
-    found = closed(carried, carried.state(still(problem)))
+    found = closed(carried, carried.state(from_rest(problem)))
 
-    half = 0.5 * poles(problem) * TURN / 210.0 / steps
+    half = 0.5 * poles(problem.structure) * TURN / 210.0 / steps
     exact = ((1.0 + half) / (1.0 - half)) ** steps
     values = np.linalg.eigvals(found.monodromy).astype(complex)
     np.testing.assert_allclose(in_order(values), in_order(exact), atol=1e-9)
@@ -119,13 +95,13 @@ def test_motions_too_fast_for_the_steps_do_not_seem_to_grow() -> None:
     found = periodic_orbit(
         problem,
         frequency,
-        start=still(problem),
+        start=from_rest(problem),
         options=ShootingOptions(steps=64, most=128, error=ONCE),
     )
 
     assert found.multiplier_error.max() > 0.1
     assert np.abs(found.multipliers).max() < 1.0
-    every = poles(problem)
+    every = poles(problem.structure)
     slowest = np.exp(every[np.abs(every.imag).argmin()] * TURN / frequency)
     assert np.abs(found.multipliers - slowest).min() < 1e-4
 
@@ -137,7 +113,7 @@ def test_the_extrapolated_linear_orbit_is_the_exact_one() -> None:
     amplitude = abs(found.coefficients[1, 0] - 1j * found.coefficients[2, 0] - exact)
     assert amplitude < 1e-7 * abs(exact)
     assert found.coefficients[0, 0] == pytest.approx(6.0 / STIFFNESS, rel=1e-12)
-    expected = np.exp(poles(linear()) * TURN / FREQUENCY)
+    expected = np.exp(poles(linear().structure) * TURN / FREQUENCY)
     away = np.abs(in_order(found.multipliers) - in_order(expected))
     assert away.max() < 1e-6
     assert (away <= found.multiplier_error).all()
@@ -164,7 +140,7 @@ def test_the_monodromy_is_the_derivative_of_the_march(
 ) -> None:
     problem: Problem = make()
     carried = PeriodMap.of(problem, frequency, 12 * BLOCK)
-    found = closed(carried, carried.state(still(problem)))
+    found = closed(carried, carried.state(from_rest(problem)))
     # Not on the orbit: there the first and the last tangents are the same.
     state = found.state * 1.1
     monodromy = sensitivity_of(carried, carried.march(state)).monodromy
@@ -244,7 +220,7 @@ def test_steps_are_doubled_until_the_error_is_small() -> None:
         periodic_orbit(
             problem,
             11.0,
-            start=still(problem),
+            start=from_rest(problem),
             options=ShootingOptions(32, error, 8192),
         )
         for error in (1e-2, 1e-4)
@@ -266,7 +242,10 @@ def test_no_more_steps_are_taken_than_are_allowed_or_needed(
     problem = rubbing()  # none of its orbits meets 1e-15
 
     orbit = periodic_orbit(
-        problem, 11.0, start=still(problem), options=ShootingOptions(32, error, most)
+        problem,
+        11.0,
+        start=from_rest(problem),
+        options=ShootingOptions(32, error, most),
     )
 
     assert orbit.steps == taken  # of the finer march: 32 · 2ⁿ
@@ -382,7 +361,7 @@ def test_options_that_cannot_be_met_are_refused(
 @pytest.mark.parametrize("frequency", [0.0, -1.0, np.inf, np.nan])
 def test_a_frequency_must_be_positive_and_finite(frequency: float) -> None:
     with pytest.raises(ValueError, match="positive finite"):
-        periodic_orbit(linear(), frequency, start=still(linear()))
+        periodic_orbit(linear(), frequency, start=from_rest(linear()))
 
 
 def test_steps_are_rounded_up_to_whole_blocks() -> None:
@@ -393,7 +372,7 @@ def test_a_search_without_time_is_given_up() -> None:
     problem, options = linear(), ShootingOptions(seconds=1e-9)
 
     with pytest.raises(ShootingError, match="out of time"):
-        periodic_orbit(problem, FREQUENCY, start=still(problem), options=options)
+        periodic_orbit(problem, FREQUENCY, start=from_rest(problem), options=options)
 
 
 def test_a_search_needs_time() -> None:

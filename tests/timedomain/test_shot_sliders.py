@@ -19,7 +19,7 @@ from timedomain.integrate import MarchOptions, integrate
 from timedomain.period_map import BLOCK, PeriodMap
 from timedomain.period_sensitivity import sensitivity_of
 from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import Start
+from timedomain.start import Start, at_rest
 
 TURN = 2.0 * np.pi
 ALONG, ACROSS, EVERY = np.eye(3)[:, 1:2], np.eye(3)[:, [1, 0]], np.eye(3)[:, [1, 2, 0]]
@@ -33,14 +33,9 @@ CASES = [
 ]
 
 
-def still(problem: Problem) -> Start:
-    rest = np.zeros(problem.structure.dofs)
-    return Start(rest, rest)
-
-
 def orbit(problem: Problem, frequency: float, steps: int = 24 * BLOCK) -> ClosedMarch:
     carried = PeriodMap.of(problem, frequency, steps)
-    return closed(carried, carried.state(still(problem)))
+    return closed(carried, carried.state(at_rest(problem)))
 
 
 def after(carried: PeriodMap, state: Array) -> Array:
@@ -105,7 +100,7 @@ def test_the_largest_multiplier_is_the_decay_of_a_disturbance(
 def test_jenkins_on_its_orbit_has_the_area_of_the_closed_form() -> None:
     problem = masses(JENKINS, ALONG, np.array([0.35]))
     options = ShootingOptions(steps=2048, most=8192)
-    found = periodic_orbit(problem, 6.5, start=still(problem), options=options)
+    found = periodic_orbit(problem, 6.5, start=at_rest(problem), options=options)
 
     assert not found.stuck.any()
     phase = np.linspace(0.0, TURN, 20001)
@@ -171,7 +166,7 @@ def test_a_dwell_ends_on_the_orbit_with_its_traction() -> None:
 
 def test_what_was_found_can_be_marched_on() -> None:
     problem = masses(SHOE, EVERY, np.array([0.3, 0.1, 0.9]))
-    found = periodic_orbit(problem, 6.0, start=still(problem))
+    found = periodic_orbit(problem, 6.0, start=at_rest(problem))
     period = TURN / 6.0
     (block,) = integrate(
         problem,

@@ -18,7 +18,7 @@ from small_problems import (
     cubic_oscillator,
     from_rest,
     mass_on_contact,
-    sliding_block,
+    rubbing,
 )
 from timedomain.closed_march import ShootingError, closed
 from timedomain.comparison import compared
@@ -54,11 +54,6 @@ def repelled() -> Problem:
     return mass_on_contact(
         points, direction=NORMAL, mass=MASS, damping=DAMPING, drive=DRIVE
     )
-
-
-def rubbing(**changed: float) -> Problem:
-    values = {"stiffness": 300.0, "damping": 2.0, "drive": 1.5, "load": 1.0}
-    return sliding_block(**{**values, "dynamic": 0.3, "threshold": 0.02, **changed})
 
 
 def at_rest() -> PeriodicResponse:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import FRICTIONLESS
+from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
@@ -63,16 +63,11 @@ class Orbit:
         )
 
 
-def rubs(problem: Problem) -> bool:
-    """Return whether anything rubs, so that friction's energy is compared."""
-    return bool((problem.interface.points.friction != FRICTIONLESS).any())
-
-
 def orbit_of(problem: Problem, response: PeriodicResponse) -> Orbit:
     """Return the orbit of a periodic response."""
     seen = response.seen(problem.probes.rows)
     energy = response.friction_energy
-    if not rubs(problem):
+    if not rubs(problem.interface.points):
         energy = drive_work(problem, response.seen(problem.loads[1:]))
     return Orbit(samples(seen), energy)
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip.studies.orbit import PHASES, Orbit, rubs
+from microslip.studies.orbit import PHASES, Orbit
+from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from timedomain.checkpoint import at_end
@@ -45,7 +46,7 @@ def march(
     )
     seconds = (time.process_time() - began) / periods
     taken = history.of("friction")
-    if not rubs(problem):
+    if not rubs(problem.interface.points):
         taken = taken + history.of("normal_damping") + history.of("structural_damping")
     # rows end their steps: phase 0 of the last period is the row before its first
     taken = np.append(0.0, taken)

@@ -11,12 +11,13 @@ from functools import partial
 import numpy as np
 
 from hbm.periodic_response import periodic_response, settled_response
-from microslip.studies.orbit import PHASES, Orbit, drive_work, orbit_of, rubs, samples
+from microslip.studies.orbit import PHASES, Orbit, drive_work, orbit_of, samples
 from microslip.studies.precision_case import Case
 from microslip.studies.precision_march import fixed_step
 from microslip.studies.precision_outsiders import Outsiders
 from microslip.studies.precision_result import Result, steady_result
 from microslip_mechanics.contact.memory import beyond_motion
+from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.integrate import MarchOptions
 from timedomain.shooting import ShootingOptions, periodic_orbit
@@ -123,7 +124,7 @@ def shot(case: Case, guess: PeriodicResponse, steps: int) -> Orbit:
     options = ShootingOptions(steps, 1e-15, 2 * steps)
     found = periodic_orbit(case.problem, case.frequency, start=start, options=options)
     energy = found.friction_energy
-    if not rubs(case.problem):
+    if not rubs(case.problem.interface.points):
         seen = found.coefficients @ case.problem.loads[1:].T
         energy = drive_work(case.problem, seen)
     return Orbit(samples(found.coefficients @ case.problem.probes.rows.T), energy)

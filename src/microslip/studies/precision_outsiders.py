@@ -11,11 +11,12 @@ from functools import partial
 import numpy as np
 from scipy.integrate import odeint, solve_ivp
 
-from microslip.studies.orbit import PHASES, Orbit, drive_work, rubs
+from microslip.studies.orbit import PHASES, Orbit, drive_work
 from microslip.studies.precision_case import Case
 from microslip.studies.precision_march import PERIODS, Carried
 from microslip.studies.precision_result import Result, steady_result
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.excitation import Dwell
 from timedomain.first_order import FirstOrder, Flow, Jacobian, first_order
 from timedomain.start import Start
@@ -84,7 +85,11 @@ class Outsiders:
         states = march(times, self.form.state(start), tolerance, watched)
         seconds = (time.process_time() - began) / PERIODS
         last = states[-1 - PHASES :]
-        taken = last[:, -3] if rubs(case.problem) else last[:, -3] + last[:, -2]
+        taken = (
+            last[:, -3]
+            if rubs(case.problem.interface.points)
+            else last[:, -3] + last[:, -2]
+        )
         energy = self.form.system.energy * float(taken[-1] - taken[0])
         moved, _ = self.form.motion(last[:-1])
         orbit = Orbit(moved @ case.problem.probes.rows.T, energy)

@@ -85,19 +85,16 @@ class Transform:
         """Where samples for :meth:`analysis` are written, ``(signals, samples)``."""
         return self._time
 
-    def analysis(self, harmonics: int, signals: int | None = None) -> Array:
-        """Return coefficients of :attr:`samples`, ``(2 harmonics + 1, signals)``.
-
-        Of the first ``signals``, or of all.
-        """
+    def analysis(self, harmonics: int) -> Array:
+        """Return coefficients of :attr:`samples`, ``(2 harmonics + 1, signals)``."""
         samples = self._time.shape[1]
         if multiplies(harmonics, samples):
             _, back = _small_waves(harmonics, samples)
-            coefficients: Array = np.dot(back, self._time[:signals].T)
+            coefficients: Array = np.dot(back, self._time.T)
             return coefficients
         spectrum, forward, _ = self._planned
         forward.execute()
-        kept = spectrum[:signals, : harmonics + 1].T / samples
+        kept = spectrum[:, : harmonics + 1].T / samples
         kept[1:] *= 2.0
         return to_real(kept)
 

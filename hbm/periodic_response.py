@@ -62,7 +62,6 @@ def settled_response(
     guess: PeriodicResponse,
     *,
     error: float,
-    highest: float | None = None,
 ) -> PeriodicResponse:
     """Return the response at the frequency of ``guess`` to a stated error.
 
@@ -75,7 +74,7 @@ def settled_response(
         If the point does not converge.
     """
     frequency = guess.frequency
-    small, still, shapes = dense_problem(problem, rest, highest or RESOLVED * frequency)
+    small, still, shapes = dense_problem(problem, rest, RESOLVED * frequency)
     path = along_frequency(small, still, frequency, frequency)
     around = CurveOptions(frequency, 2.0 * frequency, error=error, stability=False)
     tracer = Tracer(small, path, around)

@@ -14,7 +14,7 @@ def _tr_bdf2() -> Scheme:
     diagonal = first / 2.0
     other = np.array([1.0 - mixed, 3.0 * mixed + 1.0, diagonal]) / 3.0
     rows = [[0.0], [diagonal, diagonal], [mixed, mixed, diagonal]]
-    return runge_kutta("TR-BDF2", rows, 2, other)
+    return runge_kutta("TR-BDF2", rows, other)
 
 
 def _esdirk3() -> Scheme:
@@ -31,7 +31,7 @@ def _esdirk3() -> Scheme:
     )
     other = np.array([0.0, 0.0, 0.5 / (1.0 - third), (0.5 - third) / (1.0 - third)])
     rows = [[0.0], [diagonal, diagonal], row, [*last, diagonal]]
-    return runge_kutta("ESDIRK3", rows, 3, other)
+    return runge_kutta("ESDIRK3", rows, other)
 
 
 TR_BDF2 = _tr_bdf2()

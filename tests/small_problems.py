@@ -9,19 +9,21 @@ import itertools
 import numpy as np
 
 from contact_tables import contact_points
-from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.frame import Beam, Frame, Node
 from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
 from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
 
+STILL = np.zeros((3, 1))
 ROWS = 20
 """stored per period of a dwell"""
 NORMAL, TANGENT = 0, 1
@@ -154,6 +156,17 @@ def _problem(
         preload=np.array([preload]),
         drive=np.array([drive]),
         probes=Probes(("x",), np.eye(1)),
+    )
+
+
+def prescribed(frequency: float, coefficients: Array = STILL) -> PeriodicResponse:
+    """Return a motion of which nothing else is known; of one dof at rest if left out.
+
+    Its frequency is in rad/s; the coefficients have the shape ``(2H + 1, dofs)``.
+    """
+    nothing = np.zeros(0)
+    return PeriodicResponse(
+        frequency, coefficients, nothing, nothing, 0.0, 0.0, 0.0, "converged", 0
     )
 
 

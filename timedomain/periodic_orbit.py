@@ -21,8 +21,6 @@ SHARE = 8
 class PeriodicOrbit:
     """A periodic motion under drive · sin ωt."""
 
-    frequency: float
-    """excitation frequency ω [rad/s]"""
     start: Start
     """of the finer march, at phase 0: marched with its steps, it repeats itself"""
     coefficients: Array
@@ -47,10 +45,6 @@ class PeriodicOrbit:
     """directions in which nothing pins the mean position: it is that of the start"""
     steps: int
     """of the finer march"""
-    iterations: int
-    """of Newton, in both marches"""
-    gap: float
-    """distance of end and beginning of the finer march, over the vibration"""
     left: float
     """change that is left where a march of steps leaps, over the vibration"""
 
@@ -87,7 +81,6 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
     )
     more = (fine.period.friction - coarse.period.friction) / 3.0
     return PeriodicOrbit(
-        fine.map.frequency,
         fine.map.start(fine.state),
         after + moved,
         moved,
@@ -98,8 +91,6 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
         fine.period.friction + more,
         max(coarse.neutral, fine.neutral),
         fine.map.steps,
-        coarse.iterations + fine.iterations,
-        fine.gap,
         max(coarse.left, fine.left),
     )
 

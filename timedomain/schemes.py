@@ -27,8 +27,6 @@ class Scheme:
     """weights of the quadrature of powers, shape (stages + 1,)"""
     other: Array
     """weights of the embedded solution, shape (stages + 1,)"""
-    order: int
-    """of the smaller of both"""
     exact: bool = False
     mean: bool = False
 
@@ -44,12 +42,12 @@ class Scheme:
         return len(self.matrix) - 1
 
 
-def runge_kutta(name: str, rows: list[list[float]], order: int, other: Array) -> Scheme:
+def runge_kutta(name: str, rows: list[list[float]], other: Array) -> Scheme:
     """Return a scheme from its stages' weights, whose powers are integrated exactly."""
     matrix = np.zeros((len(rows), len(rows)))
     for place, row in enumerate(rows):
         matrix[place, : len(row)] = row
-    return Scheme(name, matrix, _quadrature(matrix.sum(axis=1)), other, order)
+    return Scheme(name, matrix, _quadrature(matrix.sum(axis=1)), other)
 
 
 def _quadrature(times: Array) -> Array:
@@ -64,19 +62,18 @@ def _sdirk2() -> Scheme:
     diagonal = 1.0 - math.sqrt(0.5)
     matrix = np.array([[0.0, 0.0, 0.0], [0.0, diagonal, 0.0], [0.0, 1 - diagonal, 0]])
     matrix[2, 2] = diagonal
-    return Scheme("SDIRK2", matrix, matrix[2], np.array([0.0, 1.0, 0.0]), 2)
+    return Scheme("SDIRK2", matrix, matrix[2], np.array([0.0, 1.0, 0.0]))
 
 
 SDIRK2 = _sdirk2()
 TRAPEZOID = runge_kutta(
-    "average acceleration", [[0.0], [0.5, 0.5]], 2, np.array([1.0, 0.0])
+    "average acceleration", [[0.0], [0.5, 0.5]], np.array([1.0, 0.0])
 )
 MEAN_FORCE = Scheme(
     "mean force",
     TRAPEZOID.matrix,
     np.array([0.0, 1.0]),
     TRAPEZOID.other,
-    2,
     exact=True,
     mean=True,
 )

@@ -16,18 +16,15 @@ from microslip.studies.stress_clock import Clock
 from microslip.studies.stress_curve import Drawn
 from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.response import PeriodicResponse
+from small_problems import prescribed
 from timedomain.closed_march import ShootingError
 from timedomain.comparison import Comparison
 
 
 def comparison(difference: float, estimated: float, multiplier: float) -> Comparison:
     """Return one with amplitudes that differ, as harmonic balance estimates or not."""
-    nothing = np.zeros(0)
-    response = PeriodicResponse(
-        1.0, np.zeros((3, 1)), nothing, nothing, 0.0, 0.0, 0.0, "converged", 1
-    )
     return Comparison(
-        response,
+        prescribed(1.0),
         np.array([1.0 - difference]),
         np.array([1.0]),
         estimated / 3.0,
@@ -120,8 +117,8 @@ def test_a_march_judges_where_shooting_finds_nothing(
         ("condition", lambda *_: 1.0),
     ):
         monkeypatch.setattr(stress_witness, name, stand_in)
-    made = comparison(0.0, 1e-3, 0.9).response
-    response = replace(made, error=1e-3, multipliers=np.array([multiplier + 0.0j]))
+    multipliers = np.array([multiplier + 0.0j])
+    response = replace(prescribed(1.0), error=1e-3, multipliers=multipliers)
 
     *_, found = stress_witness.witnessed(NOBODY, drawn_of(response), Clock(60.0))
 
@@ -138,7 +135,7 @@ def test_a_curve_that_stands_in_for_another_agrees_within_one_per_cent_at_best(
     unsure = replace(comparison(difference, 1e-3, 0.9), predicted_error=math.inf)
     monkeypatch.setattr(stress_witness, "compared", lambda *_: unsure)
     monkeypatch.setattr(stress_witness, "condition", lambda *_: 1.0)
-    coarse = drawn_of(replace(unsure.response, error=math.inf), "out of time; instead")
+    coarse = drawn_of(prescribed(1.0), "out of time; instead")
 
     *_, found = stress_witness.witnessed(NOBODY, coarse, Clock(60.0))
 
@@ -151,7 +148,8 @@ def test_orbits_that_are_compared_have_multipliers(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     told = comparison(1e-3, 1e-2, 0.9)
-    known = replace(told.response, multipliers=np.array([1.5 + 0.0j]))
+    bare = prescribed(1.0)
+    known = replace(bare, multipliers=np.array([1.5 + 0.0j]))
     seen: list[PeriodicResponse] = []
 
     def compared(_: object, response: PeriodicResponse) -> Comparison:
@@ -161,7 +159,7 @@ def test_orbits_that_are_compared_have_multipliers(
     monkeypatch.setattr(stress_witness, "with_multipliers", lambda *_: known)
     monkeypatch.setattr(stress_witness, "compared", compared)
     monkeypatch.setattr(stress_witness, "condition", lambda *_: 1.0)
-    drawn = drawn_of(told.response)._replace(options=CurveOptions(1.0, 2.0))
+    drawn = drawn_of(bare)._replace(options=CurveOptions(1.0, 2.0))
 
     *_, found = stress_witness.witnessed(NOBODY, drawn, Clock(60.0))
 

@@ -18,11 +18,13 @@ from microslip.commands.verify_tables import (
 from microslip.studies.curve import Traced
 from microslip.studies.orbits import Verdict
 from microslip.studies.verify import SweepAgreement
-from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.static import StaticState
+from small_problems import prescribed
 from timedomain.comparison import Comparison
 from timedomain.verify import Agreement
+
+UNMOVED = prescribed(4.0 * math.tau)
 
 
 def left(deviation: float, unstable: int) -> Agreement:
@@ -36,13 +38,6 @@ def swept(slower: float, energy: float) -> SweepAgreement:
     """Return a sweep of which friction takes so much, and as much is predicted."""
     none = np.zeros(0)
     return SweepAgreement(slower, energy, energy, 0.1 / slower, 1e-6, none, none)
-
-
-def unmoved() -> PeriodicResponse:
-    """Return a response at 4 Hz in which nothing moves."""
-    none = np.zeros(0)
-    still = np.zeros((3, 1))
-    return PeriodicResponse(4.0 * math.tau, still, none, none, 0.0, 0.0, 0.0, "", 0)
 
 
 def test_marches_from_unstable_orbits_prove_nothing_and_refute_nothing() -> None:
@@ -168,7 +163,7 @@ def test_a_multiplier_that_is_not_known_has_no_number(
     unstable: int, shown: list[str]
 ) -> None:
     multipliers = np.empty(0, complex) if unstable < 0 else np.zeros(1, complex)
-    response = dataclasses.replace(unmoved(), multipliers=multipliers)
+    response = dataclasses.replace(UNMOVED, multipliers=multipliers)
     size = np.array([1e-3])
     made = Comparison(
         response, size, size, 1e-4, 1e-4, np.zeros(2), 0.0, 0.2, 1e-3, 1024
@@ -189,7 +184,7 @@ def test_a_march_that_leaves_its_orbit_ends_verify_with_one(
 
 
 def test_orbits_beyond_both_estimates_end_verify_with_one() -> None:
-    lost = Verdict(unmoved(), "", None, "")
+    lost = Verdict(UNMOVED, "", None, "")
     assert verdict(Findings(("x",), orbits=[lost]), 1e-3) == 0
     found = Findings(("x",), orbits=[lost] * 2)
     assert verdict(found, 1e-3) == 1

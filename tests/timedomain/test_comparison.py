@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from microslip_mechanics.response import PeriodicResponse
+from small_problems import prescribed
 from timedomain.comparison import FLOOR, MULTIPLIER_FLOOR, Comparison
 
 
@@ -15,13 +15,9 @@ def comparison(
     multiplier_error: float = 0.0,
 ) -> Comparison:
     """Return one of a single probe, by harmonic balance and by shooting."""
-    nothing = np.zeros(0)
-    response = PeriodicResponse(
-        1.0, np.zeros((3, 1)), nothing, nothing, 0.0, 0.0, 0.0, "converged", 1
-    )
     predicted, found = (np.array([each]) for each in amplitudes)
     return Comparison(
-        response,
+        prescribed(1.0),
         predicted,
         found,
         *errors,

@@ -1,7 +1,5 @@
 """Floquet multipliers: closed forms, Mathieu's boundaries, Liouville's product."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -20,6 +18,7 @@ from small_problems import (
     cantilever,
     mass_on_contact,
     oscillator,
+    prescribed,
     sliding_block,
 )
 
@@ -31,25 +30,13 @@ STRENGTH = 0.4
 
 def orbit(*coefficients: float, frequency: float = FREQUENCY) -> PeriodicResponse:
     """Return a prescribed motion of one degree of freedom; what drives it is free."""
-    motion = np.array(coefficients)[:, None]
-    return PeriodicResponse(
-        frequency=frequency,
-        coefficients=motion,
-        normal_smallest=np.zeros(1),
-        normal_largest=np.zeros(1),
-        friction_energy=0.0,
-        damping_energy=0.0,
-        residual=0.0,
-        outcome="converged",
-        iterations=0,
-    )
+    return prescribed(frequency, np.array(coefficients)[:, None])
 
 
 @pytest.mark.parametrize("make", [oscillator, cantilever])
 def test_without_contact_multipliers_are_exponentials(make: type) -> None:
     problem: Problem = make()
-    still = np.zeros((3, problem.structure.dofs))
-    response = dataclasses.replace(orbit(frequency=210.0), coefficients=still)
+    response = prescribed(210.0, np.zeros((3, problem.structure.dofs)))
 
     found = floquet_multipliers(problem, response, steps=16)
 

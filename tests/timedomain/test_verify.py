@@ -8,7 +8,7 @@ import pytest
 from convergence import observed_order
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
-from small_problems import oscillator
+from small_problems import oscillator, prescribed
 from timedomain.verify import Agreement, agreement, march_periods
 
 MASS, DAMPING, STIFFNESS, DRIVE = 2.0, 4.0, 300.0, 1.5
@@ -24,18 +24,7 @@ def orbit(factor: float = 1.0) -> PeriodicResponse:
     s = 1j * FREQUENCY
     amplitude = -1j * factor * DRIVE / (STIFFNESS + s * DAMPING + s**2 * MASS)
     coefficients = np.array([[0.0], [amplitude.real], [-amplitude.imag]])
-    nothing = np.zeros(0)
-    return PeriodicResponse(
-        frequency=FREQUENCY,
-        coefficients=coefficients,
-        normal_smallest=nothing,
-        normal_largest=nothing,
-        friction_energy=0.0,
-        damping_energy=0.0,
-        residual=0.0,
-        outcome="converged",
-        iterations=0,
-    )
+    return prescribed(FREQUENCY, coefficients)
 
 
 def compared(

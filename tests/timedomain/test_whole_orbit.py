@@ -1,7 +1,5 @@
 """All steps of a period at once: a saddle's closed form, the march's own orbit."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
@@ -18,6 +16,7 @@ from small_problems import (
     cubic_oscillator,
     from_rest,
     mass_on_contact,
+    prescribed,
     rubbing,
 )
 from timedomain.closed_march import ShootingError, closed
@@ -56,13 +55,6 @@ def repelled() -> Problem:
     )
 
 
-def at_rest() -> PeriodicResponse:
-    nothing = np.zeros(1)
-    return PeriodicResponse(
-        FREQUENCY, np.zeros((3, 1)), nothing, nothing, 0.0, 0.0, 0.0, "converged", 1
-    )
-
-
 def amplitude(motion: Array) -> float:
     """Return the first harmonic of a period, its beginning repeated at its end."""
     return float(2.0 * np.abs(np.fft.rfft(motion[:-1])[1]) / (len(motion) - 1))
@@ -74,7 +66,7 @@ def test_the_orbit_of_a_saddle_converges_to_its_closed_form() -> None:
     exact = DRIVE * abs(receptance)
 
     found = [
-        whole_orbit(PeriodMap.of(problem, FREQUENCY, count), at_rest())
+        whole_orbit(PeriodMap.of(problem, FREQUENCY, count), prescribed(FREQUENCY))
         for count in steps
     ]
 
@@ -95,7 +87,11 @@ def test_the_multiplier_of_a_saddle_is_that_of_its_pole() -> None:
     with pytest.raises(ShootingError):
         periodic_orbit(problem, FREQUENCY, start=from_rest(problem), options=options)
     orbit = periodic_orbit(
-        problem, FREQUENCY, start=from_rest(problem), options=options, near=at_rest()
+        problem,
+        FREQUENCY,
+        start=from_rest(problem),
+        options=options,
+        near=prescribed(FREQUENCY),
     )
 
     growth = np.log(np.abs(orbit.multipliers[0]))
@@ -107,7 +103,7 @@ def test_it_is_the_orbit_that_a_march_closes() -> None:
     carried = PeriodMap.of(problem, FREQUENCY, 256)
 
     marched = closed(carried, carried.state(from_rest(problem)))
-    whole = whole_orbit(carried, at_rest())
+    whole = whole_orbit(carried, prescribed(FREQUENCY))
 
     assert whole.state == pytest.approx(marched.state, rel=1e-7)
     motions = (each.period.displacement for each in (whole, marched))
@@ -119,7 +115,7 @@ def test_it_is_the_orbit_that_a_march_closes() -> None:
 def resonant(problem: Problem, frequency: float, *loud: float) -> PeriodicResponse:
     """Return what harmonic balance finds from a first harmonic."""
     first = np.array([0.0, *loud])[:, None]
-    guess = dataclasses.replace(at_rest(), coefficients=first, frequency=frequency)
+    guess = prescribed(frequency, first)
     rest = static_equilibrium(problem)
     return periodic_response(problem, rest, guess, harmonics=15, samples=256)
 
@@ -142,7 +138,7 @@ def test_of_three_orbits_it_is_the_one_near_by() -> None:
 def test_where_no_orbit_is_near_by_it_is_the_one_that_there_is() -> None:
     problem = rubbing()
     first = np.array([[0.0], [0.0], [-1.0]])
-    far = dataclasses.replace(at_rest(), coefficients=first)
+    far = prescribed(FREQUENCY, first)
 
     orbit = periodic_orbit(problem, FREQUENCY, start=from_rest(problem), near=far)
 
@@ -156,7 +152,7 @@ def test_harmonic_balance_finds_the_same_orbit_on_a_hill() -> None:
         cubic=4e11, damping=DAMPING, stiffness=-REPELLING, drive=DRIVE
     )
     first = np.array([[0.0], [0.0], [-DRIVE / REPELLING]])
-    guess = dataclasses.replace(at_rest(), coefficients=first)
+    guess = prescribed(FREQUENCY, first)
     rest = static_equilibrium(problem)
     balanced = periodic_response(problem, rest, guess, harmonics=15, samples=256)
 

@@ -31,7 +31,7 @@ class Part:
     """why it does not apply to a scene; empty if it does"""
 
 
-def no_rig(scene: Scene) -> str:
+def _no_rig(scene: Scene) -> str:
     """Return why what the rig alone has does not apply to a scene."""
     from microslip.scenes.two_blades.tables import TwoBlades
 
@@ -40,7 +40,7 @@ def no_rig(scene: Scene) -> str:
     return "This section is about the numbers of two blades, which this scene lacks."
 
 
-def one_sector(scene: Scene) -> str:
+def _one_sector(scene: Scene) -> str:
     """Return why one sector of a disk cannot be marched."""
     from microslip.scenes.bladed_disk.tables import BladedDisk
 
@@ -67,7 +67,7 @@ PARTS = (
         ("--envelope",),
         ("--envelope",),
         tells=("  closing error", "  friction, error"),
-        excuse=one_sector,
+        excuse=_one_sector,
     ),
     Part(
         "verify",
@@ -77,7 +77,7 @@ PARTS = (
         ("--slower", "1", "4"),
         ("--frequencies", "3", "--slower"),
         tells=("agree: largest", "DISAGREE"),
-        excuse=one_sector,
+        excuse=_one_sector,
     ),
     Part(
         "precision",
@@ -87,7 +87,7 @@ PARTS = (
         ("--quick",),
         ("--quick",),
         tells=("tightest runs", "too few methods"),
-        excuse=one_sector,
+        excuse=_one_sector,
     ),
     Part(
         "tables",
@@ -98,7 +98,7 @@ PARTS = (
         None,
         files=False,
         scene=False,
-        excuse=no_rig,
+        excuse=_no_rig,
     ),
     Part(
         "stress",
@@ -108,7 +108,7 @@ PARTS = (
         ("--quick",),
         ("--quick",),
         tells=("converge in both",),
-        excuse=no_rig,
+        excuse=_no_rig,
     ),
     Part(
         "explain",

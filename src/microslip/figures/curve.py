@@ -52,11 +52,11 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     drawn = [frequency_response, sliding_velocity]
     if crowd(curve):
         drawn.insert(1, close_up)
-    if (largest(curve.friction_energy), largest(curve.damping_energy)) != (0.0, 0.0):
+    if (_largest(curve.friction_energy), _largest(curve.damping_energy)) != (0.0, 0.0):
         drawn.append(dissipated_energy)
     if _varies(curve):
         drawn.append(normal_forces)
-    if largest(curve.error) > 0.0:
+    if _largest(curve.error) > 0.0:
         drawn.append(estimated_error)
     width = 10.0 if len(drawn) <= WIDE else 14.0
     figure = Figure(figsize=(width, 7.0), layout="constrained")
@@ -77,14 +77,14 @@ def _panels(figure: Figure, rows: tuple[int, ...]) -> Iterator[Axes]:
 
 def _varies(curve: ResponseCurve) -> bool:
     """Return whether normal forces differ in time or from point to point."""
-    if largest(curve.normal_largest) == 0.0:
+    if _largest(curve.normal_largest) == 0.0:
         return False
     low = np.nanmin(curve.normal_smallest, axis=0)
     high = np.nanmax(curve.normal_largest, axis=0)
-    return float((high - low).max()) > STEADY * largest(curve.normal_largest)
+    return float((high - low).max()) > STEADY * _largest(curve.normal_largest)
 
 
-def largest(values: np.ndarray) -> float:
+def _largest(values: np.ndarray) -> float:
     """Return the largest finite size of values, zero if there is none."""
     return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
@@ -157,7 +157,9 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the range of normal forces at the points of each face."""
     styles = itertools.cycle(STYLES)
     for colour, places in zip(COLOURS, faces(curve.contacts).values(), strict=False):
-        pressed = [place for place in places if largest(curve.normal_largest[:, place])]
+        pressed = [
+            place for place in places if _largest(curve.normal_largest[:, place])
+        ]
         for place, style in zip(pressed[: len(STYLES)], styles, strict=False):
             low, high = curve.normal_smallest[:, place], curve.normal_largest[:, place]
             axes.fill_between(

@@ -38,14 +38,14 @@ def envelope_figure(envelope: Envelope, title: str) -> Figure:
     limits = one_range(1e3 * side[:, place] for side in sides for place in blades)
     for colour, place in zip(COLOURS, blades, strict=False):
         axes = next(panels)
-        displacement(axes, envelope, place, colour)
+        _displacement(axes, envelope, place, colour)
         axes.set_ylim(limits)
     for place in slips:
-        relative_velocity(next(panels), envelope, place)
+        _relative_velocity(next(panels), envelope, place)
     for face, places in shrouds.items():
-        normal_force(next(panels), envelope, face, places)
+        _normal_force(next(panels), envelope, face, places)
     if rubs:
-        friction_power(next(panels), envelope)
+        _friction_power(next(panels), envelope)
     energies(next(panels), envelope)
     for axes, place in zip(others, blades, strict=False):
         amplitude(axes, ways, place, envelope.probes[place])
@@ -53,7 +53,7 @@ def envelope_figure(envelope: Envelope, title: str) -> Figure:
     return figure
 
 
-def displacement(axes: Axes, envelope: Envelope, place: int, colour: str) -> None:
+def _displacement(axes: Axes, envelope: Envelope, place: int, colour: str) -> None:
     """Draw the range of one probe."""
     low, high = envelope.lowest[:, place], envelope.highest[:, place]
     axes.fill_between(envelope.time, 1e3 * low, 1e3 * high, color=colour, linewidth=0)
@@ -61,7 +61,7 @@ def displacement(axes: Axes, envelope: Envelope, place: int, colour: str) -> Non
     framed(axes, x=TIME, y="displacement [mm]", title=f"Displacement, {name}")
 
 
-def relative_velocity(axes: Axes, envelope: Envelope, place: int) -> None:
+def _relative_velocity(axes: Axes, envelope: Envelope, place: int) -> None:
     """Draw the largest velocity of one relative motion."""
     axes.plot(envelope.time, envelope.fastest[:, place], color="0.25", linewidth=WIDTH)
     name = readable(envelope.probes[place])
@@ -69,7 +69,7 @@ def relative_velocity(axes: Axes, envelope: Envelope, place: int) -> None:
     framed(axes, x=TIME, y="velocity [m/s]", title=title)
 
 
-def normal_force(axes: Axes, envelope: Envelope, face: str, places: list[int]) -> None:
+def _normal_force(axes: Axes, envelope: Envelope, face: str, places: list[int]) -> None:
     """Draw the range of normal forces at the points of one face."""
     for colour, place in zip(COLOURS, places, strict=False):
         axes.fill_between(
@@ -86,7 +86,7 @@ def normal_force(axes: Axes, envelope: Envelope, face: str, places: list[int]) -
     legend_beside(axes, envelope.normal_largest[:, places])
 
 
-def friction_power(axes: Axes, envelope: Envelope) -> None:
+def _friction_power(axes: Axes, envelope: Envelope) -> None:
     """Draw the mean power that friction develops in each cycle, negative as in rows."""
     spent = np.diff(envelope.of("friction")) / np.diff(envelope.time)
     axes.plot(envelope.time[1:], -spent, color=COLOURS[1], linewidth=WIDTH)

@@ -47,7 +47,7 @@ class LabelledMatrix:
         repeated = [name for name, often in Counter(self.names).items() if often > 1]
         if repeated:
             raise ValueError(f"{repeated[0]} is the name of several rows: name each")
-        object.__setattr__(self, "matrix", completed(self.matrix))
+        object.__setattr__(self, "matrix", _completed(self.matrix))
 
     def ordered(self, names: Sequence[str]) -> LabelledMatrix:
         """Return the matrix over other names in their order; rows not there are zero.
@@ -73,7 +73,7 @@ class LabelledMatrix:
         return LabelledMatrix(matrix, tuple(names))
 
 
-def completed(matrix: Matrix) -> Matrix:
+def _completed(matrix: Matrix) -> Matrix:
     """Return a matrix as it is; with its other half where only one half is given.
 
     Of the given half some entries may stand above the diagonal and others below.

@@ -15,10 +15,14 @@ BAD = ("nan", "inf", "-inf", "1e999", "1e308")
 
 def bad_values() -> list[Case]:
     """Return, for each table, every number of it replaced by each bad value."""
-    tables = {"sweep": numbers(Sweep), "curve": numbers(Curve), "march": numbers(March)}
+    tables = {
+        "sweep": _numbers(Sweep),
+        "curve": _numbers(Curve),
+        "march": _numbers(March),
+    }
     for table, hint in typing.get_type_hints(TwoBlades).items():
         kinds = [each for each in _kinds(hint) if dataclasses.is_dataclass(each)]
-        tables[table] = [key for kind in kinds for key in numbers(kind)]
+        tables[table] = [key for kind in kinds for key in _numbers(kind)]
     return [
         Case(bad, table, (), refusals=tuple((f"{table}.{key}={bad}",) for key in keys))
         for bad in BAD
@@ -27,7 +31,7 @@ def bad_values() -> list[Case]:
     ]
 
 
-def numbers(table: typing.Any) -> list[str]:  # noqa: ANN401  (a dataclass)
+def _numbers(table: typing.Any) -> list[str]:  # noqa: ANN401  (a dataclass)
     """Return the names of the numbers, and lists of them, in a table of scenes."""
     hints = typing.get_type_hints(table)
     return [

@@ -61,7 +61,7 @@ def unpruned_interface(rig: TwoBlades, frame: Frame, push: Array) -> Interface:
     return _seen(rig, frame, push, _all)
 
 
-def faces(rig: TwoBlades, push: Array) -> tuple[Face, Face]:
+def _faces(rig: TwoBlades, push: Array) -> tuple[Face, Face]:
     """Return face B (excited blade) and face A (follower) under a static force."""
     element, angles = rig.friction_element, (
         rig.contact.angle_excited,
@@ -96,7 +96,7 @@ def _seen(
 ) -> Interface:
     """Return the interface of both faces; ``points`` gives place and law of each."""
     rows, names, laws = [], [], []
-    for face in faces(rig, push):
+    for face in _faces(rig, push):
         for number, (place, law) in enumerate(points(rig, face), start=1):
             element = frame.motion(layout.ELEMENT, place)
             end = frame.motion(layout.tip(rig, face.blade), place)

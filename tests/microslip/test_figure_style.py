@@ -3,7 +3,8 @@
 import pytest
 from matplotlib.figure import Figure
 
-from microslip.figures.style import called, headline, plain_logarithmic
+from microslip.figures.names import called
+from microslip.figures.style import headline, plain_logarithmic
 
 
 @pytest.mark.parametrize(

@@ -189,6 +189,6 @@ def _watched(probes: Sequence[str]) -> list[int]:
 
     A relative motion is small beside the two that it is the difference of.
     """
-    from microslip.figures.style import absolute
+    from microslip.figures.names import absolute
 
     return absolute(probes) or list(range(len(probes)))

@@ -11,14 +11,8 @@ from matplotlib.figure import Figure
 
 from microslip.figures.abscissa import FREQUENCY, abscissa, parted
 from microslip.figures.amplitude import frequency_response
-from microslip.figures.style import (
-    COLOURS,
-    WIDTH,
-    absolute,
-    framed,
-    headline,
-    readable,
-)
+from microslip.figures.names import absolute, readable
+from microslip.figures.style import COLOURS, WIDTH, framed, headline
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response_curve import ResponseCurve
 

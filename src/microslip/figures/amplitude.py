@@ -9,14 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.abscissa import abscissa, abscissa_name
-from microslip.figures.style import (
-    COLOURS,
-    STYLES,
-    WIDTH,
-    absolute,
-    framed,
-    readable,
-)
+from microslip.figures.names import absolute, readable
+from microslip.figures.style import COLOURS, STYLES, WIDTH, framed
 from microslip_mechanics.response_curve import ResponseCurve
 
 MARKERS = {

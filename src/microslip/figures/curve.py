@@ -18,17 +18,14 @@ from microslip.figures.amplitude import (
     greatest,
     some,
 )
+from microslip.figures.names import absolute, faces, readable, relative
 from microslip.figures.style import (
     COLOURS,
     STYLES,
     WIDTH,
-    absolute,
-    faces,
     framed,
     headline,
     legend_above,
-    readable,
-    relative,
 )
 from microslip_mechanics.response_curve import ResponseCurve
 

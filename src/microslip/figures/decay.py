@@ -6,14 +6,8 @@ import math
 
 from matplotlib.figure import Figure
 
-from microslip.figures.style import (
-    COLOURS,
-    WIDTH,
-    framed,
-    headline,
-    plain_logarithmic,
-    readable,
-)
+from microslip.figures.names import readable
+from microslip.figures.style import COLOURS, WIDTH, framed, headline, plain_logarithmic
 from microslip_mechanics.ring_down import RingDown
 from microslip_mechanics.time_history import TimeHistory
 

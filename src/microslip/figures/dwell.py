@@ -9,16 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from microslip.figures.style import (
-    COLOURS,
-    STYLES,
-    WIDTH,
-    absolute,
-    framed,
-    headline,
-    readable,
-    relative,
-)
+from microslip.figures.names import absolute, readable, relative
+from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip.figures.sweep import displacement, energies
 from microslip_mechanics.time_history import TimeHistory
 

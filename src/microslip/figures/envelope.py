@@ -6,19 +6,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from microslip.figures.names import called, faces, foremost, readable, relative
 from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
-    called,
-    faces,
-    foremost,
     framed,
     headline,
     legend_beside,
     one_range,
-    readable,
-    relative,
 )
 from microslip.figures.sweep import TIME, energies, grid_of, pressed
 from microslip_mechanics.envelope import Envelope

@@ -8,14 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from microslip.figures.style import (
-    COLOURS,
-    STYLES,
-    WIDTH,
-    framed,
-    legend_above,
-    readable,
-)
+from microslip.figures.names import readable
+from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, legend_above
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import TimeHistory

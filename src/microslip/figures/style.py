@@ -28,6 +28,16 @@ WIDTHS, CROWD = 200, 20
 """of lines in an axis, about, and rows in one from which on its lines are an area"""
 STYLES = ("-", "--", ":", "-.")
 """lines that lie on one another stay apart"""
+FLAT = 1e-6
+"""of its data, that an axis shows at least: less is rounding"""
+LETTERS = 11.0
+"""of a title in an inch"""
+LONG = 150.0
+"""end of a logarithmic axis over its beginning, from which on it has powers of ten"""
+FEW = 4
+"""names of a legend up to which two columns are enough"""
+EARLY, HIGH = 0.4, 0.5
+"""share of the rows, and of the height, that a legend at the upper left may cover"""
 
 
 def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
@@ -40,10 +50,6 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
 
 
-FLAT = 1e-6
-"""of its data, that an axis shows at least: less is rounding"""
-
-
 def widened(axes: Axes, error: float = 0.0) -> None:
     """Widen a vertical axis that would show nothing but the ``error`` of its data."""
     low, high = axes.dataLim.intervaly
@@ -53,12 +59,6 @@ def widened(axes: Axes, error: float = 0.0) -> None:
     if high - low < least:
         middle = 0.5 * (low + high)
         axes.set_ylim(middle - 0.55 * least, middle + 0.55 * least)
-
-
-LETTERS = 11.0
-"""of a title in an inch"""
-LONG = 150.0
-"""end of a logarithmic axis over its beginning, from which on it has powers of ten"""
 
 
 def plain_logarithmic(axis: Axis) -> None:
@@ -75,12 +75,6 @@ def plain_logarithmic(axis: Axis) -> None:
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
-
-
-FEW = 4
-"""names of a legend up to which two columns are enough"""
-EARLY, HIGH = 0.4, 0.5
-"""share of the rows, and of the height, that a legend at the upper left may cover"""
 
 
 def legend_beside(axes: Axes, columns: Array) -> None:
@@ -149,44 +143,6 @@ def alike(columns: Array, places: Sequence[int]) -> list[list[int]]:
     return groups
 
 
-def absolute(probes: Iterable[str]) -> list[int]:
-    """Return the places of the probes that are no relative motion."""
-    return [place for place, name in enumerate(probes) if "-to-" not in name]
-
-
-def foremost(probes: Sequence[str], sizes: Array) -> list[int]:
-    """Return the places of the motions that have panels of their own, in their order.
-
-    Beside relative motions, which have theirs too, they are the first two, else the
-    three of largest ``sizes``, shape (probes,).
-    """
-    places = absolute(probes)
-    if len(places) < len(probes):
-        return places[:2]
-    return sorted(sorted(places, key=lambda place: -sizes[place])[:3])
-
-
-def relative(probes: Iterable[str]) -> list[int]:
-    """Return the places of the probes that are relative motions, "this-to-that"."""
-    return [place for place, name in enumerate(probes) if "-to-" in name]
-
-
-def faces(contacts: Iterable[str]) -> dict[str, list[int]]:
-    """Return the places of the contact points of each face, "B1" being on face B."""
-    found: dict[str, list[int]] = {}
-    for place, name in enumerate(contacts):
-        found.setdefault(name.rstrip("0123456789").rstrip("-"), []).append(place)
-    return found
-
-
-def called(face: str, contacts: Sequence[str]) -> str:
-    """Return what titles call the points of a face, or of the element of that name."""
-    if len(face) == 1:
-        return f"face {face}"
-    name = contacts[0] if len(contacts) == 1 else face
-    return name if name.startswith("element") else f"element {name}"
-
-
 def headline(figure: Figure, title: str) -> None:
     """Write the title of a picture, over as many lines as it takes."""
     letters = int(LETTERS * figure.get_figwidth())
@@ -196,8 +152,3 @@ def headline(figure: Figure, title: str) -> None:
 def literal(text: str) -> str:
     """Return a text in which dollars are dollars, not formulas."""
     return text.replace("$", r"\$")
-
-
-def readable(name: str) -> str:
-    """Return a probe's name as words."""
-    return name.replace("-", " ")

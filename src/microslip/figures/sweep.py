@@ -8,21 +8,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from microslip.figures.names import called, faces, foremost, readable, relative
 from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
     alike,
-    called,
-    faces,
-    foremost,
     framed,
     headline,
     legend_above,
     legend_beside,
     one_range,
-    readable,
-    relative,
 )
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.envelope import Envelope

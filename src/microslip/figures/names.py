@@ -1,0 +1,50 @@
+"""Which probes and contacts a picture shows, and what it calls them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from microslip_mechanics.arrays import Array
+
+
+def absolute(probes: Iterable[str]) -> list[int]:
+    """Return the places of the probes that are no relative motion."""
+    return [place for place, name in enumerate(probes) if "-to-" not in name]
+
+
+def foremost(probes: Sequence[str], sizes: Array) -> list[int]:
+    """Return the places of the motions that have panels of their own, in their order.
+
+    Beside relative motions, which have theirs too, they are the first two, else the
+    three of largest ``sizes``, shape (probes,).
+    """
+    places = absolute(probes)
+    if len(places) < len(probes):
+        return places[:2]
+    return sorted(sorted(places, key=lambda place: -sizes[place])[:3])
+
+
+def relative(probes: Iterable[str]) -> list[int]:
+    """Return the places of the probes that are relative motions, "this-to-that"."""
+    return [place for place, name in enumerate(probes) if "-to-" in name]
+
+
+def faces(contacts: Iterable[str]) -> dict[str, list[int]]:
+    """Return the places of the contact points of each face, "B1" being on face B."""
+    found: dict[str, list[int]] = {}
+    for place, name in enumerate(contacts):
+        found.setdefault(name.rstrip("0123456789").rstrip("-"), []).append(place)
+    return found
+
+
+def called(face: str, contacts: Sequence[str]) -> str:
+    """Return what titles call the points of a face, or of the element of that name."""
+    if len(face) == 1:
+        return f"face {face}"
+    name = contacts[0] if len(contacts) == 1 else face
+    return name if name.startswith("element") else f"element {name}"
+
+
+def readable(name: str) -> str:
+    """Return a probe's name as words."""
+    return name.replace("-", " ")

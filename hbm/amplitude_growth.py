@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hbm.newton import Correction
-from hbm.resolution import PathResolution
+from hbm.path_resolution import PathResolution
 from microslip_mechanics.arrays import Array
 
 FLAT = 1e-13

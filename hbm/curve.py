@@ -15,8 +15,8 @@ from hbm.events import Events
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
 from hbm.newton import Correction
+from hbm.path_resolution import PathResolution
 from hbm.residual import HarmonicBalance
-from hbm.resolution import PathResolution
 from hbm.settled import Settled
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.points import ONE_SIDED

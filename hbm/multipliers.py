@@ -13,7 +13,7 @@ import numpy as np
 
 from hbm.fourier import FourierBasis
 from hbm.newton import Outcome, Small, correct
-from hbm.resolution import PathResolution
+from hbm.path_resolution import PathResolution
 from hbm.stability import SmallMotions
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray

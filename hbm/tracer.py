@@ -18,8 +18,8 @@ from hbm.memory import marched
 from hbm.multipliers import Multipliers
 from hbm.options import CurveOptions
 from hbm.path import Path
+from hbm.path_resolution import PathResolution
 from hbm.pieces import Pieces
-from hbm.resolution import PathResolution
 from hbm.smoothness import smoothest
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.memory import remembers

@@ -10,7 +10,7 @@ from hbm.continuation import correct_at
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
-from hbm.resolution import PathResolution
+from hbm.path_resolution import PathResolution
 from hbm.solve import frequency_response
 from hbm.step_control import StepControl
 from honesty import VARIANTS, block, errors

@@ -11,7 +11,7 @@ import pytest
 from hbm.fourier import FourierBasis
 from hbm.newton import Outcome, correct
 from hbm.path import along_frequency
-from hbm.resolution import PathResolution
+from hbm.path_resolution import PathResolution
 from memory_problems import CONTACTS, masses
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import PointLaw

@@ -9,8 +9,8 @@ import hbm.resolution
 from hbm.fourier import FourierBasis
 from hbm.newton import correct
 from hbm.path import along_frequency
+from hbm.path_resolution import PathResolution
 from hbm.refined import Refined
-from hbm.resolution import PathResolution
 from microslip_mechanics.static import static_equilibrium
 from small_problems import oscillator
 

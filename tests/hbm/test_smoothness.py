@@ -15,7 +15,8 @@ from hbm.fourier import FourierBasis
 from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
-from hbm.resolution import Estimate, PathResolution, Resolution
+from hbm.path_resolution import PathResolution
+from hbm.resolution import Estimate, Resolution
 from hbm.resolution_choice import SHARPER
 from hbm.smoothness import FALL, smoothest
 from hbm.solve import frequency_response

@@ -9,7 +9,7 @@ from contact_tables import FRICTION_LAWS
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
 from hbm.path import along_frequency
-from hbm.resolution import PathResolution
+from hbm.path_resolution import PathResolution
 from hbm.stability import small_motions
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray

@@ -12,13 +12,13 @@ of second order in the steps; T₁ follows from motion and T₀ as along the orb
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.slide_events import SampledOrbit, SlidOrbit, slid_orbit
+from hbm.mean_motions import MeanMotions, free_steps, mean_motions, stacked, turned
+from hbm.sampled_orbit import SampledOrbit
+from hbm.slide_events import SlidOrbit, slid_orbit
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import rubs
 from microslip_mechanics.contact.sliders import Sliders
@@ -28,8 +28,6 @@ STEPS = 256
 """of a period, without those that events add"""
 LEAST = 0.05
 """share of the period in which a slider is taken to stick in the mean, at least"""
-SKEW = 1e8
-"""condition of the eigenvectors of A from which they are no basis"""
 
 
 def recalled_multipliers(
@@ -68,7 +66,7 @@ def recalled_multipliers(
     share = np.diff(slid.phase) / (2.0 * np.pi)
     held = np.tensordot(share, elastic, axes=1) + _springs(sliders, slid, share)
     drag = np.tensordot(share, viscous, axes=1)
-    motions = _motions(matrices, held, drag, frequency)
+    motions = mean_motions(matrices, held, drag, frequency)
     if motions is None:
         return np.empty(0, complex)
     changes = _Changes(elastic - held, viscous - drag)
@@ -92,56 +90,6 @@ def _springs(sliders: Sliders, slid: SlidOrbit, share: Array) -> Array:
 
 
 @dataclass(frozen=True, slots=True)
-class _Motions:
-    """Motions z of the structure on mean tangents, x = (u, u̇/ω) = Re(V z)."""
-
-    rates: ComplexArray
-    """[1/s], shape (motions,); of a pair of conjugates the first"""
-    shapes: ComplexArray
-    """V, shape (2 coordinates, motions)"""
-    parts: ComplexArray
-    """z of each x, shape (motions, 2 coordinates)"""
-    push: ComplexArray
-    """ż of a contact force on y, shape (motions, rank)"""
-    seen: ComplexArray
-    """(y, ẏ/ω) of z, shape (2 rank, motions)"""
-
-
-def _motions(
-    matrices: tuple[Array, Array, Array], elastic: Array, viscous: Array, scale: float
-) -> _Motions | None:
-    """Return the motions; None if they are no basis."""
-    mass, damping, stiffness = matrices
-    size, rank = len(mass), len(elastic)
-    damping, stiffness = damping.copy(), stiffness.copy()
-    damping[:rank, :rank] += viscous
-    stiffness[:rank, :rank] += elastic
-    inverse = np.linalg.inv(mass)
-    none = np.zeros_like(mass)
-    system = np.block(
-        [
-            [none, scale * np.eye(size)],
-            [-inverse @ stiffness / scale, -inverse @ damping],
-        ]
-    )
-    values, shapes = np.linalg.eig(system)
-    if not np.linalg.cond(shapes) < SKEW:
-        return None
-    kept = values.imag >= 0.0
-    parts = np.linalg.inv(shapes.astype(complex))[kept]
-    shapes = shapes[:, kept] * np.where(values[kept].imag > 0.0, 2.0, 1.0)
-    places = np.append(np.arange(rank), size + np.arange(rank))
-    push = parts[:, size:] @ inverse[:, :rank] / scale
-    return _Motions(
-        values[kept].astype(complex),
-        shapes.astype(complex),
-        parts,
-        push,
-        shapes[places],
-    )
-
-
-@dataclass(frozen=True, slots=True)
 class _Changes:
     """Tangents during each step, less their means, each (steps, rank, rank)."""
 
@@ -150,7 +98,7 @@ class _Changes:
 
 
 def _carried(
-    motions: _Motions,
+    motions: MeanMotions,
     sliders: Sliders,
     slid: SlidOrbit,
     changes: _Changes,
@@ -158,13 +106,13 @@ def _carried(
 ) -> Array:
     """Return the map of (x, T) over the period, shape (states, states)."""
     lengths = np.diff(slid.phase)
-    step = _steps(motions, lengths, frequency)
+    step = free_steps(motions, lengths, frequency)
     past, ahead = _answers(sliders, slid, changes, lengths / frequency)
     rank, (count, size) = motions.push.shape[1], motions.parts.shape
     inverse = np.linalg.inv(np.eye(rank) + ahead @ step.felt[step.kind])
     slides, pull = slid.slides, 0.5 * sliders.along.T
     # real parts above imaginary ones: products with real matrices are cheaper
-    seen, shapes = _real(motions.seen), _real(motions.shapes)
+    seen, shapes = stacked(motions.seen), stacked(motions.shapes)
     whole = np.eye(size + sliders.count)
     state: Array = np.vstack([motions.parts.real, motions.parts.imag]) @ whole[:size]
     held: Array = whole[size:]
@@ -172,7 +120,7 @@ def _carried(
     for place, kind in enumerate(step.kind):
         memory = slides.traction_past[place + 1] @ held
         memory -= slides.past[place + 1] @ watched
-        state = _turned(step.turn[kind], state[:count], state[count:])
+        state = turned(step.turn[kind], state[:count], state[count:])
         moved = seen @ state
         known = past[place] @ watched[:rank] + pull @ (held + memory)
         force = inverse[place] @ (known + ahead[place] @ moved)
@@ -180,46 +128,6 @@ def _carried(
         watched = moved - step.felt[kind] @ force
         held = memory + slides.motion[place + 1] @ watched
     return np.vstack([shapes @ state, held])
-
-
-class _Steps(NamedTuple):
-    """What steps of several lengths do to the motions without changes of contacts."""
-
-    turn: ComplexArray
-    """exp(λ h), shape (lengths, motions)"""
-    kicks: Array
-    """z of a constant force on y, real parts above, (lengths, 2 motions, rank)"""
-    felt: Array
-    """(y, ẏ/ω) of that force, shape (lengths, 2 rank, rank)"""
-    kind: NDArray[np.int64]
-    """which length each step has, shape (steps,)"""
-
-
-def _steps(motions: _Motions, lengths: Array, frequency: float) -> _Steps:
-    """Return the steps; ``lengths`` are in phase [rad], shape (steps,)."""
-    # equal ones differ by rounding
-    sizes, kind = np.unique(lengths.round(13), return_inverse=True)
-    turn = np.exp(np.multiply.outer(sizes / frequency, motions.rates))
-    # ∫ exp(λ s) ds over a step; λ may be zero
-    safe = np.where(motions.rates == 0.0, 1.0, motions.rates)
-    still = (sizes / frequency)[:, None]
-    kick = np.where(motions.rates == 0.0, still, (turn - 1.0) / safe)
-    kicks = kick[:, :, None] * motions.push
-    parts = np.concatenate([kicks.real, kicks.imag], axis=1)
-    return _Steps(turn, parts, _real(motions.seen) @ parts, kind.astype(np.int64))
-
-
-def _real(matrix: ComplexArray) -> Array:
-    """Return what takes real parts above imaginary ones to the product's real part."""
-    return np.hstack([matrix.real, -matrix.imag])
-
-
-def _turned(turn: ComplexArray, above: Array, below: Array) -> Array:
-    """Return motions after a free step, real parts above imaginary ones."""
-    cosine, sine = turn.real[:, None], turn.imag[:, None]
-    return np.concatenate(
-        [cosine * above - sine * below, sine * above + cosine * below]
-    )
 
 
 def _answers(

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import decimal
+from microslip.commands.modes_tables import mode_table
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -18,10 +18,6 @@ if TYPE_CHECKING:
     from microslip.figures.modes import ModeLine
     from microslip.studies.modes import FollowedMode
 
-HEADER = (
-    "amplitude  frequency  damping   estimated error of\n"
-    "     [mm]       [Hz]      [%]  frequency    damping"
-)
 COLUMNS = (
     "mode_hz",
     "amplitude_m",
@@ -107,7 +103,7 @@ def _run(options: argparse.Namespace) -> int:
         for mode in followed(problem, frequencies, chosen, watch):
             modes.append(mode)
             ending = mode.ending if ending == "complete" else ending
-            print("\n".join(_lines(mode, state)), flush=True)
+            print("\n".join(mode_table(mode, state)), flush=True)
     except KeyboardInterrupt:
         ending = "interrupted"
         if not any(mode.points for mode in modes):
@@ -138,38 +134,6 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
             f"--amplitudes {smallest:g} {largest:g}: give the smaller one first"
         )
     return ModeOptions(1e-3 * smallest, 1e-3 * largest, harmonics=options.harmonics)
-
-
-def _lines(mode: FollowedMode, state: str) -> list[str]:
-    """Return the table of one mode; ``state`` is that of its small motions."""
-    from statistics import median
-
-    from microslip.studies.modes import shown_points
-
-    hertz = mode.linear.frequency / math.tau
-    rows = [
-        f"mode at {hertz:.4f} Hz, damping ratio {100.0 * mode.linear.damping:.4f} %, "
-        f"{state}",
-    ]
-    if not mode.points:
-        return [*rows, f"it has no first point: {mode.ending}"]
-    rows.append(HEADER)
-    for point in shown_points(mode):
-        note = "  most damped" if point is mode.most_damped else ""
-        amplitude = 1e3 * point.amplitude
-        rows.append(
-            f"{decimal(amplitude, amplitude, 5, 9)} {point.frequency / math.tau:10.4f} "
-            f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
-            f"{point.damping_error:10.1e}{note}"
-        )
-    errors = [point.damping_error for point in mode.points]
-    rows.append(
-        f"{len(mode.points)} points with {mode.points[-1].harmonics} harmonics and "
-        f"{mode.points[-1].samples} samples; estimated error of the damping ratio: "
-        f"{100.0 * median(errors):.2g} % in the median, above 5 % at "
-        f"{sum(error > 0.05 for error in errors)} points"
-    )
-    return rows
 
 
 def _keep(

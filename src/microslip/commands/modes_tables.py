@@ -1,0 +1,48 @@
+"""What a mode says of itself on the terminal."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from microslip.commands.columns import decimal
+
+if TYPE_CHECKING:
+    from microslip.studies.modes import FollowedMode
+
+HEADER = (
+    "amplitude  frequency  damping   estimated error of\n"
+    "     [mm]       [Hz]      [%]  frequency    damping"
+)
+
+
+def mode_table(mode: FollowedMode, state: str) -> list[str]:
+    """Return the table of one mode; ``state`` is that of its small motions."""
+    from statistics import median
+
+    from microslip.studies.modes import shown_points
+
+    hertz = mode.linear.frequency / math.tau
+    rows = [
+        f"mode at {hertz:.4f} Hz, damping ratio {100.0 * mode.linear.damping:.4f} %, "
+        f"{state}",
+    ]
+    if not mode.points:
+        return [*rows, f"it has no first point: {mode.ending}"]
+    rows.append(HEADER)
+    for point in shown_points(mode):
+        note = "  most damped" if point is mode.most_damped else ""
+        amplitude = 1e3 * point.amplitude
+        rows.append(
+            f"{decimal(amplitude, amplitude, 5, 9)} {point.frequency / math.tau:10.4f} "
+            f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
+            f"{point.damping_error:10.1e}{note}"
+        )
+    errors = [point.damping_error for point in mode.points]
+    rows.append(
+        f"{len(mode.points)} points with {mode.points[-1].harmonics} harmonics and "
+        f"{mode.points[-1].samples} samples; estimated error of the damping ratio: "
+        f"{100.0 * median(errors):.2g} % in the median, above 5 % at "
+        f"{sum(error > 0.05 for error in errors)} points"
+    )
+    return rows

@@ -8,12 +8,12 @@ derivative on its own side, and leads away against what continuity would have.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from hbm.arc_step import tangent
+from hbm.arc_step import Metric, tangent
 from hbm.newton import Correction, Outcome, SingularError, System, correct
 from microslip_mechanics.arrays import Array
 
@@ -28,7 +28,6 @@ ITERATIONS = 8
 """of Newton's for such a step, which is nearly straight"""
 STRAIGHT = 0.99
 """cosine of the angle between two ways, from which on they are one"""
-Metric: TypeAlias = Callable[[Array], Array]
 
 
 class Turned(NamedTuple):

@@ -36,6 +36,8 @@ ALIKE = 0.03
 """relative difference up to which two responses are one"""
 SEEKING, FOLLOWING = 2e3, 1e5
 """evaluations for a curve of drives, and for a detached curve"""
+MARKS = ("restart", "detached", "branch")
+"""of responses at which a curve begins anew"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,10 +184,6 @@ class Search:
         cosine, sine = response.coefficients[1:3] @ self.problem.probes.rows.T
         amplitudes: ComplexArray = cosine - 1j * sine
         return amplitudes
-
-
-MARKS = ("restart", "detached", "branch")
-"""of responses at which a curve begins anew"""
 
 
 def _between(before: PeriodicResponse, after: PeriodicResponse) -> bool:

@@ -31,8 +31,8 @@ class Variable:
     shape: tuple[int, ...]
     """without the record's"""
     attributes: dict[str, Value]
-    characters: bool = False
-    grows: bool = False
+    characters: bool
+    grows: bool
 
     @property
     def size(self) -> int:
@@ -82,8 +82,8 @@ class RecordFile:
         """Write rows behind so many records; return how many there are then.
 
         ``rows`` are the columns of the growing variables, in their order, each of shape
-        ``(records, numbers)``; ``states``
-        replaces the last of the others before the new records count.
+        ``(records, numbers)``; ``states`` replaces the last of the others before the
+        new records count.
 
         Raises
         ------

@@ -5,9 +5,6 @@ import functools
 import numpy as np
 import pytest
 
-from hbm.options import CurveOptions
-from hbm.solve import frequency_response
-from microslip.studies.curve import Traced
 from microslip.studies.jump_folds import Fold, folds_of
 from microslip.studies.jumps import Jump, extrapolated, jumps
 from microslip.studies.verify import StudyError
@@ -15,25 +12,15 @@ from microslip_mechanics.element import Element
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response_curve import response_curve
-from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from rigs import rig_problem
 from small_problems import cubic_oscillator
+from traced_curves import traced
 
 TURN = 2.0 * np.pi
 RATES = [2e-4, 1e-4, 5e-5, 2.5e-5, 1.25e-5]
 """of the sweeps [Hz/s]: the slowest passes three thousand periods"""
 RELATIVE = (2.2e-5, 1.1e-5, 5.5e-6, 2.75e-6)
-
-
-def traced(
-    problem: Problem, start: float, end: float, *, harmonics: int | None = None
-) -> Traced:
-    rest = static_equilibrium(problem)
-    options = CurveOptions(start, end, harmonics=harmonics)
-    found = tuple(frequency_response(problem, rest, options))
-    return Traced(response_curve(problem, found, "complete"), found, rest)
 
 
 @functools.cache

@@ -9,8 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from hbm.options import CurveOptions
-from hbm.solve import frequency_response
+import traced_curves
 from microslip.commands.verify_tables import HELD
 from microslip.figures.jumps import JumpLine, jumps_figure
 from microslip.studies.curve import Traced
@@ -20,7 +19,6 @@ from microslip.studies.jumps import LEAST, Jump
 from microslip.studies.verify import StudyError
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.response_curve import ResponseCurve, response_curve
-from microslip_mechanics.static import static_equilibrium
 from small_problems import cubic_oscillator
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -30,10 +28,7 @@ RATES = np.array([8.0, 4.0, 2.0, 1.0])
 @pytest.fixture(scope="module")
 def traced() -> Traced:
     """Return the curve of Duffing's oscillator, with two folds."""
-    problem = cubic_oscillator(drive=0.3, damping=0.1)
-    rest, options = static_equilibrium(problem), CurveOptions(0.8, 2.4)
-    found = tuple(frequency_response(problem, rest, options))
-    return Traced(response_curve(problem, found, "complete"), found, rest)
+    return traced_curves.traced(cubic_oscillator(drive=0.3, damping=0.1), 0.8, 2.4)
 
 
 def made(

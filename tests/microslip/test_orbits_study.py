@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 from contact_tables import contact_points
-from hbm.options import CurveOptions
-from hbm.solve import frequency_response
 from microslip.studies.curve import Traced
 from microslip.studies.orbits import (
     Verdict,
@@ -20,9 +18,8 @@ from microslip.studies.orbits import (
 )
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import response_curve
-from microslip_mechanics.static import static_equilibrium
 from small_problems import TANGENT, cubic_oscillator, mass_on_contact, sliding_block
+from traced_curves import traced
 
 LOOSE = 1.0
 """a tolerance that decides nothing"""
@@ -47,12 +44,6 @@ def folded() -> tuple[Problem, Traced]:
     """Return Duffing's oscillator, and its curve with two folds."""
     problem = cubic_oscillator(drive=0.3, damping=0.1)
     return problem, traced(problem, 0.8, 2.4)
-
-
-def traced(problem: Problem, start: float, end: float) -> Traced:
-    rest = static_equilibrium(problem)
-    found = tuple(frequency_response(problem, rest, CurveOptions(start, end)))
-    return Traced(response_curve(problem, found, "complete"), found, rest)
 
 
 def judged(

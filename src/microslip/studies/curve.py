@@ -25,6 +25,8 @@ from microslip_mechanics.static import StaticState, static_equilibrium
 
 SHOWN = 11
 """points in a table, beside that of the largest amplitude"""
+LOST = "a branch was lost"
+"""begins the ending of a curve that is whole"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +53,6 @@ class Wanted:
 
 
 ALONE = Wanted()
-LOST = "a branch was lost"
-"""begins the ending of a curve that is whole"""
 
 
 def trace_curve(

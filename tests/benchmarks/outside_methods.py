@@ -10,7 +10,6 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 import sksundae
@@ -72,10 +71,6 @@ class March:
     """largest error of the energy balance, over the energy put in"""
     success: bool
     """what the solver says of itself"""
-
-
-Scipy = Literal["Radau", "BDF", "LSODA"]
-"""names of scipy's implicit solvers"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import errno
+import io
+import os
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -62,13 +65,23 @@ class Layout:
 class RecordFile:
     """A file open for more records; each number is written in one go.
 
-    Whoever reads it sees whole records only, as their number is raised last.
+    Whoever reads it sees whole records only, as their number is raised last. Nobody
+    else writes it as long as it is open.
     """
 
-    def __init__(self, path: Path, layout: Layout, mode: str) -> None:
+    def __init__(self, path: Path, layout: Layout, *, goes_on: bool) -> None:
+        """Open a file for a new march, or for one that goes on.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written, or if another command is writing it.
+        """
         self._layout = layout
-        self._file = path.open(mode, buffering=0)
-        if mode == "w+b":
+        self._file = _alone(path, 0 if goes_on else os.O_CREAT)
+        if not goes_on:
+            if os.fstat(self._file.fileno()).st_size:
+                self._file.truncate(0)
             self._file.write(layout.header)
             missing = layout.first_record - len(layout.header)
             self._file.write(b"\0" * missing)
@@ -119,6 +132,24 @@ class RecordFile:
         left = memoryview(content)
         while left:
             left = left[self._file.write(left) :]
+
+
+def _alone(path: Path, create: int) -> io.FileIO:
+    """Open a file as it is; keep other commands from it, where the system can."""
+    file = io.FileIO(
+        path, "r+", opener=lambda name, flags: os.open(name, flags | create, 0o666)
+    )
+    try:
+        import fcntl
+
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        file.close()
+        reason = "another command is writing it: wait for it, or give another name"
+        raise OSError(errno.EWOULDBLOCK, reason) from None
+    except (ImportError, OSError):  # a system, or a disk, that knows no locks
+        pass
+    return file
 
 
 def layout(

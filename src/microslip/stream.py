@@ -128,7 +128,7 @@ class Stream:
             name: int(head.about[name]) if head.rows else 0
             for name in ("iterations", "divided")
         }
-        self._file = RecordFile(path, head.layout, "r+b" if head.rows else "w+b")
+        self._file = RecordFile(path, head.layout, goes_on=head.rows > 0)
         if head.rows:
             self._file.keep(head.rows)
         else:

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.recording import last_state
+from microslip.recording import Recording, last_state
 from microslip.result_file import load
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
@@ -188,6 +188,21 @@ def test_what_cannot_go_on_is_told_in_one_line(
     part = load(tmp_path / "part.nc").result
     assert not isinstance(part, str)
     assert part.ending == "interrupted"
+
+
+def test_a_file_that_another_command_writes_is_left_to_it(
+    small_history: TimeHistory, tmp_path: Path
+) -> None:
+    path = tmp_path / "march.nc"
+    with Recording(path, "", "first") as first:
+        first.keep(small_history)
+        with pytest.raises(StoreError, match="another command is writing it"):
+            Recording(path, "", "second").keep(small_history)
+        first.end(small_history.ending)
+
+    check_equal(load(path).result, small_history)
+    with Recording(path, "", "third") as third:
+        third.keep(small_history)
 
 
 @pytest.mark.usefixtures("no_picture")

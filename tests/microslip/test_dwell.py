@@ -122,6 +122,15 @@ def test_dwell_that_is_not_steady_in_time_says_so(
     assert ending.startswith("not steady")
 
 
+def test_a_dwell_whose_energies_do_not_balance_is_wrong(run: Run) -> None:
+    few = ("--set", "march.time_step=0.1")  # two steps a period
+    status, output, error = run("dwell", "duffing", "--frequency", "5", *few)
+
+    assert status == 1
+    assert "5 Hz: steady after" in output
+    assert error.startswith("microslip: the energy balance does not close")
+
+
 @pytest.mark.parametrize(
     ("command", "words"),
     [

@@ -122,6 +122,40 @@ def test_dwell_that_is_not_steady_in_time_says_so(
     assert ending.startswith("not steady")
 
 
+STOPS = """
+scene = "system"
+structure = {names = ["x"], mass = [1], stiffness = [1000], damping_ratio = 0.03}
+drive = {x = 0.1}
+sweep = {end = 5, duration = 6, lowest = 4, highest = 7}
+curve = {lowest = 4, highest = 7}
+march = {time_step = "1 ms"}
+[[element]]
+name = "stop"
+law = "unilateral-spring"
+between = ["ground", "x"]
+stiffness = 20_000
+gap = "0.3 mm"
+"""
+
+
+@pytest.mark.usefixtures("no_picture")
+@pytest.mark.parametrize(("hertz", "many"), [("4.3", 3), ("4.51", 2), ("4.45", 0)])
+def test_a_subharmonic_dwell_tells_after_how_many_periods_it_repeats_itself(
+    hertz: str, many: int, run: Run, tmp_path: Path
+) -> None:
+    (tmp_path / "stops.toml").write_text(STOPS)
+    words = ("--frequency", hertz, "--most-periods", "200")
+    status, output, error = run("dwell", "stops.toml", *words)
+
+    assert status == 1
+    assert "NOT steady" in output
+    assert (f"it repeats itself every {many} periods" in output) == (many > 0)
+    assert error.count("\n") == 1
+    assert (f"repeats itself every {many} periods of the drive" in error) == (many > 0)
+    assert ("give more --most-periods" in error) == (many == 0)
+
+
+@pytest.mark.usefixtures("no_picture")
 def test_a_dwell_whose_energies_do_not_balance_is_wrong(run: Run) -> None:
     few = ("--set", "march.time_step=0.1")  # two steps a period
     status, output, error = run("dwell", "duffing", "--frequency", "5", *few)

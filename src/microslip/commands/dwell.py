@@ -146,12 +146,25 @@ def dwelled(
     with recording:
         ending = kept(bar, keep)
         if ending == "complete" and distances[-1] > options.tolerance:
-            ending = (
-                f"not steady after {len(distances)} periods: give more "
-                "--most-periods or a larger --tolerance"
-            )
+            ending = _unsteady(joined(blocks, ending), len(distances))
         recording.end(ending)
     return joined(blocks, ending), distances, ending
+
+
+def _unsteady(history: TimeHistory, periods: int) -> str:
+    """Return why a dwell did not become steady, and what may help."""
+    from microslip.studies.dwell import repeats
+
+    many = repeats(history, periods)
+    if many:
+        return (
+            f"the motion repeats itself every {many} periods of the drive, not each: "
+            "it is subharmonic, and no longer dwell makes it steady"
+        )
+    return (
+        f"not steady after {periods} periods: give more --most-periods or a larger "
+        "--tolerance"
+    )
 
 
 def _far(distance: float) -> str:
@@ -167,13 +180,16 @@ def _lines(
     options: argparse.Namespace, history: TimeHistory, distances: list[float]
 ) -> list[str]:
     """Return how the dwell ended, and the amplitudes of its last period."""
-    from microslip.studies.dwell import amplitudes
+    from microslip.studies.dwell import amplitudes, repeats
 
-    steady = distances[-1] <= options.tolerance
+    steady, far = distances[-1] <= options.tolerance, _far(distances[-1])
+    many = 0 if steady else repeats(history, len(distances))
+    if many:
+        far = f"it repeats itself every {many} periods"
     found = amplitudes(history, math.tau * options.frequency)
     return [
         f"{options.frequency:g} Hz: {'steady' if steady else 'NOT steady'} after "
-        f"{len(distances)} periods, {history.time[-1]:.4g} s; {_far(distances[-1])}",
+        f"{len(distances)} periods, {history.time[-1]:.4g} s; {far}",
         "first harmonic of the last period [mm]",
         *(
             f"  {name:20s} {1e3 * amplitude:12.6g}"

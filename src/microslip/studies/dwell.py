@@ -26,6 +26,11 @@ REMEDY = "give a longer march.time_step, a higher --frequency or fewer --most-pe
 WINDOW = 32
 """periods over which a transient is seen to fade: beats of modes should be shorter"""
 
+MULTIPLES = 12
+"""periods after which a motion is seen to repeat itself, at most"""
+ALIKE = 1e-4
+"""of what a period changes: below it a motion repeats itself"""
+
 
 @dataclass(frozen=True, slots=True)
 class Period:
@@ -141,6 +146,24 @@ def _left(changes: Sequence[Array], alike: float) -> float:
         return math.inf
     rest = (a * third + b * (third + second)) / (1.0 - a - b)
     return float(np.linalg.norm(rest) + alike * np.linalg.norm(unlike))
+
+
+def repeats(history: TimeHistory, periods: int) -> int:
+    """Return after how many periods, more than one, the end of a dwell repeats itself.
+
+    It is 0 if it does not, and for motions that are not steady alone.
+    """
+    rows = len(history.time) // periods
+    speed = history.velocity / history.frequency[:, None]
+    ends = np.hstack([history.displacement, speed])[rows - 1 :: rows]
+    last = ends[-3 * MULTIPLES :]
+    step = np.abs(np.diff(last, axis=0)).max(initial=0.0)
+    if len(last) < 3 * MULTIPLES or step == 0.0:
+        return 0
+    for many in range(2, MULTIPLES + 1):
+        if np.abs(last[many:] - last[:-many]).max() <= ALIKE * step:
+            return many
+    return 0
 
 
 def amplitudes(history: TimeHistory, frequency: float) -> Array:

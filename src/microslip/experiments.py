@@ -11,6 +11,8 @@ HERTZ = 1e-12, 1e12
 """between which frequencies lie, so that periods and their steps can be counted"""
 LONGEST = 1e12
 """time of a sweep [s]"""
+APART = 1e-12
+"""share by which both ends of a range differ at least: less is rounding"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +106,7 @@ def check_samples(place: str, curve: Curve) -> None:
 
 
 def _check_range(place: str, table: Sweep | Curve) -> None:
-    if not table.lowest < table.highest:
+    if not table.lowest * (1.0 + APART) < table.highest:
         raise SceneError(
             f"{place} lowest = {table.lowest:g} Hz, highest = "
             f"{table.highest:g} Hz: give lowest < highest"

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import math
 from collections.abc import Iterator, Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from microslip.errors import GivenError
+from microslip.experiments import APART
 from microslip.quantity import SceneError
 from microslip.table import read_table
 
@@ -76,9 +78,9 @@ def check_apart(function: str, lowest: float, highest: float) -> None:
     Raises
     ------
     GivenError
-        If they are the same.
+        If they are the same, but for rounding.
     """
-    if lowest == highest:
+    if math.isclose(lowest, highest, rel_tol=APART):
         raise GivenError(
             f"{function}: lowest and highest are both {lowest:g} Hz: give two "
             "different frequencies"

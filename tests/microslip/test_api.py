@@ -29,6 +29,7 @@ SWEPT: dict[str, Any] = {"duration": 1.0, "time_step": 1e-3}
         ({"lowest": "4 kg"}, r'lowest = "4 kg": '),
         ({"highest": float("nan")}, "highest = nan: is not finite"),
         ({"highest": 4.0}, "lowest and highest are both 4 Hz: give two"),
+        ({"highest": 4.0 + 1e-15}, "lowest and highest are both 4 Hz: give two"),
         ({"tolerance": 10.0}, "tolerance = 10.0: is out of range"),
         ({"tolerance": 1e-300}, "tolerance = 1e-300: is out of range"),
         ({"harmonics": 2.5}, "harmonics = 2.5: is not a whole number"),

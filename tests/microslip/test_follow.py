@@ -50,6 +50,7 @@ def test_it_meets_the_frequency_response_at_the_scene_s_value() -> None:
         ("blade.elements", "3", "4", "blade.elements cannot be followed"),
         ("model", "A", "B", "model cannot be followed"),
         ("excitation.force", "1", "1 N", "give two different values"),
+        ("excitation.force", "1", "1.0000000000000002", "give two different values"),
         ("excitation.farce", "1", "2", "do you mean force"),
         ("curve.lowest", "120", "125", "curve.lowest cannot be followed"),
     ],

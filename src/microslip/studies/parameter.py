@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from microslip.experiments import APART
 from microslip.key_path import key_path
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
@@ -69,6 +71,6 @@ def parameter(
             "or its loads, such as excitation.force, friction.mu_dynamic or, of a "
             "system, element.NAME.KEY"
         )
-    if found[0] == found[1]:
+    if math.isclose(*found, rel_tol=APART, abs_tol=0.0):
         raise SceneError(f"{name} from {first} to {last}: give two different values")
     return Parameter(begun, name, *found)

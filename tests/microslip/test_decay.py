@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
+from microslip.commands.decay_tables import cycles
 from microslip.experiments import March
 from microslip.quantity import SceneError
 from microslip.result_file import load
@@ -323,6 +324,16 @@ def test_what_is_over_before_it_swings_is_not_measured_in_its_last_digits() -> N
     decay = let_go(problem, start, 30.0, periods=300, steps=60)
 
     assert not decay.time.size
+
+
+@pytest.mark.parametrize(("damping", "told"), [(1e-14, False), (1e-4, True)])
+def test_what_grows_by_rounding_is_not_told(damping: float, *, told: bool) -> None:
+    still = np.ones(4)
+    decay = RingDown(np.arange(4.0), still, still, damping * np.array([1, -1, 1, -1]))
+
+    lines = cycles(decay, "x")
+
+    assert ("the amplitude grows in 2 of 4 cycles" in "".join(lines)) == told
 
 
 @pytest.mark.long

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
 
 COLUMNS = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
 SHOWN = 20
+GROWS = -1e-6
+"""damping ratio below which an amplitude grows by more than the table shows"""
 
 
 def cycles(decay: RingDown, probe: str) -> list[str]:
@@ -26,7 +28,7 @@ def cycles(decay: RingDown, probe: str) -> list[str]:
         f"{100.0 * decay.damping[place]:18.4f}"
         for place in chosen
     ]
-    grows = int((decay.damping < 0.0).sum())
+    grows = int((decay.damping < GROWS).sum())
     if grows:
         rows.append(
             f"the amplitude grows in {grows} of {count} cycles: several motions decay "

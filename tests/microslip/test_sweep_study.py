@@ -2,16 +2,19 @@
 
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
 import pytest
 
+from microslip.commands.sweep_tables import estimates
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
 from microslip.studies.sweep import march_sweep, march_whole, swept_sine
+from microslip_mechanics.extremes import extremes
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate
@@ -136,6 +139,20 @@ def test_whole_march_is_the_march(scene: Scene) -> None:
 
     marched = march_sweep(problem, sweep, scene.march)
     np.testing.assert_array_equal(whole.energy, marched.energy)
+
+
+@pytest.mark.parametrize(("share", "more"), [(0.1, False), (0.3, True)])
+def test_rows_that_are_too_sparse_tell_a_least_error_of_the_peak(
+    share: float, *, more: bool, small_history: TimeHistory
+) -> None:
+    found = extremes(small_history)
+    missed = np.stack([(1.0 - share) * found.largest, found.largest])
+
+    *_, line = estimates(small_history, replace(found, halves=missed))
+
+    assert line == (
+        f"estimated error of the peak amplitude {share:.1e}{' or more' * more}"
+    )
 
 
 def test_sparser_rows_tell_as_large_extremes_within_their_error(

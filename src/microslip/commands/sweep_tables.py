@@ -48,8 +48,10 @@ def estimates(result: TimeHistory | Envelope, found: Extremes) -> list[str]:
         for value in values[-1:] if rows.any() else ():
             share = f"  ({value / friction:.1e} of it)" if friction else ""
             lines.append(f"  {name:20s} {value:12.2g}{share}")
-    peak = max(float(result.peak_error[-1]), float(found.errors[0]))
-    return [*lines, f"estimated error of the peak amplitude {peak:.1e}"]
+    missed = float(found.errors[0])
+    peak = max(float(result.peak_error[-1]), missed)
+    more = " or more" if missed > SPARSE else ""
+    return [*lines, f"estimated error of the peak amplitude {peak:.1e}{more}"]
 
 
 def parting(result: TimeHistory | Envelope, tolerance: float) -> list[str]:

@@ -6,8 +6,9 @@ import pytest
 from hbm.fourier import derivative, waves
 from law_examples import driven
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.loop_derivatives import Waves
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.contact.steady_loop import Waves, steady_loop
+from microslip_mechanics.contact.steady_loop import steady_loop
 
 pytestmark = pytest.mark.kernels
 

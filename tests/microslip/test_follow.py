@@ -18,6 +18,27 @@ from microslip_mechanics.response_curve import ResponseCurve
 
 STICKY = ("model=A", "friction.mu_dynamic=50", "friction.mu_static=50")
 
+BESIDE_REGULARISED = """
+scene = "system"
+structure = {mass = [1], stiffness = [[1e4]], damping_ratio = 0.02}
+drive = {x1 = 0.5}
+curve = {lowest = 10, highest = 30, harmonics = 3, samples = 64}
+[[element]]
+name = "slider"
+law = "jenkins"
+between = ["x1", "ground"]
+stiffness = 5e3
+limit = 1
+[[element]]
+name = "rubbing"
+law = "coulomb"
+tangents = [["x1", "ground"]]
+load = 1
+mu = 0.1
+threshold_velocity = 1
+"""
+"""A slider beside regularised friction: the stability is not known (theory §6)."""
+
 
 def test_a_sticking_rig_answers_in_proportion_to_the_drive() -> None:
     drive = parameter("two-blades", STICKY, "excitation.force", "500 mN", "2")
@@ -60,6 +81,22 @@ def test_what_cannot_be_followed_is_refused(
 ) -> None:
     with pytest.raises(SceneError, match=text):
         parameter("two-blades", (), name, first, last)
+
+
+def test_a_multiplier_that_is_not_known_is_no_number(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = tmp_path / "both.toml"
+    scene.write_text(BESIDE_REGULARISED)
+    words = ["follow", str(scene), "drive.x1", "0.5", "0.6", "--frequency", "20"]
+
+    assert main([*words, "-o", str(tmp_path)]) == 0
+    rows = capsys.readouterr().out.splitlines()[2:-1]
+
+    curve = load(tmp_path / "both-follow.nc").result
+    assert isinstance(curve, ResponseCurve)
+    assert (curve.unstable == -1).all()
+    assert all(row.split()[-1] == "-" for row in rows)
 
 
 def test_the_command_keeps_a_curve_that_can_be_drawn_again(

@@ -91,8 +91,14 @@ def _table(curve: ResponseCurve) -> str:
                 for each in curve.amplitude.T[probes]
             ),
             *([decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12)] * rubs),
-            f"{curve.multiplier[place]:11.5f}",
+            _multiplier(curve, place),
         )
         event = curve.event[place] + about(curve.parameter_error[place])
         lines.append(" ".join(values) + f"  {event}")
     return "\n".join(lines)
+
+
+def _multiplier(curve: ResponseCurve, place: int) -> str:
+    """Return the largest Floquet multiplier in a column; a dash if none is known."""
+    known = curve.unstable[place] >= 0
+    return f"{curve.multiplier[place]:11.5f}" if known else f"{'-':>11}"

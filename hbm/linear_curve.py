@@ -63,6 +63,13 @@ class LinearCurve:
         found += self._peaks(points)
         yield from sorted(found, key=lambda each: each.frequency, reverse=start > end)
 
+    def unbounded(self, start: float, end: float) -> Array:
+        """Return the resonances between two frequencies that nothing damps [rad/s]."""
+        low, high = min(start, end), max(start, end)
+        seen = np.array([pole.imag for pole in self._telling()])
+        inside = (seen >= low) & (seen <= high) & np.isin(seen, self._endless)
+        return np.sort(seen[inside])
+
     def amplitudes(self, frequency: float) -> Array:
         """Return the amplitude that each probe sees [m]."""
         size: Array = np.abs(self._value(frequency, 1))

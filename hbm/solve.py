@@ -11,8 +11,8 @@ from hbm.branches import Branching
 from hbm.condensation import CondensedStructure
 from hbm.dense_problem import dense_problem, resolved_up_to
 from hbm.detached import Search, Sought
-from hbm.errors import hertz, placed
-from hbm.linear_curve import linear_curve
+from hbm.errors import PLACE, ContinuationError, hertz, placed
+from hbm.linear_curve import LinearCurve, linear_curve
 from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
@@ -39,7 +39,8 @@ def frequency_response(
     Raises
     ------
     ContinuationError
-        If the curve cannot go on; what was yielded before stays valid.
+        If the curve cannot go on; after its end, if the amplitude has no bound at a
+        frequency in the range, without contacts. What was yielded before stays valid.
     ValueError
         If a frequency is not positive.
     """
@@ -51,10 +52,24 @@ def frequency_response(
     responses = tracer.responses()
     if path.rank == 0 and isinstance(condensed, CondensedStructure):
         linear = linear_curve(condensed, path.problem.force[1], small.probes.rows)
-        responses = tracer.at_places(linear.places(options.start, options.end))
+        responses = _bounded(tracer, linear, options)
     with one_thread(), placed(hertz):
         for made in responses:
             yield replace(made, shapes=shapes)
+
+
+def _bounded(
+    tracer: Tracer, linear: LinearCurve, options: CurveOptions
+) -> Iterator[PeriodicResponse]:
+    """Yield the responses of a linear structure; tell where they have no bound."""
+    span = options.start, options.end
+    yield from tracer.at_places(linear.places(*span))
+    for frequency in linear.unbounded(*span):
+        raise ContinuationError(
+            f"the amplitude has no bound at {PLACE}: nothing damps this resonance: "
+            "give it damping, or a range without it",
+            float(frequency),
+        )
 
 
 def branches(

@@ -10,6 +10,7 @@ import scipy.linalg
 import scipy.optimize
 
 from contact_tables import contact_points, linear_contact
+from hbm.errors import ContinuationError
 from hbm.fourier import to_complex
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
@@ -328,9 +329,12 @@ def test_a_resonance_without_damping_has_no_peak_and_no_point(lowest: float) -> 
     # the second range has the resonance in its middle
     options = CurveOptions(lowest, 2.0 * math.sqrt(150.0) - lowest)
 
-    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+    natural, curve = np.sqrt(150.0), []
+    points = frequency_response(problem, static_equilibrium(problem), options)
+    hertz = f"{natural / math.tau:.6f}"
+    with pytest.raises(ContinuationError, match=f"no bound at {hertz}.* Hz: nothing"):
+        curve.extend(points)
 
     assert not any(response.event for response in curve)
-    natural = np.sqrt(150.0)
     beside = [abs(response.frequency / natural - 1.0) for response in curve]
     assert 1e-9 < min(beside) < 1e-6

@@ -329,7 +329,7 @@ def test_a_resonance_without_damping_has_no_peak_and_no_point(lowest: float) -> 
     # the second range has the resonance in its middle
     options = CurveOptions(lowest, 2.0 * math.sqrt(150.0) - lowest)
 
-    natural, curve = np.sqrt(150.0), []
+    natural, curve = np.sqrt(150.0), list[PeriodicResponse]()
     points = frequency_response(problem, static_equilibrium(problem), options)
     hertz = f"{natural / math.tau:.6f}"
     with pytest.raises(ContinuationError, match=f"no bound at {hertz}.* Hz: nothing"):

@@ -18,10 +18,9 @@ from numpy.typing import NDArray
 from hbm.fourier import FourierBasis, derivative, waves
 from hbm.sliding_loop import sliding_loop
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.loop_derivatives import Waves
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import PUSHED, ContactPoints
-from microslip_mechanics.contact.steady_loop import steady_loop
+from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.jit import kernel
 
 

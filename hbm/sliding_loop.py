@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.loop_derivatives import Waves
 from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.rigid import slide
+from microslip_mechanics.contact.steady_loop import Waves
 from microslip_mechanics.jit import bare_kernel, kernel
 
 TRIALS = 50

@@ -9,10 +9,9 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import contact_force
-from microslip_mechanics.contact.loop_derivatives import Waves
 from microslip_mechanics.contact.memory import pressed, remembers
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.contact.steady_loop import steady_loop
+from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem

@@ -6,9 +6,8 @@ import pytest
 from hbm.fourier import derivative, waves
 from law_examples import driven
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.loop_derivatives import Waves
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.contact.steady_loop import steady_loop
+from microslip_mechanics.contact.steady_loop import Waves, steady_loop
 
 pytestmark = pytest.mark.kernels
 
@@ -42,6 +41,23 @@ def test_derivatives_are_those_of_differences(case: str, size: float) -> None:
     random = np.random.default_rng(3)
     motion = size * random.standard_normal((2 * HARMONICS + 1, 3)) * [0.1, 1.0, 1.0]
     motion[0, 0] = 0.02
+
+    agree(points, motion, size)
+
+
+def test_derivatives_know_where_a_slider_came_to_stick_for_good() -> None:
+    points = driven("elastic").interface.points
+    limit = 0.3 * (2.0 + 30.0 * 0.02) / 40.0
+    motion = np.zeros((2 * HARMONICS + 1, 3))
+    motion[0, 0] = 0.02
+    # it goes 1.2 limits to one side of its mean and 0.6 to the other: less than two
+    motion[1, 1], motion[3, 1] = 0.8 * limit, 0.4 * limit
+
+    agree(points, motion, limit)
+
+
+def agree(points: ContactPoints, motion: Array, size: float) -> None:
+    """Compare derivatives with differences."""
     none, gradient = np.zeros((2, 3, 0, 0)), np.empty((2, 3, SAMPLES, len(motion)))
 
     _, by_frequency = loop(points, motion, gradient)

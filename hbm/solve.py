@@ -64,11 +64,12 @@ def _bounded(
     """Yield the responses of a linear structure; tell where they have no bound."""
     span = options.start, options.end
     yield from tracer.at_places(linear.places(*span))
-    for frequency in linear.unbounded(*span):
+    endless = linear.unbounded(*span)
+    if endless.size:
         raise ContinuationError(
             f"the amplitude has no bound at {PLACE}: nothing damps this resonance: "
             "give it damping, or a range without it",
-            float(frequency),
+            float(endless[0]),
         )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ELASTIC, FRICTIONLESS, ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
-from timedomain.dense import copy, eliminate, norm
+from timedomain.dense import copy, copy_rows, eliminate, norm
 from timedomain.operators import Operators
 from timedomain.projection import projected
 from timedomain.reaction import react
@@ -93,7 +93,7 @@ def _advance(
     )
     if taken < 0 and _rub(points):
         start = np.stack((displacement, velocity, relative))
-        copy(before.ravel(), state.forces.ravel())
+        copy_rows(before, state.forces)
         reaction, taken = projected(
             operators.compliance, operators.basis, points, half, start, state.forces,
             state.gaps, state.slips, tolerance,

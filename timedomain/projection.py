@@ -16,7 +16,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
-from timedomain.dense import copy, dot, eliminate, norm
+from timedomain.dense import copy_rows, dot, eliminate, norm
 from timedomain.point_law import linearise
 
 NEWTON_LIMIT = 40
@@ -90,7 +90,7 @@ def projected(
         reaction = np.dot(lines.values.ravel(), basis)
         change = guess - start[2] + np.dot(compliance, reaction)
         if norm(change) <= tolerance * (scale + norm(guess)):
-            copy(lines.values.ravel(), forces.ravel())
+            copy_rows(lines.values, forces)
             return reaction, iteration
         matrix = np.dot(compliance, tangent)
         for i in range(rank):

@@ -15,7 +15,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
-from timedomain.dense import combine, copy
+from timedomain.dense import combine, copy, copy_rows
 from timedomain.operators import Operators
 from timedomain.record import FLOWS, Meters, accumulate, store
 from timedomain.rigid_points import Sliders
@@ -60,9 +60,9 @@ def march_sliders(
             made,
         )  # fmt: skip
         if taken < 0:  # its parts, too, begin where the step before has ended
-            copy(gaps.ravel(), state.gaps.ravel())
-            copy(slips.ravel(), state.slips.ravel())
-            copy(forces.ravel(), state.forces.ravel())
+            copy_rows(gaps, state.gaps)
+            copy_rows(slips, state.slips)
+            copy_rows(forces, state.forces)
             return step, iterations
         iterations += taken
         accumulate(meters, points, state, factors[step], operators.step)

@@ -108,7 +108,9 @@ def test_a_march_leaves_an_unstable_orbit_as_its_multiplier_says() -> None:
     np.testing.assert_allclose(difference, largest * begun, atol=0.03e-10)
 
 
-@pytest.mark.parametrize("model", ["A", "B", "full"])
+@pytest.mark.parametrize(
+    "model", ["A", "B", pytest.param("full", marks=pytest.mark.long)]
+)
 def test_the_error_is_an_upper_bound(model: str) -> None:
     problem, response = rig_orbit(model)
     finest = floquet_multipliers(problem, response, steps=4096).values

@@ -262,7 +262,9 @@ def lattice() -> Problem:
     )
 
 
-@pytest.mark.parametrize("method", ["craig-bampton", "modal"])
+@pytest.mark.parametrize(
+    "method", ["craig-bampton", pytest.param("modal", marks=pytest.mark.long)]
+)
 def test_reduction_keeps_the_curve_and_states_its_error(method: Method) -> None:
     whole = lattice()
 

@@ -9,7 +9,11 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from microslip.api import curve, scene, sweep
+    from microslip.api.curve import curve
+    from microslip.api.follow import follow
+    from microslip.api.modes import modes
+    from microslip.api.scene import scene
+    from microslip.api.sweep import sweep
     from microslip.results import figure, load, save
     from microslip_mechanics.element import Element
     from microslip_mechanics.errors import MicroslipError
@@ -26,7 +30,9 @@ __all__ = [
     "MicroslipError",
     "curve",
     "figure",
+    "follow",
     "load",
+    "modes",
     "reduced_problem",
     "save",
     "scene",
@@ -35,9 +41,11 @@ __all__ = [
 ]
 
 HOMES = {
-    "curve": "microslip.api",
-    "scene": "microslip.api",
-    "sweep": "microslip.api",
+    "curve": "microslip.api.curve",
+    "follow": "microslip.api.follow",
+    "modes": "microslip.api.modes",
+    "scene": "microslip.api.scene",
+    "sweep": "microslip.api.sweep",
     "figure": "microslip.results",
     "load": "microslip.results",
     "save": "microslip.results",

@@ -35,15 +35,21 @@ class Sweep:
     force_file: str | None = quantity(optional=True)
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Resolution:
+    """Accuracy of harmonic balance, or fixed harmonics and samples instead."""
+
+    tolerance: float = quantity(lowest=1e-6, highest=0.5, default=1e-3)
+    harmonics: int | None = quantity(lowest=1, highest=255, optional=True)
+    samples: int | None = quantity(lowest=6, highest=2**16, optional=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Curve(Resolution):
     """Frequency response by harmonic balance."""
 
     lowest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
     highest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
-    tolerance: float = quantity(lowest=1e-6, highest=0.5, default=1e-3)
-    harmonics: int | None = quantity(lowest=1, highest=255, optional=True)
-    samples: int | None = quantity(lowest=6, highest=2**16, optional=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +90,7 @@ def check_curve(source: str, curve: Curve) -> None:
     check_samples(f"{source}: [curve]", curve)
 
 
-def check_samples(place: str, curve: Curve) -> None:
+def check_samples(place: str, curve: Resolution) -> None:
     """Check the number of samples per period.
 
     Raises

@@ -11,7 +11,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from microslip.schema import Result
+    from microslip.studies.modes import FollowedMode
 
+REST = "microslip.curve, microslip.follow, microslip.sweep or microslip.load"
 PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
 
 
@@ -21,7 +23,8 @@ def save(result: Result, path: str | PathLike[str]) -> None:
     Parameters
     ----------
     result
-        From :func:`microslip.curve` or :func:`microslip.sweep`.
+        From :func:`microslip.curve`, :func:`microslip.follow` or
+        :func:`microslip.sweep`.
     path
         The file; docs/files.md says what is in it.
 
@@ -56,8 +59,8 @@ def load(path: str | PathLike[str]) -> Result:
     return result_file.load(_path(path, "microslip.load")).result
 
 
-def figure(result: Result, title: str = "") -> Figure:
-    """Return the picture that the command line draws of a curve or a march.
+def figure(result: Result | tuple[FollowedMode, ...], title: str = "") -> Figure:
+    """Return the picture that the command line draws of a curve, a march, or modes.
 
     A notebook shows it; ``figure(result).savefig(path)`` writes it.
 
@@ -69,15 +72,41 @@ def figure(result: Result, title: str = "") -> Figure:
         If a march has not come far enough to have anything to draw.
     """
     from microslip.errors import GivenError
-    from microslip.figures.result import result_figure
 
-    _check(result, "microslip.figure")
     if not isinstance(title, str):
         raise GivenError(
             f"microslip.figure: title = {title!r}: give a text; the picture has axes "
             "of its own"
         )
+    if isinstance(result, tuple):
+        return _modes(result, title)
+    from microslip.figures.result import result_figure
+
+    _check(result, "microslip.figure")
     return result_figure(result, title)
+
+
+def _modes(result: tuple[FollowedMode, ...], title: str) -> Figure:
+    """Return the picture of modes.
+
+    Raises
+    ------
+    GivenError
+        If there is none with a point, or if they are none.
+    """
+    from microslip.errors import GivenError
+    from microslip.figures.modes import modes_figure
+    from microslip.mode_lines import mode_lines
+    from microslip.studies.modes import FollowedMode
+
+    if not all(isinstance(each, FollowedMode) for each in result):
+        raise GivenError(
+            f"microslip.figure: {result!r}: give what microslip.modes, {REST} returns"
+        )
+    lines = mode_lines(result)
+    if not lines:
+        raise GivenError("microslip.figure: no mode has a point: see their endings")
+    return modes_figure(lines, title)
 
 
 def _path(path: str | PathLike[str], function: str) -> Path:
@@ -111,7 +140,4 @@ def _check(result: Result, function: str) -> None:
     from microslip.schema import SCHEMAS
 
     if not isinstance(result, tuple(made for made, _ in SCHEMAS.values())):
-        raise GivenError(
-            f"{function}: {result!r}: give what microslip.curve, microslip.sweep or "
-            "microslip.load returns"
-        )
+        raise GivenError(f"{function}: {result!r}: give what {REST} returns")

@@ -11,7 +11,7 @@ import numpy as np
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.api import scene
+from microslip.api.scene import scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem

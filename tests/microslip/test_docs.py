@@ -32,7 +32,7 @@ def test_examples_in_python_run(capsys: pytest.CaptureFixture[str]) -> None:
         exec(code, known)
 
     printed = capsys.readouterr().out
-    assert printed.count("complete") == 2
+    assert printed.count("complete") == 4
     (message,) = [line for line in SYSTEMS.splitlines() if "element slider: " in line]
     assert message in printed
 

@@ -12,7 +12,7 @@ import pytest
 from hbm.errors import ContinuationError
 from hbm.modes import ModeOptions, NonlinearMode, nonlinear_mode
 from microslip.cli import main
-from microslip.commands.modes import _line
+from microslip.mode_lines import mode_lines
 from microslip.studies.modes import followed
 from rigs import rig_problem
 
@@ -65,7 +65,7 @@ def test_points_that_are_hardly_known_do_not_widen_the_picture() -> None:
     (mode,) = followed(problem, RANGE, options, lambda points: islice(points, 5))
     points = (replace(mode.points[0], frequency_error=0.5), *mode.points[1:])
 
-    line = _line(replace(mode, points=points))
+    (line,) = mode_lines([replace(mode, points=points)])
 
     assert line.error < 1e-3
 
@@ -75,7 +75,7 @@ def test_points_that_are_hardly_known_do_not_widen_the_picture() -> None:
     [
         (["--amplitudes", "2", "1"], 2, "smaller one first"),
         (["--range", "140", "130"], 2, "lower frequency first"),
-        (["--range", "140", "141"], 2, "another --range"),
+        (["--range", "140", "141"], 2, "give another range"),
         (["--set", "model=C"], 2, "full, B, A"),
     ],
 )

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from hbm.modes import ModeOptions, NonlinearMode
-    from microslip.figures.modes import ModeLine
     from microslip.studies.modes import FollowedMode
 
 COLUMNS = (
@@ -141,6 +140,7 @@ def _keep(
 ) -> None:
     """Write table and picture."""
     from microslip.figures.modes import modes_figure
+    from microslip.mode_lines import mode_lines
     from microslip.store import save_figure, save_table
 
     rows = [
@@ -156,23 +156,5 @@ def _keep(
         for point in mode.points
     ]
     save_table(table, COLUMNS, rows)
-    lines = [_line(mode) for mode in modes if mode.points]
     with written(f"table in {table}", picture):
-        save_figure(picture, modes_figure(lines, arguments.title(options)))
-
-
-def _line(mode: FollowedMode) -> ModeLine:
-    """Return what a picture shows of a mode; some of it may be hardly known."""
-    from statistics import median
-
-    from microslip.figures.modes import ModeLine
-
-    hertz = [point.frequency / math.tau for point in mode.points]
-    errors = [point.frequency_error for point in mode.points]
-    return ModeLine(
-        f"mode at {mode.linear.frequency / math.tau:.2f} Hz",
-        [point.amplitude for point in mode.points],
-        hertz,
-        [point.damping for point in mode.points],
-        median(errors) * max(hertz),
-    )
+        save_figure(picture, modes_figure(mode_lines(modes), arguments.title(options)))

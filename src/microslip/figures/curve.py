@@ -21,11 +21,13 @@ from microslip.figures.amplitude import (
 from microslip.figures.names import absolute, faces, readable, relative
 from microslip.figures.style import (
     COLOURS,
+    SHORT,
     STYLES,
     WIDTH,
     framed,
     headline,
     legend_above,
+    plain_logarithmic,
 )
 from microslip_mechanics.response_curve import ResponseCurve
 
@@ -104,8 +106,10 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
             linewidth=WIDTH * 1.5,
             label=readable(curve.probes[place]),
         )
-    if not (curve.velocity_peak[:, shown] <= 0.0).any():
+    seen = curve.velocity_peak[:, shown]
+    if np.nanmax(seen, initial=0.0) > SHORT * np.nanmin(seen, initial=np.inf) > 0.0:
         axes.set_yscale("log")
+        plain_logarithmic(axes.yaxis)
     framed(
         axes,
         x=abscissa_name(curve),

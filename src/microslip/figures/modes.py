@@ -9,9 +9,11 @@ from matplotlib.figure import Figure
 
 from microslip.figures.style import (
     COLOURS,
+    SHORT,
     WIDTH,
     framed,
     headline,
+    plain_logarithmic,
     widened,
 )
 
@@ -47,9 +49,11 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
     below = "amplitude of the highest probe [mm]"
     framed(left, x=below, y="natural frequency [Hz]", title="Frequency")
     framed(right, x=below, y="damping ratio [%]", title="Damping")
-    if len({amplitude for line in lines for amplitude in line.amplitude}) > 1:
+    amplitudes = [amplitude for line in lines for amplitude in line.amplitude]
+    if max(amplitudes, default=0.0) > SHORT * min(amplitudes, default=0.0) > 0.0:
         for axes in (left, right):
             axes.set_xscale("log")
+            plain_logarithmic(axes.xaxis)
     left.ticklabel_format(axis="y", useOffset=False)
     widened(left, max((line.error for line in lines), default=0.0))
     ratios = [ratio for line in lines for ratio in line.damping]

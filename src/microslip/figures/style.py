@@ -34,6 +34,8 @@ LETTERS = 11.0
 """of a title in an inch"""
 LONG = 150.0
 """end of a logarithmic axis over its beginning, from which on it has powers of ten"""
+SHORT = 5.0
+"""the same up to which it would have hardly a number: evenly divided it says more"""
 FEW = 4
 """names of a legend up to which two columns are enough"""
 EARLY, HIGH = 0.4, 0.5

@@ -1,27 +1,56 @@
-"""The response at one frequency against a parameter of the scene, through folds."""
+"""The response at one frequency against a parameter, through folds."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from hbm.options import CurveOptions
 from hbm.parameter_curves import parameter_response
+from microslip.experiments import Resolution
 from microslip.progress import Watch
 from microslip.studies.curve import gathered
 from microslip.studies.gaps import told
 from microslip.studies.parameter import Parameter
+from microslip_mechanics.problem import Problem
 from microslip_mechanics.response_curve import ResponseCurve, response_curve
 
 
 def follow(
     parameter: Parameter, frequency: float, watch: Watch = iter
 ) -> ResponseCurve:
+    """Follow the response along a parameter of a scene, as :func:`along` does."""
+    return along(
+        parameter.problem_at,
+        (parameter.first, parameter.last),
+        frequency,
+        parameter.scene.curve,
+        parameter.label,
+        watch,
+    )
+
+
+def along(
+    problem_at: Callable[[float], Problem],
+    ends: tuple[float, float],
+    frequency: float,
+    resolution: Resolution,
+    label: str,
+    watch: Watch = iter,
+) -> ResponseCurve:
     """Follow the response along a parameter; keep what there is when it stops.
 
     Parameters
     ----------
-    parameter
-        What changes.
+    problem_at
+        Value of the parameter ↦ what is solved.
+    ends
+        First and last value.
     frequency
         Of the excitation [rad/s].
+    resolution
+        Accuracy, or harmonics and samples.
+    label
+        Name and unit of the parameter.
     watch
         Shows the progress.
 
@@ -30,15 +59,12 @@ def follow(
     ContinuationError
         If there is no first point.
     """
-    curve = parameter.scene.curve
     options = CurveOptions(
-        parameter.first,
-        parameter.last,
-        error=curve.tolerance,
-        harmonics=curve.harmonics,
-        samples=curve.samples,
+        *ends,
+        error=resolution.tolerance,
+        harmonics=resolution.harmonics,
+        samples=resolution.samples,
     )
-    traced = parameter_response(parameter.problem_at, frequency, options)
+    traced = parameter_response(problem_at, frequency, options)
     responses, ending = gathered(watch(traced))
-    problem = parameter.problem_at(parameter.last)
-    return told(response_curve(problem, responses, ending, parameter.label))
+    return told(response_curve(problem_at(ends[1]), responses, ending, label))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -24,7 +25,7 @@ class ModeError(MicroslipError):
     """A scene without a point of a mode; the text says why."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class FollowedMode:
     """A mode, as far as it was followed."""
 
@@ -33,6 +34,17 @@ class FollowedMode:
     points: tuple[NonlinearMode, ...]
     ending: str
     """"complete", "interrupted", or the cause"""
+
+    def __repr__(self) -> str:
+        """Return what the mode is, in a line."""
+        ends = [
+            1e3 * point.amplitude for point in (*self.points[:1], *self.points[-1:])
+        ]
+        span = " to ".join(f"{each:.4g}" for each in ends)
+        return (
+            f"<FollowedMode: {self.linear.frequency / math.tau:.6g} Hz in small "
+            f"motions; {len(self.points)} points, {span or 'none'} mm; {self.ending}>"
+        )
 
     @property
     def most_damped(self) -> NonlinearMode:
@@ -63,8 +75,7 @@ def followed(
     if not found:
         stuck = " while its contacts stick" if rubs(problem.interface.points) else ""
         raise SceneError(
-            f"no mode has a natural frequency in this range{stuck}: give another "
-            "--range"
+            f"no mode has a natural frequency in this range{stuck}: give another range"
         )
     for linear in found:
         mode = _followed(linear, nonlinear_mode(problem, rest, linear, options), watch)

@@ -90,11 +90,12 @@ def march_sweep(
     march: March,
     watch: Watch = iter,
     *,
+    tolerance: float | None = None,
     estimate: bool = True,
 ) -> TimeHistory:
     """March loads; keep what there is when it cannot go on or is stopped."""
     blocks: list[TimeHistory] = []
-    marching = marched(problem, sweep, march, estimate=estimate)
+    marching = marched(problem, sweep, march, tolerance=tolerance, estimate=estimate)
     ending = kept(watch(marching), blocks.append)
     return joined(blocks, ending)
 

@@ -9,7 +9,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from microslip.errors import GivenError
-from microslip.experiments import APART
+from microslip.experiments import APART, check_samples
 from microslip.quantity import SceneError
 from microslip.table import read_table
 
@@ -56,6 +56,39 @@ def read(function: str, table: type, **values: object) -> Any:  # noqa: ANN401
         _check_unmasked(function, name, value)
     given = {name: _plain(value) for name, value in values.items() if value is not None}
     return read_table(function, "", table, given)
+
+
+def resolved(
+    function: str,
+    table: type,
+    *,
+    tolerance: float | None,
+    harmonics: int | None,
+    samples: int | None,
+    **values: object,
+) -> Any:  # noqa: ANN401
+    """Return what :func:`read` does of a table with the resolution of a curve.
+
+    Raises
+    ------
+    GivenError
+        If it is of no use, or told twice.
+    """
+    if tolerance is not None and harmonics is not None:
+        raise GivenError(
+            f"{function}: tolerance = {tolerance!r}: harmonics are fixed: leave one of "
+            "them out"
+        )
+    wanted = read(
+        function,
+        table,
+        **values,
+        tolerance=tolerance,
+        harmonics=harmonics,
+        samples=samples,
+    )
+    check_samples(f"{function}:", wanted)
+    return wanted
 
 
 def _check_unmasked(function: str, name: str, value: object) -> None:

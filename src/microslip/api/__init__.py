@@ -1,0 +1,1 @@
+"""The functions of plain Python, for scripts and notebooks."""

@@ -1,0 +1,60 @@
+"""Frequency response curves in plain Python."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from microslip.api.arguments import check_apart, checked, named, resolved
+from microslip.experiments import Curve
+
+if TYPE_CHECKING:
+    from microslip_mechanics.problem import Problem
+    from microslip_mechanics.response_curve import ResponseCurve
+
+
+def curve(
+    problem: Problem,
+    lowest: float | str,
+    highest: float | str,
+    *,
+    tolerance: float | None = None,
+    harmonics: int | None = None,
+    samples: int | None = None,
+) -> ResponseCurve:
+    """Return the frequency response curve by harmonic balance, as far as it goes.
+
+    Parameters
+    ----------
+    problem
+        From :func:`microslip.system` or :func:`microslip.scene`.
+    lowest, highest
+        Where it begins and ends [Hz]; downwards if the first is the larger one. These
+        and other quantities may be texts with a unit, such as ``"0.1 kHz"``.
+    tolerance
+        Relative error of amplitude, from which harmonics and samples follow; 1e-3 if
+        left out.
+    harmonics, samples
+        Fixed numbers instead.
+
+    Raises
+    ------
+    MicroslipError
+        If an argument is of no use, or if there is not even a first point; else
+        ``ending`` says how the curve ends.
+    """
+    from microslip.studies.curve import trace_curve
+
+    name = "microslip.curve"
+    wanted: Curve = resolved(
+        name,
+        Curve,
+        lowest=lowest,
+        highest=highest,
+        tolerance=tolerance,
+        harmonics=harmonics,
+        samples=samples,
+    )
+    check_apart(name, wanted.lowest, wanted.highest)
+    given = checked(name, problem)
+    with named(name):
+        return trace_curve(given, wanted).curve

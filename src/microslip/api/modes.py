@@ -1,0 +1,88 @@
+"""Nonlinear modes in plain Python."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from microslip.api.arguments import check_apart, checked, named, read
+from microslip.errors import GivenError
+from microslip.experiments import HERTZ
+from microslip.quantity import quantity
+
+if TYPE_CHECKING:
+    from microslip.studies.modes import FollowedMode
+    from microslip_mechanics.problem import Problem
+
+NAME = "microslip.modes"
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What :func:`modes` is asked for."""
+
+    lowest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
+    highest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
+    smallest: float = quantity("m", positive=True)
+    largest: float = quantity("m", positive=True)
+    harmonics: int = quantity(lowest=1, highest=127)
+
+
+def modes(
+    problem: Problem,
+    lowest: float | str,
+    highest: float | str,
+    *,
+    smallest: float | str = 1e-5,
+    largest: float | str = 1e-2,
+    harmonics: int = 31,
+) -> tuple[FollowedMode, ...]:
+    """Return the modes of free decaying motion, natural frequency against amplitude.
+
+    Parameters
+    ----------
+    problem
+        From :func:`microslip.system` or :func:`microslip.scene`.
+    lowest, highest
+        Between which natural frequencies of small motions lie [Hz].
+    smallest, largest
+        Amplitudes between which each mode is followed [m].
+    harmonics
+        Of the motion.
+
+    Returns
+    -------
+    tuple
+        For each mode, the lowest first, ``points`` with ``amplitude`` [m],
+        ``frequency`` [rad/s] and ``damping`` (ratio), their relative errors
+        ``frequency_error`` and ``damping_error``, and an ``ending``.
+
+    Raises
+    ------
+    MicroslipError
+        If an argument is of no use, or if there is no mode in the range.
+    """
+    from hbm.modes import ModeOptions
+    from microslip.studies.modes import followed
+
+    asked: Asked = read(
+        NAME,
+        Asked,
+        lowest=lowest,
+        highest=highest,
+        smallest=smallest,
+        largest=largest,
+        harmonics=harmonics,
+    )
+    check_apart(NAME, asked.lowest, asked.highest)
+    if not asked.smallest < asked.largest:
+        raise GivenError(
+            f"{NAME}: smallest = {asked.smallest:g} m, largest = {asked.largest:g} m: "
+            "give the smaller one first"
+        )
+    given = checked(NAME, problem)
+    turn = sorted((math.tau * asked.lowest, math.tau * asked.highest))
+    options = ModeOptions(asked.smallest, asked.largest, harmonics=asked.harmonics)
+    with named(NAME):
+        return tuple(followed(given, (turn[0], turn[1]), options))

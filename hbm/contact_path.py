@@ -13,7 +13,7 @@ import numpy as np
 from hbm.aft import AlternatingFrequencyTime
 from hbm.symmetry import mirror
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import edge, rubs
+from microslip_mechanics.contact.law import edge, regularised
 from microslip_mechanics.contact.normal import normal_response
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel, inner_kernel, kernel
@@ -87,7 +87,7 @@ def events(points: ContactPoints, path: Path) -> Array:
         for cell in range(cells):
             after = _regime(points, point, path, cell + 1.0, work)
             turn = 0.0
-            if rubs(points, point):
+            if regularised(points, point):
                 turn = _slowest(path, point, cell, work)
             left = float(cell)
             if turn > 0.0:
@@ -120,7 +120,7 @@ def _regime(
         force, _, _ = normal_response(points, point, moved[0], moving[0])
         regime = TOUCHES + (PUSHES if force > 0.0 else 0)
     loaded = regime >= PUSHES or points.constant_load[point]
-    if loaded and rubs(points, point):
+    if loaded and regularised(points, point):
         square = moving[1] * moving[1] + moving[2] * moving[2]
         if square > points.threshold[point] * points.threshold[point]:
             regime += SLIDES

@@ -20,7 +20,7 @@ from hbm.mean_motions import MeanMotions, free_steps, mean_motions, stacked, tur
 from hbm.sampled_orbit import SampledOrbit
 from hbm.slide_events import SlidOrbit, slid_orbit
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.contact.law import rubs
+from microslip_mechanics.contact.law import regularised
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.tangents import contact_tangents
 
@@ -56,7 +56,7 @@ def recalled_multipliers(
     steps, and a body that nothing holds has no motions of its own.
     """
     points = contact.points
-    if any(rubs(points, point) for point in range(points.load.size)):
+    if any(regularised(points, point) for point in range(points.load.size)):
         return np.empty(0, complex)
     sliders = Sliders.of(points, basis)
     orbit = SampledOrbit.of(contact, frequency)

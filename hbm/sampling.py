@@ -19,7 +19,7 @@ from hbm.release import lets_go, released
 from hbm.symmetry import Symmetry
 from hbm.transitions import EVENTS, faded, graded, locate, passes, steepness
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force, edge, rubs
+from microslip_mechanics.contact.law import contact_force, edge, regularised
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import inner_kernel, kernel
 
@@ -86,7 +86,7 @@ def sample(
     for point in range(points.load.size):
         row, threshold = 3 * point, points.threshold[point]
         wide = faded(points, point)
-        touch, slides = edge(points, point), rubs(points, point)
+        touch, slides = edge(points, point), regularised(points, point)
         steep, near = steepness(points, point), 0.0
         goes = lets_go(points, point)
         for place in range(seen):

@@ -8,7 +8,7 @@ from hbm.options import CurveOptions
 from hbm.path import Path
 from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import rubs
+from microslip_mechanics.contact.law import regularised
 from microslip_mechanics.contact.points import GENERAL_KINETIC
 
 SHARE = 3.0
@@ -49,7 +49,9 @@ def smoothest(path: Path, options: CurveOptions) -> float:
 def _rubbing(problem: RelativeProblem) -> Array:
     """Return at which points friction has a threshold velocity, shape (points,)."""
     count = problem.points.load.size
-    return np.array([rubs(problem.points, point) for point in range(count)], dtype=bool)
+    return np.array(
+        [regularised(problem.points, point) for point in range(count)], dtype=bool
+    )
 
 
 def _free_speeds(problem: RelativeProblem, frequency: float) -> Array:

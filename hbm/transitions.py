@@ -11,7 +11,7 @@ import math
 
 from hbm.release import lets_go, released
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import edge, rubs
+from microslip_mechanics.contact.law import edge, regularised
 from microslip_mechanics.contact.points import (
     GENERAL_KINETIC,
     ONE_SIDED,
@@ -123,7 +123,7 @@ def locate(
     before, behind = displacement[row, place] - touch, displacement[row, after] - touch
     pressed = before > 0.0 or behind > 0.0 or points.constant_load[point]
     found = 0
-    if pressed and rubs(points, point):
+    if pressed and regularised(points, point):
         one, two = velocity[row + 1, place], velocity[row + 2, place]
         by_one, by_two = velocity[row + 1, after] - one, velocity[row + 2, after] - two
         threshold, wide = points.threshold[point], faded(points, point)

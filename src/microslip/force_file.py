@@ -62,9 +62,9 @@ def read_force(path: Path) -> Force:
             _demand_later(path, number, row[0], rows[-1][0] if rows else None)
             rows.append(row)
     if len(rows) < 2:
+        has = "one line" if rows else "no lines"
         raise SceneError(
-            f"{path} has {len(rows)} lines with numbers: a force needs at least two: "
-            f"{COLUMNS}"
+            f"{path} has {has} with numbers: a force needs at least two: {COLUMNS}"
         )
     time, force = np.array(rows).T.copy()
     return Force(time, force, hashlib.sha256(content.encode()).hexdigest()[:16])

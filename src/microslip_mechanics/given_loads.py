@@ -7,7 +7,7 @@ import math
 import numbers
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -131,7 +131,8 @@ def preloaded(
 
 def _wave(name: str, given: object) -> tuple[float, float]:
     """Return amplitude and phase of a load."""
-    pair = given if isinstance(given, tuple | list) else (given, 0.0)
+    several = isinstance(given, tuple | list) or getattr(given, "ndim", 0) > 0
+    pair: Any = given if several else (given, 0.0)
     try:
         amplitude, phase = (float(each) for each in pair)
     except (TypeError, ValueError):

@@ -359,9 +359,8 @@ def test_malformed_law_ends_with_one_line(
         assert word in message
 
 
-def test_a_pair_of_amplitude_and_phase_may_be_a_list() -> None:
-    pair: Any = [2.0, 0.5]
-
+@pytest.mark.parametrize("pair", [[2.0, 0.5], np.array([2.0, 0.5])])
+def test_a_pair_of_amplitude_and_phase_may_be_a_list_or_an_array(pair: Any) -> None:
     listed = system(mass=MASS, stiffness=STIFFNESS, drive={"x1": pair})
 
     paired = system(mass=MASS, stiffness=STIFFNESS, drive={"x1": (2.0, 0.5)})

@@ -52,9 +52,9 @@ def test_two_columns_are_read_with_or_without_a_header(
 @pytest.mark.parametrize(
     ("text", "hint"),
     [
-        ("", "0 lines with numbers"),
-        ("t,F\n", "0 lines with numbers"),
-        ("t,F\n0,1\n", "1 lines with numbers"),
+        ("", "no lines with numbers"),
+        ("t,F\n", "no lines with numbers"),
+        ("t,F\n0,1\n", "one line with numbers"),
         ("t,F\nt,F\n0,1\n1,1", "line 2: 't,F': give time"),
         (
             "0,1;1\n1;1",

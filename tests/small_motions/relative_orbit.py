@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force, edge, rubs
+from microslip_mechanics.contact.law import contact_force, edge, regularised
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.tangents import contact_tangents
@@ -133,7 +133,7 @@ def _regimes(
             contact_force(points, point, gap, slip, force, stiff, viscous)
             touches, pushes = gap[0] > edge(points, point), force[0] > 0.0
             loaded = points.constant_load[point] or pushes
-            slides = (loaded and rubs(points, point)) and np.hypot(
+            slides = (loaded and regularised(points, point)) and np.hypot(
                 slip[1], slip[2]
             ) > points.threshold[point]
             found[phase, point] = 1 * touches + 2 * pushes + 4 * slides

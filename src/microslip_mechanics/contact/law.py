@@ -88,7 +88,7 @@ def contact_force(
 
 
 @bare_kernel
-def rubs(points: ContactPoints, point: int) -> bool:
+def regularised(points: ContactPoints, point: int) -> bool:
     """Return whether friction turns around within a threshold of the velocity."""
     return bool(FRICTIONLESS < points.friction[point] < ELASTIC)
 

@@ -38,7 +38,8 @@ class Dahl(NormalLoad):
 class LuGre(NormalLoad):
     """dT = k_t (dw − |dw| T/(N µ(v))) and f v beside it, µ(v) as in GKF.
 
-    Canudas de Wit et al., 1995, without their micro-damping (theory, eq. 10b).
+    Canudas de Wit et al., 1995, without their micro-damping (theory, eq. 10b). f v acts
+    while faces touch, under a constant load always.
     """
 
     stiffness: float = quantity("N/m", positive=True)

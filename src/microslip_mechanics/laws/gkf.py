@@ -14,7 +14,7 @@ from microslip_mechanics.quantity import quantity
 class GeneralKineticFriction(NormalLoad):
     """T = N µ(v) min(|v|/V_lim, 1) v/|v| + f v, µ(v) = µd + (µs − µd) e^−(|v|/V_str)^γ.
 
-    Theory, eq. (10).
+    f v acts while faces touch, under a constant load always (theory, eq. 10).
     """
 
     mu_dynamic: float = quantity(lowest=0.0)

@@ -20,7 +20,7 @@ class Iwan:
     The density up to φ_max is cut into geometric intervals, each of them one slider of
     the interval's stiffness that slips at its mean slip displacement. So K_T and F_S
     are exact, as are force and stiffness on first loading at the edges of all
-    intervals; in between the force is too large, by :attr:`backbone_error` at the most.
+    intervals; in between the force is too large, by ``backbone_error`` at the most.
     Dissipation is an integral over that; it has no error that counts above the first
     edge, below which nothing slips. Twice as many sliders have a quarter of the error.
     """

@@ -92,6 +92,7 @@ def test_the_monodromy_is_the_difference_of_marches(
     np.testing.assert_allclose(np.concatenate(seen), difference, atol=tolerance * size)
 
 
+@pytest.mark.long
 def test_a_march_leaves_an_unstable_orbit_as_its_multiplier_says() -> None:
     # The jammed rig at resonance; corners of the faces separate. Measured 0.5 %.
     problem, response = rig_orbit("full", hertz=135.1156)

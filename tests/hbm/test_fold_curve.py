@@ -75,6 +75,7 @@ def test_the_folds_of_the_cubic_spring_are_those_of_the_amplitude_equation() -> 
         assert min(misses) < 1e-7 * found.parameter
 
 
+@pytest.mark.long
 def test_a_fold_ends_at_the_range_where_there_is_no_problem_beyond() -> None:
     def damped(damping: float) -> Problem:
         assert 0.0 <= damping <= DAMPING

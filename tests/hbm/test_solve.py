@@ -109,6 +109,7 @@ def test_the_drive_puts_in_what_friction_and_damping_take_out(traced: Traced) ->
         assert taken == pytest.approx(supplied, rel=1e-7)
 
 
+@pytest.mark.long
 def test_the_curve_of_falling_friction_has_a_fold() -> None:
     curve = curve_of(rig_problem(model="A", friction__law="gkf"), largest_step=0.1)
 
@@ -117,6 +118,7 @@ def test_the_curve_of_falling_friction_has_a_fold() -> None:
     assert curve[-1].frequency == TURN * 145.0
 
 
+@pytest.mark.long
 def test_a_curve_traced_downwards_passes_the_same_responses() -> None:
     problem = rig_problem(model="B")
 

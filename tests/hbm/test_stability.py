@@ -94,6 +94,7 @@ def test_largest_multipliers_are_those_of_the_time_domain(model: str, law: str) 
         )
 
 
+@pytest.mark.long
 def test_rattling_contacts_get_the_multipliers_of_more_harmonics() -> None:
     problem = rig_problem(model="full")
     rest = static_equilibrium(problem)
@@ -150,7 +151,7 @@ def test_half_a_period_and_its_mirror_image_are_a_period(model: str) -> None:
 
 
 def test_falling_friction_makes_a_torus_and_coulomb_friction_never() -> None:
-    falling = curve(rig_problem(model="A", friction__law="gkf"), 134.0, 136.0)
+    falling = curve(rig_problem(model="A", friction__law="gkf"), 134.3, 134.8)
     coulomb = curve(rig_problem(model="A"), 134.0, 136.0)
 
     assert max(point.unstable for point in falling) == 2

@@ -50,7 +50,14 @@ def test_what_only_creeps_goes_as_far_as_its_rows() -> None:
     np.testing.assert_allclose(largest(time, line, speed), [[1.0, 2.0], [1.0, 1.0]])
 
 
-@pytest.mark.parametrize("step", [0.02, 0.045, 0.11, 0.2])
+@pytest.mark.parametrize(
+    "step",
+    [
+        *(pytest.param(each, marks=pytest.mark.long) for each in (0.02, 0.11)),
+        0.045,
+        0.2,
+    ],
+)
 def test_no_velocity_is_made_across_impacts(step: float) -> None:
     time, moved, moving = bounces(step)
 

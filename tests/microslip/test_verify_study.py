@@ -223,7 +223,10 @@ def test_verification_of_a_curve_of_another_problem_names_where_it_is_wrong(
     assert "DISAGREE: 3 of 3 orbits differ by more than both estimates" in output
 
 
-@pytest.mark.parametrize(("approach", "status"), [(True, 0), (False, 1)])
+@pytest.mark.parametrize(
+    ("approach", "status"),
+    [pytest.param(True, 0, marks=pytest.mark.long), (False, 1)],
+)
 def test_verdict_of_the_sweeps_decides_the_status_too(
     approach: bool,
     status: int,

@@ -109,7 +109,8 @@ def bouncing(omega: float) -> tuple[Problem, Dwell]:
     return problem, Dwell(omega, 60.0)
 
 
-@pytest.mark.parametrize("omega", [pytest.param(2.8, marks=pytest.mark.long), 3.0])
+@pytest.mark.long
+@pytest.mark.parametrize("omega", [2.8, 3.0])
 def test_where_motions_part_a_tolerance_tells_more_than_its_steps_do(
     omega: float,
 ) -> None:

@@ -126,15 +126,18 @@ def _estimated(history: TimeHistory, time: float) -> float:
 def falls(agreements: list[SweepAgreement]) -> bool:
     """Return whether the slowest sweep comes closer to the curve than the others.
 
-    Its envelope is closest of all, its energy closer than that of the fastest: between
-    them the energy's difference may pass zero.
+    Its envelope is closest of all, its energy closer than that of the fastest. That one
+    may lie where the energy's difference passes zero: then it is enough if the energy
+    is closer than that of another one, and than the envelope.
     """
     if len(agreements) < 2:
         return True
-    fastest, *others, slowest = sorted(agreements, key=lambda each: each.slower)
-    envelopes = [each.envelope_error for each in (fastest, *others)]
-    less = abs(slowest.energy_error) < abs(fastest.energy_error)
-    closer = less or slowest.energy_error == 0.0
+    *others, slowest = sorted(agreements, key=lambda each: each.slower)
+    envelopes = [each.envelope_error for each in others]
+    energies = [abs(each.energy_error) for each in others]
+    left = abs(slowest.energy_error)
+    by_chance = left < min(max(energies), slowest.envelope_error)
+    closer = left == 0.0 or left < energies[0] or by_chance
     return closer and slowest.envelope_error < min(envelopes)
 
 

@@ -65,12 +65,13 @@ def mean_motions(
         return None
     kept = values.imag >= 0.0
     parts = np.linalg.inv(shapes.astype(complex))[kept]
-    shapes = shapes[:, kept] * np.where(values[kept].imag > 0.0, 2.0, 1.0)
+    halves = np.where(values[kept].imag > 0.0, 2.0, 1.0)
+    shapes = shapes[:, kept].astype(complex) * halves
     places = np.append(np.arange(rank), size + np.arange(rank))
-    push = parts[:, size:] @ inverse[:, :rank] / scale
+    push = parts[:, size:] @ inverse[:, :rank].astype(complex) / scale
     return MeanMotions(
         values[kept].astype(complex),
-        shapes.astype(complex),
+        shapes,
         parts,
         push,
         shapes[places],

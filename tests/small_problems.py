@@ -217,5 +217,5 @@ def last_harmonic(history: TimeHistory) -> ComplexArray:
     """Return the complex first harmonic of each probe over the last period."""
     phase = 2.0 * np.pi * np.arange(1, ROWS + 1) / ROWS
     cycle = history.displacement[-ROWS:]
-    harmonic: ComplexArray = 2.0 / ROWS * np.exp(-1j * phase) @ cycle
+    harmonic: ComplexArray = 2.0 / ROWS * (np.exp(-1j * phase) @ cycle.astype(complex))
     return harmonic

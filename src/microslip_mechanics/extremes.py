@@ -75,8 +75,8 @@ def of_all(parts: Sequence[Extremes]) -> Extremes:
         return np.stack([values[:, 0].min(axis=0), values[:, 1].max(axis=0)])
 
     return Extremes(
-        np.max([each.largest for each in parts], axis=0),
-        np.max([each.halves for each in parts], axis=0),
+        np.stack([each.largest for each in parts]).max(axis=0),
+        np.stack([each.halves for each in parts]).max(axis=0),
         ends("normal"),
         ends("bent"),
     )

@@ -108,7 +108,8 @@ class Passing(Known):
     def at(self, point: Array, _: object = None) -> ComplexArray:
         """Return the multipliers at a point, the largest first."""
         away = point[self.component] - np.array(self.places)
-        return np.sort(1.0 + 0.3 * away)[::-1].astype(complex)
+        falling: ComplexArray = np.sort(1.0 + 0.3 * away)[::-1].astype(complex)
+        return falling
 
 
 class Leaping(Known):

@@ -1,5 +1,6 @@
 """Numbers in columns: digits that are left of small ones."""
 
+import numpy as np
 import pytest
 
 from microslip.commands.columns import decimal, tabled
@@ -29,5 +30,5 @@ def test_small_columns_have_powers_of_ten(
 def test_tables_have_the_probes_that_move_most_of_many() -> None:
     names = ["a", "b", "c", "d", "a-to-b"]
 
-    assert tabled(names, [1.0, 3.0, 2.0, 4.0, 9.0]) == [1, 2, 3]
-    assert tabled(["a", "b", "a-to-b"], [1.0, 2.0, 9.0]) == [0, 1, 2]
+    assert tabled(names, np.array([1.0, 3.0, 2.0, 4.0, 9.0])) == [1, 2, 3]
+    assert tabled(["a", "b", "a-to-b"], np.array([1.0, 2.0, 9.0])) == [0, 1, 2]

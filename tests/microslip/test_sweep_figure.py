@@ -115,7 +115,7 @@ def test_sweep_figure_shows_both_blades_on_one_scale(
 
     limits = [axes.get_ylim() for axes in figure.axes[:2]]
     shown = 1e3 * small_history.displacement[:, :2]
-    low, high = min(shown.min(), 0.0), max(shown.max(), 0.0)
+    low, high = min(float(shown.min()), 0.0), max(float(shown.max()), 0.0)
     room = 0.05 * (high - low)
     assert limits[0] == limits[1]
     assert limits[0] == pytest.approx((low - room, high + room))
@@ -183,7 +183,7 @@ def test_legend_of_energies_lies_above_their_lines(
     shown = axes.get_legend()
     assert shown is not None
     below = axes.transData.inverted().transform(shown.get_window_extent())[0, 1]
-    assert below > max(np.max(line.get_ydata()) for line in axes.lines)
+    assert below > max(np.asarray(line.get_ydata()).max() for line in axes.lines)
 
 
 def test_without_normal_forces_there_is_no_panel_of_them(

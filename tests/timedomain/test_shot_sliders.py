@@ -86,7 +86,9 @@ def test_the_largest_multiplier_is_the_decay_of_a_disturbance(
     largest = float(np.abs(np.linalg.eigvals(found.monodromy)).max())
     assert 0.05 < largest < 1.0
 
-    state = found.state + 1e-5 * np.linalg.norm(found.state) * np.ones(found.state.size)
+    state: Array = found.state + 1e-5 * np.linalg.norm(found.state) * np.ones(
+        found.state.size
+    )
     sizes = [float(np.linalg.norm(state - found.state))]
     for _ in range(8):
         state = after(found.map, state)

@@ -4,6 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from microslip_mechanics.arrays import Array
 
 KEY = "KEY"
 """column of a table that has the name and values of the key that changes"""
@@ -21,7 +27,7 @@ def keyed(columns: Sequence[str], key: str) -> list[str]:
     return [key if name == KEY else name for name in columns]
 
 
-def tabled(names: Sequence[str], sizes: Sequence[float]) -> list[int]:
+def tabled(names: Sequence[str], sizes: Array) -> list[int]:
     """Return the places of the probes in a table.
 
     The first ones; where more than those are no relative motions, the ones of largest
@@ -54,14 +60,20 @@ def titled(text: str, names: Sequence[str], of: int) -> str:
     return f"{text:<{(WIDTH + 1) * len(names) - 1}}"
 
 
-def decimal(value: float, largest: float, decimals: int, width: int = WIDTH) -> str:
+def decimal(
+    value: float | np.floating[Any],
+    largest: float | np.floating[Any],
+    decimals: int,
+    width: int = WIDTH,
+) -> str:
     """Return a number in a column, whose largest is ``largest``, right aligned.
 
     It has so many decimals, unless they would leave less than :data:`DIGITS` digits of
     the largest, or more than the column is wide: then powers of ten.
     """
-    few = NOTHING < abs(largest) < 10.0 ** (DIGITS - 1 - decimals)
-    if few or abs(largest) >= 10.0 ** (width - decimals - 1):
+    most = abs(float(largest))
+    few = NOTHING < most < 10.0 ** (DIGITS - 1 - decimals)
+    if few or most >= 10.0 ** (width - decimals - 1):
         return f"{value:{width}.{DIGITS}e}"
     return f"{value:z{width}.{decimals}f}"
 

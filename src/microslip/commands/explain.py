@@ -94,9 +94,13 @@ def _measured(some: Timed, every: Timed) -> list[tuple[str, str, list[float]]]:
     return [
         ("processor time [s]", ".2f", [each.seconds for each in both]),
         ("points", ".0f", [each.curve.frequency.size for each in both]),
-        ("Newton iterations", ".0f", [each.curve.iterations.sum() for each in both]),
+        ("Newton iterations", ".0f", [_iterations(each) for each in both]),
         ("largest amplitude [mm]", ".4g", [_largest(each) for each in both]),
     ]
+
+
+def _iterations(timed: Timed) -> float:
+    return float(timed.curve.iterations.sum())
 
 
 def _largest(timed: Timed) -> float:

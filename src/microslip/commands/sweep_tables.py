@@ -25,8 +25,8 @@ def energy_table(result: TimeHistory | Envelope) -> str:
         f"  {name.replace('_', ' '):20s} {result.of(name)[-1]:12.6g}"
         for name in result.energies
     ]
-    closing = abs(result.closing_error).max()
-    share = closing / max(abs(result.of("input")).max(), 1e-300)
+    closing = float(abs(result.closing_error).max())
+    share = closing / max(float(abs(result.of("input")).max()), 1e-300)
     lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")
     return "\n".join(lines)
 

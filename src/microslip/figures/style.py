@@ -94,7 +94,9 @@ def legend_beside(axes: Axes, columns: Array) -> None:
 
 def one_range(columns: Iterable[Array]) -> tuple[float, float]:
     """Return limits that hold all columns: about zero, if they are nearly about it."""
-    ends = [(each.min(initial=0.0), each.max(initial=0.0)) for each in columns]
+    ends = [
+        (float(each.min(initial=0.0)), float(each.max(initial=0.0))) for each in columns
+    ]
     low = min((low for low, _ in ends), default=0.0)
     high = max((high for _, high in ends), default=0.0)
     limit = 1.05 * (max(-low, high) or 1e-9)

@@ -40,7 +40,7 @@ def load(path: Path, most: int | None = None) -> Stored:
     WrongFileError
         If there is no such file, or it is not a result.
     """
-    with _told(path), netcdf_file(path, "r", mmap=True) as file:
+    with _opened(path) as file:
         texts = {name: getattr(file, name).decode() for name in TEXTS}
         kind = _known(path, texts["kind"])
         head = Head.read(file, kind) if kind in GROWS else None
@@ -58,7 +58,7 @@ def stretches(path: Path) -> Iterator[Growing]:
     WrongFileError
         If there is no such file, or it is not a result.
     """
-    with _told(path), netcdf_file(path, "r", mmap=True) as file:
+    with _opened(path) as file:
         head = Head.read(file, _known(path, getattr(file, TEXTS[0]).decode()))
     for first in range(0, max(head.rows - SHARED, 1), CHUNK):
         count = min(CHUNK + SHARED, head.rows - first)
@@ -75,7 +75,7 @@ def end_of(path: Path) -> tuple[Growing, Head]:
     WrongFileError
         If there is no such file, or its march cannot go on.
     """
-    with _told(path), netcdf_file(path, "r", mmap=True) as file:
+    with _opened(path) as file:
         kind = _known(path, getattr(file, TEXTS[0]).decode())
         if kind not in GROWS:
             raise WrongFileError(
@@ -91,6 +91,17 @@ def end_of(path: Path) -> tuple[Growing, Head]:
     with _told(path):
         end = _result(head, rows_of(path, head, 0, 0))
         return end, head
+
+
+@contextlib.contextmanager
+def _opened(path: Path) -> Iterator[netcdf_file]:
+    """Open a file to read; a damaged one, which scipy leaves open, is closed too."""
+    with (
+        _told(path),
+        path.open("rb") as stream,
+        netcdf_file(stream, "r", mmap=True) as file,
+    ):
+        yield file
 
 
 @contextlib.contextmanager

@@ -9,6 +9,7 @@ from scipy.io.matlab import MatReadError
 
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
+from microslip.matrices.sparse_kind import either_kind
 from microslip.matrices.variable import matrix_of
 
 
@@ -21,7 +22,7 @@ def read_matlab(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         If there is none, or the file is of another kind; files of version 7.3 are.
     """
     try:
-        with path.open("rb"):  # says why a file cannot be read
+        with path.open("rb"), either_kind():  # says why a file cannot be read
             found = scipy.io.loadmat(str(path), appendmat=False)
     except NotImplementedError:
         raise MatrixFileError(

@@ -11,6 +11,7 @@ import scipy.sparse
 
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
+from microslip.matrices.sparse_kind import either_kind
 from microslip.matrices.text_table import text_of
 
 BANNER = "%%MatrixMarket"
@@ -44,7 +45,8 @@ def read_matrix_market(path: Path) -> LabelledMatrix:
         )
     _check_entries(path, text, *ENTRIES[layout])
     try:
-        matrix = scipy.io.mmread(io.BytesIO(text.encode()))
+        with either_kind():
+            matrix = scipy.io.mmread(io.BytesIO(text.encode()))
     except (ValueError, OverflowError, OSError) as error:
         raise _malformed(path, error) from None
     return LabelledMatrix(scipy.sparse.csc_array(matrix), ())

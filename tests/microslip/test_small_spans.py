@@ -70,6 +70,39 @@ def test_limits_of_one_value_are_drawn_across() -> None:
     assert labels == ["free"]
 
 
+@pytest.mark.parametrize(
+    ("values", "ticks"),
+    [
+        ([0.3, 2.0, 4.0], ["0.5", "1", "2"]),
+        ([0.0, 0.2, 5.0], ["0", "0.2", "0.5", "1", "2", "5"]),
+        ([0.0, 1e-3, 4.0], ["0", "0.001", "0.01", "0.1", "1"]),
+    ],
+)
+def test_a_parameter_over_few_decades_has_several_ticks(
+    values: list[float], ticks: list[str]
+) -> None:
+    poles_of = poles(-1 + 100j, -2 + 100j, -3 + 100j)
+
+    figure = poles_figure(
+        values, poles_of, {"free": poles_of, "stuck": poles_of}, SPAN, "limit", ""
+    )
+
+    for axes in figure.axes[:2]:
+        assert [label.get_text() for label in axes.get_xticklabels()] == ticks
+
+
+def test_damping_of_one_decade_has_plain_numbers() -> None:
+    pole = poles(-1 + 100j, -6 + 100j)
+
+    figure = poles_figure(
+        [1.0, 2.0], pole, {"free": pole, "stuck": pole}, SPAN, "limit", ""
+    )
+
+    figure.draw_without_rendering()
+    labels = [label.get_text() for label in figure.axes[1].get_yticklabels()]
+    assert {"1", "2", "5"} <= set(labels)
+
+
 def test_frequencies_that_do_not_change_have_a_readable_axis() -> None:
     hertz = [135.0, 135.0 + 3e-14]
     flat = ModeLine("mode", [1e-3, 2e-3], hertz, [0.01, 0.01])

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from microslip.figures.style import (
     COLOURS,
+    LONG,
     WIDTH,
     framed,
     headline,
@@ -26,6 +27,8 @@ LIMITS = {"free": ":", "stuck": "--"}
 """lines of the poles without friction and without sliding"""
 BESIDE = 0.3
 """half the length of a limit at a value without neighbours"""
+ROUNDING = 1e-9
+"""of the ends of an axis: a tick there belongs to it"""
 NOTHING = complex(np.nan, np.nan)
 
 
@@ -126,7 +129,8 @@ def _finish(
             axes.legend(frameon=False)
     for axes in (frequency, damping, path):
         axes.margins(x=0.04)
-    plain_logarithmic(path.xaxis)
+    for axis in (damping.yaxis, path.xaxis):
+        plain_logarithmic(axis)
 
 
 def _scale(axes: Axes, where: Array) -> None:
@@ -134,9 +138,12 @@ def _scale(axes: Axes, where: Array) -> None:
     positive = where[where > 0.0]
     if positive.size and where.min() >= 0.0 and where.max() > 10.0 * positive.min():
         axes.set_xscale("symlog", linthresh=positive.min(), linscale=0.5)
-        low, high = np.log10([positive.min(), where.max()])
-        decades = 10.0 ** np.arange(np.ceil(low), np.floor(high) + 1.0)
-        ticks = [0.0, *decades] if where.min() == 0.0 else [*decades]
+        low, high = positive.min(), where.max()
+        decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.log10(high) + 1.0)
+        marks = np.outer(decades, [1.0] if high > LONG * low else [1.0, 2.0, 5.0])
+        ends = low * (1.0 - ROUNDING), high * (1.0 + ROUNDING)
+        shown = marks[(marks >= ends[0]) & (marks <= ends[1])]
+        ticks = [0.0, *shown] if where.min() == 0.0 else [*shown]
         axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
         axes.set_xticks([], minor=True)
 

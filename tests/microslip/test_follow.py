@@ -55,6 +55,18 @@ def test_a_sticking_rig_answers_in_proportion_to_the_drive() -> None:
     )
 
 
+def test_a_drive_of_nothing_is_a_wrong_scene(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["duffing", "drive.y", "0.1", "0.2", "--frequency", "5"]
+
+    assert main(["follow", *words, "-o", str(tmp_path / "x")]) == 2
+
+    told = capsys.readouterr().err
+    expected = "duffing: drive: there is no degree of freedom 'y': give one of x"
+    assert told == f"microslip: {expected}\n"
+
+
 def test_it_meets_the_frequency_response_at_the_scene_s_value() -> None:
     overrides = ("curve.lowest=18 Hz", "curve.highest=18.2 Hz")
     drive = parameter("jenkins", overrides, "drive.x", "0.3", "0.5")

@@ -8,6 +8,7 @@ from hbm.options import CurveOptions
 from hbm.parameter_curves import parameter_response
 from microslip.experiments import Resolution
 from microslip.progress import Watch
+from microslip.rigs import solvable
 from microslip.studies.curve import gathered
 from microslip.studies.gaps import told
 from microslip.studies.parameter import Parameter
@@ -18,7 +19,16 @@ from microslip_mechanics.response_curve import ResponseCurve, response_curve
 def follow(
     parameter: Parameter, frequency: float, watch: Watch = iter
 ) -> ResponseCurve:
-    """Follow the response along a parameter of a scene, as :func:`along` does."""
+    """Follow the response along a parameter of a scene, as :func:`along` does.
+
+    Raises
+    ------
+    SceneError
+        If there is no problem at the first value.
+    ContinuationError
+        If there is no first point.
+    """
+    solvable(parameter.scene)
     return along(
         parameter.problem_at,
         (parameter.first, parameter.last),

@@ -71,8 +71,7 @@ class ResponseCurve(ByValue):
     @property
     def pulls(self) -> bool:
         """Whether springs are among the contacts: dampers alone hardly pull."""
-        least = float(np.nanmin(self.normal_smallest, initial=0.0))
-        return least < -PULL * float(np.nanmax(self.normal_largest, initial=0.0))
+        return pulling(self.normal_smallest, self.normal_largest)
 
     def __repr__(self) -> str:
         """Return what kind of curve it is, in a line."""
@@ -85,6 +84,12 @@ class ResponseCurve(ByValue):
             f"<ResponseCurve: {values.size} points{span}{events}; "
             f"probes {', '.join(self.probes)}; {self.ending}>"
         )
+
+
+def pulling(smallest: Array, largest: Array) -> bool:
+    """Return whether normal forces between these are those of springs [N]."""
+    least = float(np.nanmin(smallest, initial=0.0))
+    return least < -PULL * float(np.nanmax(largest, initial=0.0))
 
 
 def response_curve(

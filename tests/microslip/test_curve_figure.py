@@ -132,6 +132,17 @@ def test_errors_far_below_the_largest_are_cut_off(
     assert axes.get_ylim()[0] == pytest.approx(1e-7)  # of 0.1 %
 
 
+def test_errors_that_hardly_differ_are_drawn_from_nothing(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    error = np.array([1.0976e-6, 1.098e-6, 1.0985e-6, 1.099e-6])
+
+    curves.estimated_error(axes, dataclasses.replace(small_curve, error=error))
+
+    assert axes.get_yscale() == "linear"
+    assert axes.get_ylim()[0] == 0.0
+
+
 def test_without_normal_forces_the_error_takes_their_place(
     small_curve: ResponseCurve,
 ) -> None:

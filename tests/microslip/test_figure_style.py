@@ -1,10 +1,12 @@
 """Axes of pictures: ticks of logarithmic ones, short and long."""
 
+import itertools
+
 import pytest
 from matplotlib.figure import Figure
 
 from microslip.figures.names import called
-from microslip.figures.style import headline, plain_logarithmic
+from microslip.figures.style import framed, headline, plain_logarithmic
 
 
 @pytest.mark.parametrize(
@@ -12,6 +14,7 @@ from microslip.figures.style import headline, plain_logarithmic
     [
         (0.09, 2.1, ["0.1", "0.2", "0.5", "1", "2"]),
         (3.0, 30.0, ["5", "10", "20"]),
+        (0.67, 1.14, ["0.7", "0.8", "0.9", "1", "1.1"]),
         (1e-6, 2.0, ["$\\mathdefault{10^{-6}}$", "$\\mathdefault{10^{0}}$"]),
     ],
 )
@@ -28,6 +31,21 @@ def test_logarithmic_axes_have_a_few_readable_ticks(
     assert len(shown) <= 8
     assert not axes.get_xticks(minor=True).size
     assert [label for label in shown if label in labels] == labels
+
+
+def test_a_narrow_range_is_written_without_an_offset() -> None:
+    figure = Figure(figsize=(5.0, 3.5), layout="constrained")
+    axes = figure.subplots()
+    axes.plot([5.0, 5.0001], [0.0, 1.0])
+
+    framed(axes, x="frequency [Hz]", y="amplitude [mm]", title="")
+
+    figure.draw_without_rendering()
+    assert not axes.xaxis.get_offset_text().get_text()
+    labels = [label.get_window_extent() for label in axes.get_xticklabels()]
+    assert 3 <= len(labels) <= 5
+    for left, right in itertools.pairwise(labels):
+        assert left.x1 < right.x0
 
 
 def test_a_long_title_stays_within_the_picture() -> None:

@@ -72,16 +72,19 @@ def extreme_lines(
     ``found`` are those of all rows; ``pressed`` are the contacts that have normal
     forces at all.
     """
+    from microslip_mechanics.response_curve import pulling
+
     lines = ["largest displacement [mm] and velocity [m/s]"]
     for name, far, fast in zip(result.probes, *found.largest, strict=True):
         lines.append(f"  {name:20s} {1e3 * far:12.6g} {fast:12.6g}")
     lines += _missed("velocity", float(found.errors[1]))
     if pressed:
-        lines.append("normal force [N], least and most")
+        kind = "spring" if pulling(*found.normal) else "normal"
+        lines.append(f"{kind} force [N], least and most")
         for name, least, most in zip(result.contacts, *found.normal, strict=True):
             if name in pressed:
                 lines.append(f"  {name:20s} {least:12.6g} {most:12.6g}")
-        lines += _missed("normal force", found.force_error)
+        lines += _missed(f"{kind} force", found.force_error)
     if result.divided:
         lines.append(f"{result.divided} steps converged only when divided")
     return lines

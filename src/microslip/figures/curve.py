@@ -18,7 +18,7 @@ from microslip.figures.amplitude import (
     greatest,
     some,
 )
-from microslip.figures.names import absolute, faces, readable, relative
+from microslip.figures.names import absolute, faces, force_kind, readable, relative
 from microslip.figures.style import (
     COLOURS,
     SHORT,
@@ -142,7 +142,9 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the estimated error of the amplitude at each point, where it is known."""
     known = np.where(np.isfinite(curve.error), curve.error, np.nan)
     axes.plot(abscissa(curve), 100.0 * known, color=COLOURS[0], linewidth=WIDTH * 1.5)
-    if (known > 0.0).any():
+    least, most = np.nanmin(known), np.nanmax(known)
+    varies = most > SHORT * least
+    if varies:
         axes.set_yscale("log")
     framed(
         axes,
@@ -150,8 +152,10 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
         y="error [%]",
         title="Estimated error of amplitude",
     )
-    if np.nanmin(known) < SMALL * np.nanmax(known):
-        axes.set_ylim(bottom=100.0 * SMALL * np.nanmax(known))
+    if not varies:
+        axes.set_ylim(bottom=0.0)
+    elif least < SMALL * most:
+        axes.set_ylim(bottom=100.0 * SMALL * most)
 
 
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
@@ -176,7 +180,7 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
             )
     lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
     highest = float(np.nanmax(curve.normal_largest, initial=0.0))
-    what = "Spring forces" if curve.pulls else "Normal forces"
+    what = force_kind(curve.normal_smallest, curve.normal_largest)
     title = f"{what}: range over a period, line at the largest"
     framed(axes, x=abscissa_name(curve), y="force [N]", title=title)
     axes.set_ylim(1.05 * lowest, 1.05 * highest if highest > 0.0 else None)

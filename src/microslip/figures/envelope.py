@@ -6,7 +6,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.names import called, faces, foremost, readable, relative
+from microslip.figures.names import (
+    called,
+    faces,
+    force_kind,
+    foremost,
+    readable,
+    relative,
+)
 from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
@@ -78,8 +85,9 @@ def _normal_force(axes: Axes, envelope: Envelope, face: str, places: list[int]) 
             label=envelope.contacts[place],
         )
     where = called(face, [envelope.contacts[place] for place in places])
-    framed(axes, x=TIME, y="force [N]", title=f"Normal forces, {where}")
-    legend_beside(axes, envelope.normal_largest[:, places])
+    low, high = envelope.normal_smallest[:, places], envelope.normal_largest[:, places]
+    framed(axes, x=TIME, y="force [N]", title=f"{force_kind(low, high)}, {where}")
+    legend_beside(axes, high)
 
 
 def _friction_power(axes: Axes, envelope: Envelope) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.response_curve import pulling
 
 
 def absolute(probes: Iterable[str]) -> list[int]:
@@ -43,6 +44,11 @@ def called(face: str, contacts: Sequence[str]) -> str:
         return f"face {face}"
     name = contacts[0] if len(contacts) == 1 else face
     return name if name.startswith("element") else f"element {name}"
+
+
+def force_kind(smallest: Array, largest: Array) -> str:
+    """Return what titles call normal forces between these [N]."""
+    return "Spring forces" if pulling(smallest, largest) else "Normal forces"
 
 
 def readable(name: str) -> str:

@@ -13,7 +13,9 @@ from matplotlib.ticker import (
     FuncFormatter,
     LogFormatterSciNotation,
     LogLocator,
+    MaxNLocator,
     NullLocator,
+    ScalarFormatter,
 )
 
 from microslip_mechanics.arrays import Array
@@ -30,6 +32,8 @@ STYLES = ("-", "--", ":", "-.")
 """lines that lie on one another stay apart"""
 FLAT = 1e-6
 """of its data, that an axis shows at least: less is rounding"""
+NARROW = 1e-3
+"""of its data, below which what an axis spans takes long numbers"""
 LETTERS = 11.0
 """of a title in an inch"""
 LONG = 150.0
@@ -50,6 +54,18 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.margins(x=0.0)
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
+    _whole_numbers(axes.xaxis)
+
+
+def _whole_numbers(axis: Axis) -> None:
+    """Let an axis have no offset beside it, and few numbers where they are long."""
+    formatter = axis.get_major_formatter()
+    if not isinstance(formatter, ScalarFormatter):
+        return
+    formatter.set_useOffset(False)
+    low, high = axis.get_data_interval()
+    if high - low < NARROW * max(abs(low), abs(high)):
+        axis.set_major_locator(MaxNLocator(nbins=4))
 
 
 def widened(axes: Axes, error: float = 0.0) -> None:
@@ -66,15 +82,16 @@ def widened(axes: Axes, error: float = 0.0) -> None:
 def plain_logarithmic(axis: Axis) -> None:
     """Label a logarithmic axis with plain numbers: 0.1, 0.2, 0.5 and so on.
 
-    With powers of ten where it is long.
+    With powers of ten where it is long, and evenly where it is short.
     """
     low, high = axis.get_view_interval()
-    long = high > LONG * low > 0.0
-    if long:
+    if high > LONG * low > 0.0:
         axis.set_major_locator(LogLocator(numticks=8))
         axis.set_major_formatter(LogFormatterSciNotation())
     else:
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        even = MaxNLocator(nbins=5)
+        short = high <= SHORT * low
+        axis.set_major_locator(even if short else LogLocator(subs=(1.0, 2.0, 5.0)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
 

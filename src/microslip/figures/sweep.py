@@ -8,7 +8,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.names import called, faces, foremost, readable, relative
+from microslip.figures.names import (
+    called,
+    faces,
+    force_kind,
+    foremost,
+    readable,
+    relative,
+)
 from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
@@ -117,10 +124,12 @@ def normal_force(
             rasterized=True,
         )
     where = called(face, [history.contacts[place] for place in places])
-    framed(axes, x=TIME, y="force [N]", title=f"Normal forces, {where}")
-    legend_beside(axes, history.normal_force[:, places])
-    shown = axes.get_legend()
-    for line in shown.get_lines() if shown else ():
+    shown = history.normal_force[:, places]
+    title = f"{force_kind(shown, shown)}, {where}"
+    framed(axes, x=TIME, y="force [N]", title=title)
+    legend_beside(axes, shown)
+    legend = axes.get_legend()
+    for line in legend.get_lines() if legend else ():
         line.set_linewidth(2.0)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -13,7 +14,6 @@ from numpy.typing import NDArray
 
 from microslip.figures.style import (
     COLOURS,
-    LONG,
     WIDTH,
     framed,
     headline,
@@ -29,6 +29,8 @@ BESIDE = 0.3
 """half the length of a limit at a value without neighbours"""
 ROUNDING = 1e-9
 """of the ends of an axis: a tick there belongs to it"""
+LETTERS = 28
+"""of ticks that a panel has room for"""
 NOTHING = complex(np.nan, np.nan)
 
 
@@ -138,14 +140,25 @@ def _scale(axes: Axes, where: Array) -> None:
     positive = where[where > 0.0]
     if positive.size and where.min() >= 0.0 and where.max() > 10.0 * positive.min():
         axes.set_xscale("symlog", linthresh=positive.min(), linscale=0.5)
-        low, high = positive.min(), where.max()
-        decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.log10(high) + 1.0)
-        marks = np.outer(decades, [1.0] if high > LONG * low else [1.0, 2.0, 5.0])
-        ends = low * (1.0 - ROUNDING), high * (1.0 + ROUNDING)
-        shown = marks[(marks >= ends[0]) & (marks <= ends[1])]
-        ticks = [0.0, *shown] if where.min() == 0.0 else [*shown]
+        shown = _ticks(positive.min(), where.max())
+        ticks = [0.0, *shown] if where.min() == 0.0 else shown
         axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
         axes.set_xticks([], minor=True)
+
+
+def _ticks(low: float, high: float) -> list[float]:
+    """Return 1, 2, 5 and so on between the ends, as many as have room for labels."""
+    decades = 10.0 ** np.arange(np.floor(np.log10(low)), np.log10(high) + 1.0)
+    ends = low * (1.0 - ROUNDING), high * (1.0 + ROUNDING)
+    found: list[float] = []
+    for steps in ((1.0, 2.0, 5.0), (1.0, 3.0), (1.0,)):
+        marks = np.outer(decades, steps).ravel()
+        found = [float(each) for each in marks if ends[0] <= each <= ends[1]]
+        longest = max((len(f"{each:g}") for each in found), default=0)
+        closest = min((b / a for a, b in itertools.pairwise(found)), default=np.inf)
+        if np.log10(closest) * LETTERS >= (longest + 1) * np.log10(high / low):
+            break
+    return found
 
 
 def _inside(values: ComplexArray, span: tuple[float, float]) -> NDArray[np.bool_]:

@@ -304,6 +304,19 @@ def test_the_picture_shows_curve_envelopes_and_delays(
     assert right.get_ylabel().endswith("[Hz]")
 
 
+def test_the_picture_is_as_high_as_what_it_shows(small_curve: ResponseCurve) -> None:
+    hertz = np.linspace(130.0, 130.5, 5)
+    line = JumpLine("up", 130.2, RATES, RATES, 0.0, 1e-3, [(hertz, 1e-6 * hertz)])
+    size = np.array([1e-4, 5e-2, 5e-2, 5e-2])[:, None]
+    high = dataclasses.replace(
+        small_curve, peak=np.broadcast_to(size, small_curve.peak.shape)
+    )
+
+    left, _ = jumps_figure(high, [line], "title").axes
+
+    assert left.get_ylim() == pytest.approx((0.0, 1.08 * 1e3 * 1e-6 * 130.5))
+
+
 @pytest.mark.parametrize("stops", [KeyboardInterrupt(), StudyError("no jump")])
 def test_sweeps_before_one_fails_are_kept(
     stops: BaseException,

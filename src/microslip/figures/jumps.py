@@ -19,6 +19,9 @@ from microslip_mechanics.response_curve import ResponseCurve
 BESIDE = 0.2
 """how much of the curve is shown beside the sweeps, over their range"""
 
+ROOM = 1.08
+"""height of the same panel, over the largest deflection in it"""
+
 
 @dataclass(frozen=True, slots=True)
 class JumpLine:
@@ -79,7 +82,12 @@ def _envelopes(axes: Axes, curve: ResponseCurve, jumps: Sequence[JumpLine]) -> N
     swept = [hertz for jump in jumps for hertz, _ in jump.envelopes]
     if swept:
         low, high = np.min(np.concatenate(swept)), np.max(np.concatenate(swept))
-        axes.set_xlim(low - BESIDE * (high - low), high + BESIDE * (high - low))
+        room = BESIDE * (high - low)
+        axes.set_xlim(low - room, high + room)
+        inside = peak[(at >= low - room) & (at <= high + room)]
+        heights = [1e3 * each for jump in jumps for _, each in jump.envelopes]
+        highest = max(np.nanmax(each, initial=0.0) for each in (inside, *heights))
+        axes.set_ylim(0.0, ROOM * highest)
 
 
 def _late(axes: Axes, jump: JumpLine, colour: str) -> None:

@@ -219,6 +219,19 @@ def test_command_says_so_if_pruning_changes_the_curve(
     assert "DISAGREE" in output
 
 
+def test_interrupted_while_it_traces_it_names_no_file(
+    run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("microslip.studies.unpruned.timed", interrupted)
+
+    status, _, error = run("explain", str(quick_scene), "--time")
+
+    assert (status, error) == (130, "microslip: interrupted; no file is written\n")
+
+
 def test_the_rule_that_fixes_stuck_contacts_is_told(tmp_path: Path) -> None:
     path = tmp_path / "rigid.toml"
     path.write_text(

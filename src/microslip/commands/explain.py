@@ -62,7 +62,7 @@ def _run(options: argparse.Namespace) -> int:
     try:
         some, every = timed(scene, frc.watched(scene.curve))
     except KeyboardInterrupt:
-        return arguments.ended("interrupted")
+        return arguments.ended("interrupted", kept=False)
     return _compared(some, every)
 
 
@@ -77,7 +77,8 @@ def _compared(some: Timed, every: Timed) -> int:
         print(f"{name:46s} {values[0]:>7{form}} {values[1]:>9{form}}")
     endings = [each.curve.ending for each in (some, every)]
     if endings != ["complete"] * 2:
-        return arguments.ended(next(each for each in endings if each != "complete"))
+        ending = next(each for each in endings if each != "complete")
+        return arguments.ended(ending, kept=False)
     apart = difference(some, every)
     print(f"unpruned, the curve takes {every.seconds / some.seconds:.1f} x as long")
     same = apart <= AGREED

@@ -1,14 +1,19 @@
 """Pictures of few values: names on the axis, limits that are seen, no rounding."""
 
+import math
+
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
+from microslip.figures.decay import decay_figure
 from microslip.figures.modes import ModeLine, modes_figure
 from microslip.figures.poles import poles_figure
 from microslip.figures.style import widened
 from microslip.figures.track import track_figure
 from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.ring_down import RingDown
+from microslip_mechanics.time_history import TimeHistory
 
 SPAN = (1.0, 1e3)
 
@@ -114,3 +119,15 @@ def test_frequencies_that_do_not_change_have_a_readable_axis() -> None:
 
     assert np.ptp(mode.get_ylim()) == pytest.approx(1.1 * 1e-6 * 135.0, rel=1e-3)
     assert np.ptp(tracked.get_ylim()) == pytest.approx(1.1 * 0.012, rel=1e-3)
+
+
+def test_a_decay_of_one_frequency_does_not_show_rounding(
+    small_history: TimeHistory,
+) -> None:
+    hertz = np.array([19.4921763, 19.4921767, 19.4921763])
+    size = np.array([1e-3, 1e-4, 1e-5])
+    decay = RingDown(np.arange(3.0), size, math.tau * hertz, np.full(3, 0.004))
+
+    frequency = decay_figure(small_history, decay, 0, "").axes[2]
+
+    assert np.ptp(frequency.get_ylim()) == pytest.approx(1.1e-6 * hertz[0], rel=1e-3)

@@ -7,7 +7,14 @@ import math
 from matplotlib.figure import Figure
 
 from microslip.figures.names import readable
-from microslip.figures.style import COLOURS, WIDTH, framed, headline, plain_logarithmic
+from microslip.figures.style import (
+    COLOURS,
+    WIDTH,
+    framed,
+    headline,
+    plain_logarithmic,
+    widened,
+)
 from microslip_mechanics.ring_down import RingDown
 from microslip_mechanics.time_history import TimeHistory
 
@@ -30,6 +37,7 @@ def decay_figure(
     below = "amplitude [mm]"
     framed(frequency, x=below, y="natural frequency [Hz]", title="Frequency")
     frequency.ticklabel_format(axis="y", useOffset=False)
+    widened(frequency)
     damping.plot(millimetres, 100.0 * decay.damping, **line)
     framed(damping, x=below, y="damping ratio [%]", title="Damping")
     if (decay.damping > 0.0).all():

@@ -64,7 +64,7 @@ def _whole_numbers(axis: Axis) -> None:
         return
     formatter.set_useOffset(False)
     low, high = axis.get_data_interval()
-    if high - low < NARROW * max(abs(low), abs(high)):
+    if 0.0 < high - low < NARROW * max(abs(low), abs(high)):
         axis.set_major_locator(MaxNLocator(nbins=4))
 
 

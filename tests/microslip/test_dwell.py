@@ -215,6 +215,28 @@ def test_a_single_distance_is_seen(
     assert line.get_marker() == marker
 
 
+def test_of_many_motions_the_picture_shows_those_that_move_most(
+    small_history: TimeHistory,
+) -> None:
+    count = 6
+    sizes = 1e-3 * np.arange(1.0, count + 1.0)
+    moved = small_history.displacement[:, :1] + 1.0
+    many = dataclasses.replace(
+        small_history,
+        probes=tuple(f"x{place}" for place in range(count)),
+        displacement=moved * sizes,
+        velocity=moved * sizes,
+    )
+
+    figure = dwell_figure(many, [0.1], 1e-3, "many")
+
+    titles = [axes.get_title(loc="left") for axes in figure.axes[:2]]
+    assert titles == ["Displacement, x4", "Displacement, x5"]
+    for axes in figure.axes[2:4]:
+        names = axes.get_legend_handles_labels()[1]
+        assert names == ["x2", "x3", "x4", "x5"]
+
+
 def test_a_dwell_of_few_periods_counts_them_and_says_what_is_unknown(
     small_history: TimeHistory,
 ) -> None:

@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from microslip.figures.names import absolute, readable, relative
+from microslip.figures.amplitude import greatest
+from microslip.figures.names import absolute, foremost, readable, relative
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip.figures.sweep import displacement, energies
 from microslip_mechanics.time_history import TimeHistory
@@ -36,7 +37,8 @@ def dwell_figure(
     """
     figure = Figure(figsize=(10.0, 7.8), layout="constrained")
     panels = figure.subplots(3, 2)
-    shown = absolute(history.probes)[: len(panels[0])]
+    sizes = abs(history.displacement).max(axis=0, initial=0.0)
+    shown = greatest(foremost(history.probes, sizes), sizes[None], len(panels[0]))
     for axes, colour, place in zip(panels[0], COLOURS, shown, strict=False):
         displacement(axes, history, place, colour)
     for axes in panels[0][len(shown) :]:
@@ -51,7 +53,9 @@ def dwell_figure(
 
 
 def _orbit(axes: Axes, history: TimeHistory, rows: int) -> None:
-    lines = zip(COLOURS, STYLES, absolute(history.probes), strict=False)
+    moved = abs(history.displacement[-rows:])
+    shown = greatest(absolute(history.probes), moved, len(STYLES))
+    lines = zip(COLOURS, STYLES, shown, strict=False)
     for colour, style, place in lines:
         axes.plot(
             _since(history, rows),
@@ -68,7 +72,8 @@ def _orbit(axes: Axes, history: TimeHistory, rows: int) -> None:
 def _velocities(axes: Axes, history: TimeHistory, rows: int) -> None:
     """Draw relative velocities or, where no probe is one, those of all."""
     slips = relative(history.probes)
-    places = slips or absolute(history.probes)
+    fast = abs(history.velocity[-rows:])
+    places = greatest(slips or absolute(history.probes), fast, len(STYLES))
     for colour, style, place in zip(COLOURS, STYLES, places, strict=False):
         axes.plot(
             _since(history, rows),

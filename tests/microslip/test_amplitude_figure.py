@@ -3,6 +3,7 @@
 import dataclasses
 
 import numpy as np
+import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -144,3 +145,13 @@ def test_a_close_up_shows_what_is_around_a_crowd(
 
 def test_a_curve_without_points_has_no_crowd(small_curve: ResponseCurve) -> None:
     assert crowd(_located(small_curve, [], ())) == []
+
+
+def test_an_amplitude_that_hardly_changes_does_not_lie_on_the_frame(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    size = np.linspace(1.0, 1.001, 4)[:, None] * np.ones(len(small_curve.probes))
+
+    frequency_response(axes, dataclasses.replace(small_curve, amplitude=1e-3 * size))
+
+    assert axes.get_ylim() == pytest.approx((0.0, 1.04 * 1.001))

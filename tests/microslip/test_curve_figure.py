@@ -140,7 +140,7 @@ def test_errors_that_hardly_differ_are_drawn_from_nothing(
     curves.estimated_error(axes, dataclasses.replace(small_curve, error=error))
 
     assert axes.get_yscale() == "linear"
-    assert axes.get_ylim()[0] == 0.0
+    assert axes.get_ylim() == pytest.approx((0.0, 1.04 * 1.099e-4))
 
 
 def test_without_normal_forces_the_error_takes_their_place(

@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.abscissa import abscissa, abscissa_name
 from microslip.figures.names import absolute, readable
-from microslip.figures.style import COLOURS, STYLES, WIDTH, framed
+from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, from_nothing
 from microslip_mechanics.response_curve import ResponseCurve
 
 MARKERS = {
@@ -63,7 +63,7 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
     )
     _unstable(axes, curve)
     _events(axes, curve)
-    axes.set_ylim(bottom=0.0)
+    from_nothing(axes)
     axes.legend(frameon=False)
 
 

@@ -25,6 +25,7 @@ from microslip.figures.style import (
     STYLES,
     WIDTH,
     framed,
+    from_nothing,
     headline,
     legend_above,
     plain_logarithmic,
@@ -153,7 +154,7 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
         title="Estimated error of amplitude",
     )
     if not varies:
-        axes.set_ylim(bottom=0.0)
+        from_nothing(axes)
     elif least < SMALL * most:
         axes.set_ylim(bottom=100.0 * SMALL * most)
 

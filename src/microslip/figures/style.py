@@ -36,6 +36,8 @@ NARROW = 1e-3
 """of its data, below which what an axis spans takes long numbers"""
 LETTERS = 11.0
 """of a title in an inch"""
+ROOM = 1.04
+"""end of an axis that begins at zero, over its data, at least"""
 LONG = 150.0
 """end of a logarithmic axis over its beginning, from which on it has powers of ten"""
 SHORT = 5.0
@@ -77,6 +79,12 @@ def widened(axes: Axes, error: float = 0.0) -> None:
     if high - low < least:
         middle = 0.5 * (low + high)
         axes.set_ylim(middle - 0.55 * least, middle + 0.55 * least)
+
+
+def from_nothing(axes: Axes) -> None:
+    """Let a vertical axis begin at zero, and what hardly changes not lie on its end."""
+    high = axes.get_ylim()[1]
+    axes.set_ylim(0.0, max(high, ROOM * float(axes.dataLim.y1)))
 
 
 def plain_logarithmic(axis: Axis) -> None:

@@ -1,5 +1,6 @@
 """The picture of verify: the data that it shows, labels with units."""
 
+import dataclasses
 import itertools
 
 import numpy as np
@@ -43,6 +44,31 @@ def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     check_lines(envelopes.lines[2:], hertz, [1e3 * small_curve.peak[:, 0]])
     assert legend(envelopes) == ["1 x as long", "4 x as long", "curve"]
     check_lines(energies.lines, slower, [[40.0, 10.0, 5.0]])
+
+
+def test_dots_have_the_colours_of_their_lines(small_curve: ResponseCurve) -> None:
+    size = np.array([1e-5, 3e-4, 1e-4, 2e-4, 5e-4])
+    amplitude = np.ones((4, 1)) * size
+    many = dataclasses.replace(
+        unmarked(small_curve),
+        probes=("a", "b", "c", "d", "e"),
+        amplitude=amplitude,
+        peak=amplitude,
+        velocity_peak=amplitude,
+    )
+    one = np.array([1e-5])
+
+    figure = agreement_figure(
+        many, (np.array([132.0]), size[None], one, one), [], (one, one), ""
+    )
+
+    *lines, largest = figure.axes[0].lines[:5]
+    dots = figure.axes[0].lines[5:]
+    assert largest.get_label() == "largest"
+    assert len(dots) == 4
+    for line, dot in zip(lines, dots, strict=True):
+        assert dot.get_color() == line.get_color()
+        assert np.asarray(dot.get_ydata())[0] == np.asarray(line.get_ydata())[0]
 
 
 def check_labels_of_agreement(figure: Figure) -> None:

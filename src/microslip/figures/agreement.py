@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.abscissa import FREQUENCY, abscissa, parted
-from microslip.figures.amplitude import frequency_response
+from microslip.figures.amplitude import frequency_response, greatest
 from microslip.figures.names import absolute, readable
-from microslip.figures.style import COLOURS, WIDTH, framed, headline
+from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response_curve import ResponseCurve
 
@@ -53,7 +53,8 @@ def agreement_figure(
     figure = Figure(figsize=(10.0, 3.5 * rows), layout="constrained")
     panels = figure.subplots(rows, 2, squeeze=False)
     frequency_response(panels[0, 0], parted(curve))
-    for place, colour in zip(absolute(curve.probes), COLOURS, strict=False):
+    shown = greatest(absolute(curve.probes), curve.amplitude, len(STYLES))
+    for place, colour in zip(shown, COLOURS, strict=False):
         panels[0, 0].plot(found[0], 1e3 * found[1][:, place], color=colour, **DOTS)
     panels[0, 0].set_title(
         "Curve, and orbits found by shooting (dots)", loc="left", fontsize="medium"

@@ -71,6 +71,20 @@ def test_dots_have_the_colours_of_their_lines(small_curve: ResponseCurve) -> Non
         assert np.asarray(dot.get_ydata())[0] == np.asarray(line.get_ydata())[0]
 
 
+def test_without_any_orbit_there_is_no_panel_of_differences(
+    small_curve: ResponseCurve,
+) -> None:
+    none = np.zeros(0)
+
+    figure = agreement_figure(
+        small_curve, (none, np.zeros((0, 5)), none, none), [], (none, none), ""
+    )
+
+    figure.draw_without_rendering()  # would warn of axes that collapse
+    (curve,) = figure.axes
+    assert curve.get_position().width > 0.3
+
+
 def check_labels_of_agreement(figure: Figure) -> None:
     """Check the labels where each panel has a frequency or a factor of its own."""
     figure.draw_without_rendering()

@@ -31,7 +31,8 @@ def agreement_figure(
 ) -> Figure:
     """Draw curve and orbits, differences, envelopes of sweeps, and energy by duration.
 
-    The last two are left out without sweeps, and the last without friction.
+    The last two are left out without sweeps, the last without friction, and differences
+    where there is no orbit.
 
     Parameters
     ----------
@@ -59,7 +60,10 @@ def agreement_figure(
     panels[0, 0].set_title(
         "Curve, and orbits found by shooting (dots)", loc="left", fontsize="medium"
     )
-    _differences(panels[0, 1], found)
+    if found[0].size:
+        _differences(panels[0, 1], found)
+    else:
+        panels[0, 1].remove()
     if sweeps:
         _envelopes(panels[1, 0], parted(curve), sweeps)
         if energies[0].size:

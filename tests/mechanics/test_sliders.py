@@ -102,3 +102,12 @@ def test_tractions_err_with_the_square_of_the_steps_where_a_point_touches() -> N
     assert errors[-1] < 1e-4 * np.abs(held(0.0)).max()
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert orders == pytest.approx(2.0, abs=0.3)
+
+
+def test_a_direction_that_moves_by_rounding_alone_is_no_slider() -> None:
+    rounded = EVERY.copy()
+    rounded[2] *= 1e-17
+
+    sliders = Sliders.of(contact_table([SHOE]), rounded)
+
+    assert sliders.axis.tolist() == [0]

@@ -11,6 +11,9 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import ContactPoints
 
+ROUNDING = 1e-12
+"""of the largest motion of a contact: a direction that moves less does not move"""
+
 
 @dataclass(frozen=True, slots=True)
 class Sliders:
@@ -27,7 +30,8 @@ class Sliders:
     @classmethod
     def of(cls, points: ContactPoints, basis: Array) -> Sliders:
         """Return the sliders of a contact table: none where no contact remembers."""
-        moves = (basis != 0.0).any(axis=1).reshape(-1, 3)[:, 1:]
+        sizes = np.abs(basis).max(axis=1, initial=0.0)
+        moves = (sizes > ROUNDING * sizes.max(initial=0.0)).reshape(-1, 3)[:, 1:]
         point, axis = np.nonzero(moves & remembers(points)[:, None])
         return cls(points, basis, point, axis)
 

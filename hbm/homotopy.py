@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from hbm.relative import RelativeProblem
 from hbm.residual import HarmonicBalance
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.points import ONE_SIDED
 
 SMALLEST_STEP = 1e-3
 LEAST, UNIT = 0.01, 0.1
@@ -28,6 +30,12 @@ FOURIERS = (FourierBasis(3, 128), FourierBasis(7, 128), FourierBasis(15, 256))
 """coarse resolutions that are tried in turn"""
 SMOOTH = 1e4
 """times the threshold velocity with which a homotopy begins"""
+PRESSED = 1e4
+"""depth to which faces are pressed as one begins, over the motion without contacts"""
+TOUCHING = 1e-3
+"""depth at rest up to which faces just touch, over that motion"""
+Easier: TypeAlias = Callable[[RelativeProblem, float], RelativeProblem]
+"""problem, share of the way to it ↦ an easier one"""
 
 
 def approaches(
@@ -42,15 +50,15 @@ def approaches(
     """Yield coefficients of coarse responses at a parameter, (2H + 1, rank) each.
 
     The drive grows from nothing, or the threshold velocity of friction falls from a
-    large value, or friction grows from nothing, at coarse resolutions in turn; at last,
-    if ``folded``, the drive grows along an arc, through folds. Some of what is found
-    may exist at its resolution alone, or be the same again. ``effort`` counts what it
+    large value, or friction grows from nothing, or faces that just touch are pressed
+    together and then let go, at coarse resolutions in turn; at last, if ``folded``, the
+    drive grows along an arc, through folds. Some of what is found may exist at its
+    resolution alone, or be the same again. ``effort`` counts what it
     takes; ``metric`` measures steps of Newton's iteration.
     """
-    problem, _ = path.at(parameter)
-    rubs = bool(problem.points.dynamic.any() or problem.points.static.any())
+    ways = _ways(*path.at(parameter))
     for fourier in FOURIERS:
-        for easier in HOMOTOPIES if rubs else (_drive,):
+        for easier in ways:
             try:
                 yield _followed(
                     path, parameter, easier, fourier, control, effort, metric
@@ -67,7 +75,7 @@ def approaches(
 def _followed(
     path: Path,
     parameter: float,
-    easier: Callable[[RelativeProblem, float], RelativeProblem],
+    easier: Easier,
     fourier: FourierBasis,
     control: StepControl,
     effort: Effort,
@@ -137,6 +145,21 @@ def _along_an_arc(
     return point[:-1].reshape(fourier.coefficients, problem.rank)
 
 
+def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
+    """Return the homotopies that may lead to a problem.
+
+    Where faces just touch at rest, each share of the drive is as hard as the whole:
+    there they begin pressed together, as springs.
+    """
+    points = problem.points
+    rubs = bool(points.dynamic.any() or points.static.any())
+    ways: list[Easier] = [_drive, *((_threshold, _friction) if rubs else ())]
+    motion = _free_motion(problem, frequency)
+    if not _touches(problem, motion):
+        return ways
+    return [*ways, lambda problem, share: _pressed(problem, motion, share)]
+
+
 def _drive(problem: RelativeProblem, share: float) -> RelativeProblem:
     """Return the problem under a share of the drive."""
     return replace(problem, force=problem.force * np.array([[1.0], [share]]))
@@ -157,4 +180,24 @@ def _friction(problem: RelativeProblem, share: float) -> RelativeProblem:
     return replace(problem, points=points)
 
 
-HOMOTOPIES = (_drive, _threshold, _friction)
+def _pressed(problem: RelativeProblem, depth: float, share: float) -> RelativeProblem:
+    """Return the problem with faces that are pressed together, and then let go."""
+    gap = problem.points.gap - depth * (PRESSED ** (1.0 - share) - 1.0)
+    return replace(problem, points=problem.points._replace(gap=gap))
+
+
+def _free_motion(problem: RelativeProblem, frequency: float) -> float:
+    """Return the largest amplitude of a point if there were no contacts [m]."""
+    variable = 1j * np.array([0.0, frequency])
+    load, _ = problem.condensed.loading(problem.force)(variable)
+    stiffness = problem.condensed.dynamic_stiffness(variable)[1]
+    free = problem.basis @ np.linalg.lstsq(stiffness, load[1])[0]
+    return float(np.abs(free).max(initial=0.0))
+
+
+def _touches(problem: RelativeProblem, motion: float) -> bool:
+    """Return whether faces just touch at rest, in comparison with a motion [m]."""
+    points = problem.points
+    opens = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
+    depth = (problem.basis @ problem.rest + problem.offset)[::3] - points.gap
+    return bool((opens & (np.abs(depth) <= TOUCHING * motion)).any())

@@ -5,10 +5,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import hbm.homotopy
 from hbm.homotopy import FOURIERS, approaches
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.unilateral import UnilateralSpring
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 
 
 @pytest.mark.parametrize(
@@ -28,6 +35,8 @@ def test_without_friction_the_drive_alone_makes_a_problem_easier(
         found.append("arc")
         return np.zeros((1, 1))
 
+    monkeypatch.setattr(hbm.homotopy, "_free_motion", lambda *_: 0.0)
+    monkeypatch.setattr(hbm.homotopy, "_touches", lambda *_: False)
     monkeypatch.setattr(hbm.homotopy, "_followed", followed)
     monkeypatch.setattr(hbm.homotopy, "_along_an_arc", along)
     laws = np.array([friction])
@@ -43,3 +52,36 @@ def test_without_friction_the_drive_alone_makes_a_problem_easier(
     found.clear()
     list(approaches(path, 1.0, nothing, nothing, nothing, folded=False))
     assert found == tried * len(FOURIERS)
+
+
+def test_a_curve_begins_at_a_stop_that_just_touches_at_rest() -> None:
+    hertz, damping = 5.7, 6.0
+    stop = Element(UnilateralSpring(stiffness=1e4), between=("x", "ground"), name="s")
+    problem = system(
+        names=["x"],
+        mass=[1.0],
+        stiffness=[1e3],
+        damping=[damping],
+        elements=[stop],
+        drive={"x": 0.1},
+    )
+    turn = 2.0 * np.pi * hertz
+    options = CurveOptions(turn, 1.1 * turn, harmonics=31, stability=False)
+
+    first = next(frequency_response(problem, static_equilibrium(problem), options))
+
+    times = (57.0 + np.arange(256) / 256.0) / hertz
+
+    def rate(time: float, state: Array) -> list[float]:
+        x, v = state
+        force = 0.1 * np.sin(turn * time) - damping * v - 1e3 * x - 1e4 * max(x, 0.0)
+        return [v, force]
+
+    marched = solve_ivp(
+        rate, (0.0, times[-1]), [0.0, 0.0], t_eval=times, rtol=1e-8, atol=1e-12
+    )
+    wave = np.exp(-1j * turn * times)
+    assert first.frequency == turn
+    assert first.seen(problem.probes.rows)[1:3, 0] @ [1.0, -1.0j] == pytest.approx(
+        2.0 * np.mean(marched.y[0] * wave), rel=1e-3
+    )

@@ -127,6 +127,10 @@ def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
             "follow: label = 3: give a text",
         ),
         (
+            call("follow", spring, 1, 2, frequency=1, label=""),
+            "follow: label = '': give a text of one line",
+        ),
+        (
             call("follow", spring, 1, math.inf, frequency=1),
             "follow: last = inf: is not finite",
         ),
@@ -161,3 +165,16 @@ def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
 def test_what_makes_no_sense_is_told(made: Callable[[], object], text: str) -> None:
     with pytest.raises(microslip.MicroslipError, match=rf"^microslip\.{text}"):
         made()
+
+
+@pytest.mark.parametrize("kind", ["none", "gap"])
+def test_a_function_that_makes_something_else_between_the_ends_is_told(
+    kind: str,
+) -> None:
+    other = None if kind == "none" else microslip.scene(kind)
+
+    def changing(value: float) -> Any:
+        return other if 1.5 < value < 1.6 else spring(value)
+
+    with pytest.raises(microslip.MicroslipError, match=r"microslip\.follow: problem"):
+        microslip.follow(changing, 1.0, 2.1, frequency=1.0, harmonics=3)

@@ -73,21 +73,23 @@ def follow(
         harmonics=harmonics,
         samples=samples,
     )
-    if not isinstance(label, str):
-        raise GivenError(f"{NAME}: label = {label!r}: give a text")
+    if not isinstance(label, str) or not label.strip() or len(label.splitlines()) > 1:
+        raise GivenError(f"{NAME}: label = {label!r}: give a text of one line")
     ends = wanted.first, wanted.last
     with named(NAME):
-        _check(problem_at, *ends)
-        return along(problem_at, ends, math.tau * wanted.frequency, wanted, label)
+        made = _alike(problem_at, *ends)
+        return along(made, ends, math.tau * wanted.frequency, wanted, label)
 
 
-def _check(problem_at: Callable[[float], Problem], first: float, last: float) -> None:
-    """Check that a function makes two problems of the same parts.
+def _alike(
+    problem_at: Callable[[float], Problem], first: float, last: float
+) -> Callable[[float], Problem]:
+    """Return a function that makes problems of the same parts as its first, or raises.
 
     Raises
     ------
     GivenError
-        If it does not.
+        If it is none, or does not, at either end.
     """
     if not callable(problem_at):
         raise GivenError(
@@ -98,12 +100,19 @@ def _check(problem_at: Callable[[float], Problem], first: float, last: float) ->
         raise GivenError(
             f"{NAME}: first and last are both {first:g}: give two different values"
         )
-    begun, ended = (checked(NAME, problem_at(value)) for value in (first, last))
-    if _parts(begun) != _parts(ended):
-        raise GivenError(
-            f"{NAME}: problem_at makes {begun!r} of {first:g}, and {ended!r} of "
-            f"{last:g}: it may change numbers alone, not what there is"
-        )
+    begun = checked(NAME, problem_at(first))
+
+    def made(value: float) -> Problem:
+        found = checked(NAME, problem_at(value))
+        if _parts(found) != _parts(begun):
+            raise GivenError(
+                f"{NAME}: problem_at makes {begun!r} of {first:g}, and {found!r} of "
+                f"{value:g}: it may change numbers alone, not what there is"
+            )
+        return found
+
+    made(last)
+    return made
 
 
 def _parts(problem: Problem) -> tuple[int, tuple[str, ...], tuple[str, ...]]:

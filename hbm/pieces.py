@@ -145,7 +145,6 @@ class Pieces:
         return Restart(
             self.path,
             self.system,
-            abs(self.end - self.start),
             self.control,
             self.effort,
             self.metric,

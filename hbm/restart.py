@@ -21,6 +21,8 @@ from microslip_mechanics.arrays import Array
 LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
 """shares of the range by which a restart passes what resists, tried in turn; from the
 first one again where the piece before has come nearer to the end"""
+TENTHS = 10
+"""units of a parameter in its range, or in the logarithm of that"""
 FIRST = (0.0, 1e-2)
 """the same where there is no curve yet"""
 FOLDED = (0.0, LEAPS[0], LEAPS[-1])
@@ -34,8 +36,6 @@ class Restart:
 
     path: Path
     system: AdaptiveBalance
-    length: float
-    """of the range of the parameter"""
     control: StepControl
     effort: Effort
     metric: Metric
@@ -47,7 +47,7 @@ class Restart:
 
         ``leaps`` are what is left to try, in shares of the range.
         """
-        way = math.copysign(self.length, heading - reached)
+        way = self._way(reached, heading)
         for leap in leaps:
             parameter = reached + leap * way
             if (heading - parameter) * way <= 0.0:
@@ -69,8 +69,12 @@ class Restart:
         self, begun: float, reached: float, heading: float, left: Iterator[float]
     ) -> Iterator[float]:
         """Return the leaps to try: all of them if the last piece came nearer."""
-        way = math.copysign(self.length, heading - begun)
+        way = self._way(begun, heading)
         return iter(LEAPS) if (reached - begun) / way > LEAPS[0] else left
+
+    def _way(self, place: float, heading: float) -> float:
+        """Return the range, or the share of it that counts like that at a place."""
+        return math.copysign(TENTHS * self.path.unit(place), heading - place)
 
     def settled(self, coefficients: Array, parameter: float) -> Array | None:
         """Return the point near a coarse response; None if it does not converge.

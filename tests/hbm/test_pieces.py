@@ -16,6 +16,7 @@ from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
 from hbm.pieces import Pieces
+from hbm.restart import FIRST
 from hbm.settler import Unsettled
 from hbm.solve import frequency_response
 from hbm.step_control import StepControl
@@ -86,6 +87,23 @@ def test_restarts_leap_farther_where_a_piece_comes_no_nearer_to_the_end(
     list(pieces(0.0, 1.0))
 
     assert [place for _, place in begun] == pytest.approx([0.0, 0.3001, 0.301, 0.305])
+
+
+def test_where_ratios_count_a_curve_begins_behind_a_small_ratio(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tried: list[float] = []
+
+    def approaches(_path: Any, parameter: float, *_: Any, **__: Any) -> Iterator[Array]:
+        tried.append(parameter)
+        return iter(())
+
+    monkeypatch.setattr("hbm.restart.approaches", approaches)
+    path: Any = SimpleNamespace(unit=lambda place: place * np.log(1e4) / 10.0)
+    restart = replace(pieces(1e-6, 1e-2), path=path).restart
+
+    assert restart.point(1e-6, 1e-2, iter(FIRST)) is None
+    assert tried == pytest.approx([1e-6, 1.092e-6], rel=1e-3)
 
 
 def test_a_restart_takes_the_first_response_that_exists(

@@ -18,7 +18,7 @@ from hbm.path import Path
 from hbm.relative import RelativeProblem
 from hbm.residual import HarmonicBalance
 from hbm.step_control import StepControl
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.points import ONE_SIDED
 
 SMALLEST_STEP = 1e-3
@@ -154,7 +154,7 @@ def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
     points = problem.points
     rubs = bool(points.dynamic.any() or points.static.any())
     ways: list[Easier] = [_drive, *((_threshold, _friction) if rubs else ())]
-    motion = _free_motion(problem, frequency)
+    motion = largest(problem.apart(frequency))
     if not _touches(problem, motion):
         return ways
     return [*ways, lambda problem, share: _pressed(problem, motion, share)]
@@ -184,15 +184,6 @@ def _pressed(problem: RelativeProblem, depth: float, share: float) -> RelativePr
     """Return the problem with faces that are pressed together, and then let go."""
     gap = problem.points.gap - depth * (PRESSED ** (1.0 - share) - 1.0)
     return replace(problem, points=problem.points._replace(gap=gap))
-
-
-def _free_motion(problem: RelativeProblem, frequency: float) -> float:
-    """Return the largest amplitude of a point if there were no contacts [m]."""
-    variable = 1j * np.array([0.0, frequency])
-    load, _ = problem.condensed.loading(problem.force)(variable)
-    stiffness = problem.condensed.dynamic_stiffness(variable)[1]
-    free = problem.basis @ np.linalg.lstsq(stiffness, load[1])[0]
-    return float(np.abs(free).max(initial=0.0))
 
 
 def _touches(problem: RelativeProblem, motion: float) -> bool:

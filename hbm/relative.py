@@ -82,6 +82,18 @@ class RelativeProblem:
         seen: ComplexArray = motion @ rows.T
         return seen
 
+    def apart(self, frequency: float) -> ComplexArray:
+        """Return order 1 of the points' motion if there were no contacts [m].
+
+        Its shape is ``(3 points,)``.
+        """
+        variable = np.array([1j * frequency])
+        load, _ = self.condensed.loading(self.force[1:])(variable)
+        stiffness = self.condensed.dynamic_stiffness(variable)
+        moved = np.linalg.lstsq(stiffness[0], load[0], rcond=None)[0]
+        seen: ComplexArray = self.basis @ moved
+        return seen
+
     def map_from(self, displacement: Array) -> Array:
         """Return the map from a structure to y, shape (rank, dofs).
 

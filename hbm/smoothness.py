@@ -56,10 +56,6 @@ def _rubbing(problem: RelativeProblem) -> Array:
 
 def _free_speeds(problem: RelativeProblem, frequency: float) -> Array:
     """Return how fast each point slides without contact [m/s], shape (points,)."""
-    variable = np.array([1j * frequency])
-    stiffness = problem.condensed.dynamic_stiffness(variable)
-    load, _ = problem.condensed.loading(problem.force[1:])(variable)
-    moved = np.linalg.lstsq(stiffness[0], load[0], rcond=None)[0]
-    moving = np.abs(frequency * (problem.basis @ moved)).reshape(-1, 3)
+    moving = np.abs(frequency * problem.apart(frequency)).reshape(-1, 3)
     speeds: Array = np.hypot(moving[:, 1], moving[:, 2])
     return speeds

@@ -7,6 +7,8 @@ import numpy as np
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.time_history import TimeHistory
 
+OPEN = "the energy balance does not close, so the march is wrong"
+"""of a march that :func:`closes` denies"""
 CLOSES = 1e-2
 """closing error from which on no march is believed"""
 MATTERS = 1e-3

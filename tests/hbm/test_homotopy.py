@@ -35,13 +35,13 @@ def test_without_friction_the_drive_alone_makes_a_problem_easier(
         found.append("arc")
         return np.zeros((1, 1))
 
-    monkeypatch.setattr(hbm.homotopy, "_free_motion", lambda *_: 0.0)
     monkeypatch.setattr(hbm.homotopy, "_touches", lambda *_: False)
     monkeypatch.setattr(hbm.homotopy, "_followed", followed)
     monkeypatch.setattr(hbm.homotopy, "_along_an_arc", along)
     laws = np.array([friction])
     points = SimpleNamespace(dynamic=laws, static=laws)
-    path: Any = SimpleNamespace(at=lambda _: (SimpleNamespace(points=points), 1.0))
+    problem = SimpleNamespace(points=points, apart=lambda _: np.zeros(3))
+    path: Any = SimpleNamespace(at=lambda _: (problem, 1.0))
     nothing: Any = None
 
     list(approaches(path, 1.0, nothing, nothing, nothing))

@@ -18,10 +18,6 @@ REMEDY = (
     "give a longer time_step, a larger store_every, a shorter duration or ramp, or "
     "lower frequencies"
 )
-OPEN = (
-    "the energy balance does not close, so the march is wrong: give a shorter "
-    "time_step, or a smaller tolerance"
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +72,7 @@ def sweep(
     from microslip.studies.march_size import demand_end
     from microslip.studies.sweep import march_sweep
     from microslip_mechanics.excitation import SweptSine
-    from timedomain.closure import closes
+    from timedomain.closure import OPEN, closes
     from timedomain.options import MarchOptions
 
     name = "microslip.sweep"
@@ -98,5 +94,7 @@ def sweep(
     with named(name):
         demand_end(loads, options, REMEDY)
         history = march_sweep(given, loads, march, tolerance=swept.tolerance)
-    wrong = history.ending == "complete" and not closes(history)
-    return replace(history, ending=OPEN) if wrong else history
+    if history.ending != "complete" or closes(history):
+        return history
+    remedy = "give a shorter time_step, or a smaller tolerance"
+    return replace(history, ending=f"{OPEN}: {remedy}")

@@ -75,7 +75,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.store import save_figure
     from microslip_mechanics.extremes import extremes
-    from timedomain.closure import closes
+    from timedomain.closure import OPEN, closes
 
     data, picture = arguments.outputs(options, "dwell")
     scene = load_scene(options.scene, options.overrides)
@@ -89,10 +89,7 @@ def _run(options: argparse.Namespace) -> int:
         figure = dwell_figure(history, distances, options.tolerance, title)
         save_figure(picture, figure)
     if ending == "complete" and not closes(history):
-        ending = (
-            "the energy balance does not close, so the march is wrong: give a shorter "
-            "march.time_step"
-        )
+        ending = f"{OPEN}: give a shorter march.time_step"
     return arguments.ended(ending)
 
 

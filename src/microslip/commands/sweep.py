@@ -65,6 +65,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
+    from timedomain.closure import OPEN
 
     data, picture = _places(options)
     scene = load_scene(options.scene, options.overrides)
@@ -86,8 +87,8 @@ def _run(options: argparse.Namespace) -> int:
         closed = _show(options, scene, problem, (data, picture))
     if ending == "complete" and not closed:
         ending = (
-            "the energy balance does not close, so the march is wrong: give a smaller "
-            "--tolerance, or a shorter march.time_step with --tolerance 0"
+            f"{OPEN}: give a smaller --tolerance, or a shorter march.time_step with "
+            "--tolerance 0"
         )
     return arguments.ended(ending)
 

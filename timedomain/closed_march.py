@@ -10,9 +10,10 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
+from timedomain.gap_slope import GapSlope
 from timedomain.integrate import IntegrationError
 from timedomain.period_map import Period, PeriodMap
-from timedomain.period_sensitivity import gap_slope, sensitivity_of
+from timedomain.period_sensitivity import sensitivity_of
 
 ITERATIONS, HALVINGS = 30, 8
 CLOSED = 1e-8
@@ -24,8 +25,8 @@ ROUNDING = 1e-13
 LEAP = 1e-3
 """largest change, over the vibration, that may be left where none brings end and
 beginning closer together: forces that jump as faces touch make a march of steps leap"""
-NEUTRAL = 1e-10
-"""of the largest singular value of 1 − Φ: below it a direction stays where it is"""
+CHORD = 0.1
+"""of the gap: what a step leaves, up to which its derivative serves again"""
 
 
 class ShootingError(MicroslipError):
@@ -34,14 +35,12 @@ class ShootingError(MicroslipError):
 
 @dataclass(frozen=True, slots=True)
 class ClosedMarch:
-    """A march of one period that ends where it began, and its derivative."""
+    """A march of one period that ends where it began."""
 
     map: PeriodMap
     state: Array
     """at phase 0, shape (states,)"""
     period: Period
-    monodromy: Array
-    """of the motion, shape (states, states)"""
     neutral: int
     """directions in which the orbit is not pinned"""
     gap: float
@@ -50,6 +49,11 @@ class ClosedMarch:
     left: float = 0.0
     """last change, over the vibration, if that brought them no closer"""
 
+    def monodromy(self) -> Array:
+        """Return the derivative of the end by the beginning, (states, states)."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            return sensitivity_of(self.map, self.period).monodromy
+
 
 def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedMarch:
     """Return the orbit of one number of steps by Newton's iteration.
@@ -57,9 +61,9 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
     It is given up where :func:`time.process_time` has passed ``until`` [s].
 
     Sliders that never slip carry no mean traction, or as little as their limits admit.
-    Directions along which 1 − Φ has a singular value below :data:`NEUTRAL` of the
-    largest, such as the mean position of a body that nothing but friction holds, are
-    left out of each change: of all orbits the nearest is returned.
+    Directions in which nothing pins the state, such as the mean position of a body
+    that nothing but friction holds, are left out of each change: of all orbits the
+    nearest is returned.
 
     Raises
     ------
@@ -67,72 +71,69 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
         If it does not converge.
     """
     marched = _marched(carried, state, until)
+    slope, own = _slope(carried, marched[0]), True
     for iteration in range(1, ITERATIONS + 1):
         period, gap = marched
-        sensitivity = sensitivity_of(carried, period)
-        slope = gap_slope(carried, period, sensitivity)
-        change, neutral = _change(slope, gap)
-        vibration = _vibration(carried, period)
-        accepted = CLOSED * vibration + ROUNDING * float(np.linalg.norm(state))
-        apart, size = float(np.linalg.norm(gap)), float(np.linalg.norm(change))
+        unit, change = _unit(carried, state, period), slope.change(gap)
+        size, apart = float(np.linalg.norm(change)), float(np.linalg.norm(gap))
         found = ClosedMarch(
-            carried, state, period, sensitivity.monodromy, neutral,
-            apart / max(accepted / CLOSED, 1e-300), iteration,
-        )  # fmt: skip
-        if size <= accepted:
-            if neutral and apart > LOOSE * accepted:
-                raise ShootingError(
-                    f"{_at(carried)}: each period moves by {apart / accepted:.1e} of "
-                    "what is accepted a body that nothing holds: hold it by a spring"
-                )
-            return found
-        try:
-            state, marched = _closer(carried, state, change, marched, until)
-        except ShootingError:
-            if size > LEAP * vibration:
-                raise
-            return replace(found, left=size / vibration)
+            carried, state, period, slope.neutral, apart / unit, iteration
+        )
+        if size <= CLOSED * unit:
+            return _held(found)
+        closer = _closer(found, change, gap, until, HALVINGS if own else 1)
+        if closer is None and own:
+            if size <= LEAP * unit:
+                return replace(found, left=size / unit)
+            raise ShootingError(
+                f"{_at(carried)}: Newton's change does not bring end and beginning "
+                "together: there may be no orbit near the start, as beyond a fold; "
+                "give a closer start"
+            )
+        state, marched = closer or (state, marched)
+        share = float(np.linalg.norm(marched[1])) / apart
+        own = share > CHORD or not slope.holds(marched[0])
+        if own:
+            slope = _slope(carried, marched[0])
     raise ShootingError(
         f"{_at(carried)} does not converge in {ITERATIONS} iterations: "
         "give a closer start or more steps"
     )
 
 
-def _change(slope: Array, gap: Array) -> tuple[Array, int]:
-    """Return Newton's change of least norm, and how many directions it leaves out."""
-    left, sizes, right = np.linalg.svd(slope)
-    kept = sizes > NEUTRAL * sizes[0]
-    change: Array = right[kept].T @ ((left[:, kept].T @ gap) / sizes[kept])
-    return change, int(gap.size - kept.sum())
+def _held(found: ClosedMarch) -> ClosedMarch:
+    """Return an orbit; an error where a body drifts that nothing holds."""
+    if found.neutral and found.gap > LOOSE * CLOSED:
+        raise ShootingError(
+            f"{_at(found.map)}: each period moves by {found.gap / CLOSED:.1e} of "
+            "what is accepted a body that nothing holds: hold it by a spring"
+        )
+    return found
 
 
 def _closer(
-    carried: PeriodMap,
-    state: Array,
-    change: Array,
-    before: tuple[Period, Array],
-    until: float,
-) -> tuple[Array, tuple[Period, Array]]:
+    before: ClosedMarch, change: Array, gap: Array, until: float, attempts: int
+) -> tuple[Array, tuple[Period, Array]] | None:
     """Return the state after a change, halved until the period closes better.
 
-    Where sliders slip only just, no change may do so: they settle by their own march.
+    None if it never does. Where sliders slip only just, no change of more than one
+    attempt may do so: they settle by their own march.
     """
-    period, gap = before
-    for halvings in range(HALVINGS):
-        trial = state + 0.5**halvings * change
+    carried, apart = before.map, np.linalg.norm(gap)
+    for halvings in range(attempts):
+        trial = before.state + 0.5**halvings * change
         try:
             marched = _marched(carried, trial, until)
         except ShootingError:
+            if time.process_time() > until:
+                raise
             continue
-        if np.linalg.norm(marched[1]) < np.linalg.norm(gap):
+        if np.linalg.norm(marched[1]) < apart:
             return trial, marched
-    settled = carried.settled(state, period)
-    if not np.array_equal(settled, state):
-        return settled, _marched(carried, settled, until)
-    raise ShootingError(
-        f"{_at(carried)}: Newton's change does not bring end and beginning together: "
-        "there may be no orbit near the start, as beyond a fold; give a closer start"
-    )
+    settled = carried.settled(before.state, before.period)
+    if attempts == 1 or np.array_equal(settled, before.state):
+        return None
+    return settled, _marched(carried, settled, until)
 
 
 def _marched(carried: PeriodMap, state: Array, until: float) -> tuple[Period, Array]:
@@ -150,13 +151,28 @@ def _marched(carried: PeriodMap, state: Array, until: float) -> tuple[Period, Ar
     return period, gap
 
 
-def _vibration(carried: PeriodMap, period: Period) -> float:
-    """Return how large the motion about its mean is, in the norm of states."""
+def _slope(carried: PeriodMap, period: Period) -> GapSlope:
+    """Return how the gap of a period goes with the state."""
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):
+            return GapSlope.of(carried, period)
+    except np.linalg.LinAlgError as error:
+        raise ShootingError(
+            f"{_at(carried)}: small motions grow beyond all numbers"
+        ) from error
+
+
+def _unit(carried: PeriodMap, state: Array, period: Period) -> float:
+    """Return how large the motion about its mean is, in the norm of states.
+
+    It is never less than what rounding leaves of the state.
+    """
     moved = period.displacement[1:] - period.displacement[1:].mean(axis=0)
     states = np.hstack([moved, period.velocity[1:] / carried.frequency])
     to_modes = np.kron(np.eye(2), carried.structure.inverse)
     size = np.linalg.norm(states @ to_modes.T, axis=1)
-    return float(np.sqrt(np.mean(size**2)))
+    rounded = ROUNDING / CLOSED * float(np.linalg.norm(state))
+    return max(float(np.sqrt(np.mean(size**2))) + rounded, 1e-300)
 
 
 def _at(carried: PeriodMap) -> str:

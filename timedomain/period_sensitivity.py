@@ -19,6 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ONE_SIDED, RIGID
@@ -53,22 +54,17 @@ def small_motions(period_map: PeriodMap, period: Period) -> Array | None:
     """Return what becomes of a small motion in a period, (states, states).
 
     The march's own derivative knows the time that a stop is touched to whole steps
-    only. Here tangents are means over a step, along a motion that is linear from sample
-    to sample. None where no point touches or parts, or contacts remember or are rigid.
+    only. Here the tangents of steps in which a point touches or parts are means over
+    them, along a motion that is linear from sample to sample. None where no point
+    does, or contacts remember or are rigid.
     """
     rigid = (period_map.problem.interface.points.friction == RIGID).any()
-    if rigid or period_map.sliders.count or not _touches(period_map, period):
+    if rigid or period_map.sliders.count:
         return None
-    return _carried(period_map, _mean_tangents(period_map, period))
-
-
-def gap_slope(period_map: PeriodMap, period: Period, sensitivity: Sensitivity) -> Array:
-    """Return the derivative of minus the gap by the state, (states, states)."""
-    slope = np.eye(len(sensitivity.monodromy)) - sensitivity.monodromy
-    held = slope[len(slope) - period_map.sliders.count :]
-    stuck = period.slides.stuck
-    held[stuck] = -sensitivity.mean[stuck]
-    return slope
+    passed = _touching(period_map, period)
+    if not passed.size:
+        return None
+    return _carried(period_map, _mean_tangents(period_map, period, passed))
 
 
 def loose_monodromy(
@@ -131,29 +127,37 @@ def _carried(period_map: PeriodMap, tangents: Array) -> Array:
     return made
 
 
-def _touches(period_map: PeriodMap, period: Period) -> bool:
-    """Return whether a point touches or lifts off in a period."""
+def _touching(period_map: PeriodMap, period: Period) -> NDArray[np.int64]:
+    """Return the steps in which a point touches or lifts off."""
     points = period_map.problem.interface.points
     moved, _ = period_map.points(period.displacement, period.velocity)
     closed = moved[:, :, 0] > points.gap
-    passes = (closed != closed[0]).any(axis=0)
-    return bool((passes & (points.normal == ONE_SIDED)).any())
+    passes = (closed[1:] != closed[:-1]) & (points.normal == ONE_SIDED)
+    return np.flatnonzero(passes.any(axis=1))
 
 
-def _mean_tangents(period_map: PeriodMap, period: Period) -> Array:
-    """Return the mean of the tangents over the half steps around each sample."""
-    halves: list[Array] = []
-    for shares in np.split((np.arange(PARTS) + 0.5) / PARTS, 2):
-        at = [
-            period_map.points(
-                (1.0 - share) * period.displacement[:-1]
-                + share * period.displacement[1:],
-                (1.0 - share) * period.velocity[:-1] + share * period.velocity[1:],
+def _mean_tangents(
+    period_map: PeriodMap, period: Period, passed: NDArray[np.int64]
+) -> Array:
+    """Return the tangents at the samples, shared by the half steps around each.
+
+    Each half of the steps ``passed`` has the mean over itself instead.
+    """
+    motion = period.displacement, period.velocity
+    own = period_map.tangents(*period_map.points(*(each[:-1] for each in motion)))
+    halves = own / 2.0, np.roll(own, -1, axis=0) / 2.0
+    shares = np.split((np.arange(PARTS) + 0.5) / PARTS, 2)
+    for half, parts in zip(halves, shares, strict=True):
+        along = parts[:, None, None]
+        between = [
+            ((1.0 - along) * each[passed] + along * each[passed + 1]).reshape(
+                -1, each.shape[1]
             )
-            for share in shares
+            for each in motion
         ]
-        found = [period_map.tangents(*each) for each in at]
-        halves.append(np.sum(found, axis=0) / PARTS)
+        found = period_map.tangents(*period_map.points(*between))
+        half[passed] = found.reshape(parts.size, passed.size, *own.shape[1:]).sum(0)
+        half[passed] /= PARTS
     mean = halves[0] + np.roll(halves[1], 1, axis=0)
     return np.concatenate([mean, mean[:1]])
 
@@ -190,11 +194,13 @@ def _product(free: Array, push: Array, seen: Array, answers: Array) -> Array:
     for late in range(BLOCK):
         for early in range(late):
             coupled[late, :, early] = watched[late - 1 - early] @ kick
-    lag = blocks @ coupled.reshape(BLOCK, 2 * rank, BLOCK * rank)
-    drive = (blocks @ watched).reshape(count, BLOCK * rank, size)
     width = BLOCK * rank
-    forces = np.linalg.solve(np.eye(width) - lag.reshape(count, width, width), drive)
+    lag = blocks @ coupled.reshape(BLOCK, 2 * rank, width)
+    drive = (blocks @ watched).reshape(count, width, size)
     carried = powers[0]
-    for force in forces:
-        carried = powers[BLOCK] @ carried + kicked @ (force @ carried)
+    for delay, driven in zip(lag.reshape(count, width, width), drive, strict=True):
+        forces = solve_triangular(
+            -delay, driven, lower=True, unit_diagonal=True, check_finite=False
+        )
+        carried = (powers[BLOCK] + kicked @ forces) @ carried
     return carried

@@ -45,26 +45,13 @@ class PeriodicOrbit:
     """directions in which nothing pins the mean position: it is that of the start"""
     steps: int
     """of the finer march"""
-    left: float
-    """change that is left where a march of steps leaps, over the vibration"""
+    error: float
+    """estimated, of the amplitudes over the largest one (:func:`amplitude_error`)"""
 
     @property
     def amplitude(self) -> Array:
         """First harmonic of each probe [m], shape (probes,)."""
         return _amplitude(self.coefficients, self.rows)
-
-    @property
-    def error(self) -> float:
-        """Estimated error of the amplitudes, over the largest one.
-
-        How far they are from those of half the steps, three times as much as
-        extrapolation moves them: it gains nothing where friction turns over within a
-        step. To that comes three times what is left where the march leaps.
-        """
-        fine = _amplitude(self.coefficients - self.moved, self.rows)
-        away = np.abs(self.amplitude - fine).max(initial=0.0)
-        steps = float(away / max(self.amplitude.max(initial=0.0), 1e-300))
-        return 3.0 * (steps + self.left)
 
 
 def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
@@ -72,9 +59,7 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
 
     The error of a step falls with its square: extrapolation adds a third of the change.
     """
-    harmonics = coarse.map.steps // SHARE
-    before, after = (_coefficients(each, harmonics) for each in (coarse, fine))
-    moved = (after - before) / 3.0
+    coefficients, moved = _coefficients_of(coarse, fine)
     stuck = coarse.period.slides.stuck | fine.period.slides.stuck
     multipliers = extrapolated_multipliers(
         *(_small_motions(each, stuck) for each in (coarse, fine))
@@ -82,7 +67,7 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
     more = (fine.period.friction - coarse.period.friction) / 3.0
     return PeriodicOrbit(
         fine.map.start(fine.state),
-        after + moved,
+        coefficients,
         moved,
         fine.map.problem.probes.rows,
         multipliers.values,
@@ -91,8 +76,25 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch) -> PeriodicOrbit:
         fine.period.friction + more,
         max(coarse.neutral, fine.neutral),
         fine.map.steps,
-        max(coarse.left, fine.left),
+        amplitude_error(coarse, fine),
     )
+
+
+def amplitude_error(coarse: ClosedMarch, fine: ClosedMarch) -> float:
+    """Return the estimated error of extrapolated amplitudes, over the largest one.
+
+    How far they are from those of half the steps, three times as much as extrapolation
+    moves them: it gains nothing where friction turns over within a step. To that comes
+    three times what is left where a march leaps.
+    """
+    rows, (coefficients, moved) = (
+        fine.map.problem.probes.rows,
+        _coefficients_of(coarse, fine),
+    )
+    amplitude = _amplitude(coefficients, rows)
+    away = np.abs(amplitude - _amplitude(coefficients - moved, rows)).max(initial=0.0)
+    steps = float(away / max(amplitude.max(initial=0.0), 1e-300))
+    return 3.0 * (steps + max(coarse.left, fine.left))
 
 
 def first_harmonic(marched: ClosedMarch) -> Array:
@@ -104,8 +106,16 @@ def _small_motions(marched: ClosedMarch, stuck: NDArray[np.bool_]) -> Array:
     """Return what becomes of a small motion in a period, (states, states)."""
     found = small_motions(marched.map, marched.period)
     if found is None:
-        return loose_monodromy(marched.map, marched.monodromy, stuck)
+        return loose_monodromy(marched.map, marched.monodromy(), stuck)
     return found
+
+
+def _coefficients_of(coarse: ClosedMarch, fine: ClosedMarch) -> tuple[Array, Array]:
+    """Return the extrapolated coefficients, and how far they were moved."""
+    harmonics = coarse.map.steps // SHARE
+    before, after = (_coefficients(each, harmonics) for each in (coarse, fine))
+    moved = (after - before) / 3.0
+    return after + moved, moved
 
 
 def _points(marched: ClosedMarch, stuck: NDArray[np.bool_]) -> NDArray[np.bool_]:

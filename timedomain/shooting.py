@@ -15,7 +15,12 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ClosedMarch, ShootingError, closed
 from timedomain.period_map import BLOCK, PeriodMap
-from timedomain.periodic_orbit import PeriodicOrbit, extrapolated, first_harmonic
+from timedomain.periodic_orbit import (
+    PeriodicOrbit,
+    amplitude_error,
+    extrapolated,
+    first_harmonic,
+)
 from timedomain.start import Start
 from timedomain.whole_orbit import whole_orbit
 
@@ -110,9 +115,9 @@ def periodic_orbit(
             more = replace(chosen, steps=2 * finer.steps)
             coarse = _first(problem, frequency, start, more, near, until)
             continue
-        orbit = extrapolated(coarse, fine)
-        if orbit.error <= chosen.error or 2 * finer.steps > chosen.most:
-            return orbit
+        close = amplitude_error(coarse, fine) <= chosen.error
+        if close or 2 * finer.steps > chosen.most:
+            return extrapolated(coarse, fine)
         coarse = fine
 
 

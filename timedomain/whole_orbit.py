@@ -29,7 +29,6 @@ from timedomain.closed_march import (
     ShootingError,
 )
 from timedomain.period_map import Period, PeriodMap
-from timedomain.period_sensitivity import sensitivity_of
 from timedomain.whole_change import whole_change
 
 
@@ -144,9 +143,7 @@ class _Steps:
         friction = power[:-1].mean() * math.tau / carried.frequency
         slides = slides_of(carried.sliders, *points, np.zeros(0), carried.frequency)
         period = Period(displacement, velocity, float(friction), slides)
-        with np.errstate(over="ignore", invalid="ignore"):
-            monodromy = sensitivity_of(carried, period).monodromy
-        return ClosedMarch(carried, states[0], period, monodromy, 0, gap, iterations)
+        return ClosedMarch(carried, states[0], period, 0, gap, iterations)
 
     def _motion(self, states: Array) -> tuple[Array, Array]:
         """Return displacement and velocity, each (times, dofs)."""

@@ -85,7 +85,7 @@ def test_multipliers_of_the_march_are_those_of_the_trapezoidal_rule() -> None:
 
     half = 0.5 * poles(problem.structure) * TURN / 210.0 / steps
     exact = ((1.0 + half) / (1.0 - half)) ** steps
-    values = np.linalg.eigvals(found.monodromy).astype(complex)
+    values = np.linalg.eigvals(found.monodromy()).astype(complex)
     np.testing.assert_allclose(in_order(values), in_order(exact), atol=1e-9)
 
 

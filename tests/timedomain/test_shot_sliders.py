@@ -83,7 +83,7 @@ def test_the_largest_multiplier_is_the_decay_of_a_disturbance(
     problem: Problem, frequency: float
 ) -> None:
     found = orbit(problem, frequency, 480)
-    largest = float(np.abs(np.linalg.eigvals(found.monodromy)).max())
+    largest = float(np.abs(np.linalg.eigvals(found.monodromy())).max())
     assert 0.05 < largest < 1.0
 
     state: Array = found.state + 1e-5 * np.linalg.norm(found.state) * np.ones(
@@ -94,7 +94,7 @@ def test_the_largest_multiplier_is_the_decay_of_a_disturbance(
         state = after(found.map, state)
         sizes.append(float(np.linalg.norm(state - found.state)))
     # a pair of complex ones turns within the periods: the mean of many
-    powers = np.linalg.matrix_power(found.monodromy, 8)
+    powers = np.linalg.matrix_power(found.monodromy(), 8)
     begun = 1e-5 * np.linalg.norm(found.state) * np.ones(found.state.size)
     assert sizes[-1] == pytest.approx(float(np.linalg.norm(powers @ begun)), rel=2e-2)
 

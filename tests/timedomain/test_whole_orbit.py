@@ -109,7 +109,7 @@ def test_it_is_the_orbit_that_a_march_closes() -> None:
     motions = (each.period.displacement for each in (whole, marched))
     assert np.ptp(np.subtract(*motions)) < 1e-8 * np.ptp(whole.period.displacement)
     assert whole.period.friction == pytest.approx(marched.period.friction, rel=1e-7)
-    assert np.abs(whole.monodromy - marched.monodromy).max() < 1e-6
+    assert np.abs(whole.monodromy() - marched.monodromy()).max() < 1e-6
 
 
 def resonant(problem: Problem, frequency: float, *loud: float) -> PeriodicResponse:

@@ -174,12 +174,19 @@ def test_a_file_that_cannot_be_written_is_told_before_the_work(
     assert not [each for each in Path().iterdir() if each.is_file()]
 
 
-def test_the_effort_of_a_search_that_is_not_wanted_is_refused(
-    capsys: pytest.CaptureFixture[str],
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (["frc", "duffing", "--effort", "2"], "--effort 2: it is that of"),
+        (["verify", "duffing", "--steps", "50"], "--steps 50: they are those of"),
+    ],
+)
+def test_numbers_of_what_is_not_wanted_are_refused(
+    command: list[str], said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["frc", "duffing", "--effort", "2"]) == 2
+    assert main(command) == 2
 
-    assert capsys.readouterr().err.startswith("microslip: --effort 2: it is that of")
+    assert capsys.readouterr().err.startswith(f"microslip: {said}")
 
 
 def test_a_scene_that_ends_like_a_folder_is_told_as_it_was_given(

@@ -6,7 +6,12 @@ import argparse
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc
-from microslip.commands.verify_checks import check_marches, check_orbits, check_sweeps
+from microslip.commands.verify_checks import (
+    STEPS,
+    check_marches,
+    check_orbits,
+    check_sweeps,
+)
 from microslip.commands.verify_findings import Findings, draw, report, verdict
 
 if TYPE_CHECKING:
@@ -15,7 +20,7 @@ if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
 
 SLOWEST, MOST = 1000.0, 10**7
-"""times the length of the scene's sweep"""
+"""times the length of the scene's sweep, and numbers of what is counted"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -47,17 +52,16 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
             0,
             "also march so many periods from each orbit",
         ),
-        (
-            "--steps",
-            arguments.whole(1, MOST),
-            600,
-            "time steps per period of that march",
-        ),
         ("--tolerance", arguments.positive, 0.01, "relative deviation of amplitudes"),
     ):
         parser.add_argument(
             name, type=kind, default=default, help=f"{meaning} (default: {default})"
         )
+    parser.add_argument(
+        "--steps",
+        type=arguments.whole(1, MOST),
+        help=f"time steps per period of that march (default: {STEPS})",
+    )
     for name, meaning in (
         ("--branches", "also the branches that begin at branch points"),
         ("--detached", "also detached curves, sought by varying the drive"),
@@ -91,6 +95,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip_mechanics.contact.memory import beyond_motion
 
     _, picture = arguments.outputs(options, "verify", ".png")
+    _check_asked(options)
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     demand_dense(problem)
@@ -117,6 +122,23 @@ def _run(options: argparse.Namespace) -> int:
     draw(found, traced.curve, picture, arguments.title(options))
     print(f"picture in {picture}")
     return status
+
+
+def _check_asked(options: argparse.Namespace) -> None:
+    """Check that the march exists whose steps are given.
+
+    Raises
+    ------
+    SceneError
+        If it does not.
+    """
+    from microslip.quantity import SceneError
+
+    if options.steps is not None and not options.periods:
+        raise SceneError(
+            f"--steps {options.steps}: they are those of the march that --periods asks "
+            "for: give that too, or leave them out"
+        )
 
 
 def _check_covered(options: argparse.Namespace, curve: Curve, swept: Sweep) -> None:

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from microslip.studies.verify import SweepAgreement
     from microslip_mechanics.problem import Problem
 
+STEPS = 600
+"""per period of a march, unless other ones are given"""
+
 
 def check_orbits(
     options: argparse.Namespace, problem: Problem, traced: Traced, found: Findings
@@ -44,8 +47,9 @@ def check_marches(
     if options.periods == 0:
         return
     responses = [traced.responses[place] for place in found.places]
+    steps = options.steps or STEPS
     marches = orbits(
-        problem, responses, periods=options.periods, steps_per_period=options.steps
+        problem, responses, periods=options.periods, steps_per_period=steps
     )
     for _ in collected(
         marches, found.marches, total=len(responses), unit="", name="marches"

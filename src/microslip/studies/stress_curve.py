@@ -16,7 +16,7 @@ from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 
-TRACING, COARSE = 0.6, 0.71
+TRACING, COARSE = 0.5, 0.68
 """shares of a case's time after which a curve, and the one instead of it, is left"""
 FEW = 7
 """harmonics of that one"""

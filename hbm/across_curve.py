@@ -8,11 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.arc_step import lost, tangent
+from hbm.correction import Outcome
 from hbm.curve import response
 from hbm.dense_problem import RESOLVED, dense_problem
 from hbm.errors import ContinuationError, hertz, placed
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome, SingularError, correct
+from hbm.linearised import SingularError
+from hbm.newton import correct
 from hbm.one_thread import one_thread
 from hbm.path import AlongFrequency, along_frequency
 from hbm.path_metric import path_metric

@@ -7,16 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.correction import Correction, Outcome
 from hbm.effort import Effort
 from hbm.fourier import FourierBasis
-from hbm.newton import (
-    Correction,
-    Linearised,
-    Outcome,
-    SingularError,
-    Small,
-    correct,
-)
+from hbm.linearised import Linearised, SingularError
+from hbm.newton import Small, correct
 from hbm.report import Report
 from hbm.resolution import Estimate, Resolution
 from hbm.resolution_choice import ResolutionChoice

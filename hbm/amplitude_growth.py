@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.newton import Correction
+from hbm.correction import Correction
 from hbm.path_resolution import PathResolution
 from microslip_mechanics.arrays import Array
 

@@ -7,16 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.correction import Correction, Outcome
 from hbm.errors import PLACE, REMEDY, ContinuationError
-from hbm.newton import (
-    Correction,
-    Linearised,
-    Outcome,
-    SingularError,
-    Small,
-    System,
-    correct,
-)
+from hbm.linearised import Linearised, SingularError, System
+from hbm.newton import Small, correct
 from hbm.predictor import Predictor
 from hbm.settler import Settler
 from hbm.step_control import StepControl

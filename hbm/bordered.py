@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import lapack
 
-from hbm.newton import SingularError
+from hbm.linearised import SingularError
 from microslip_mechanics.arrays import Array
 
 

@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.correction import Correction, Outcome
 from hbm.crossings import BRANCH
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, Outcome, correct
+from hbm.newton import correct
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency
 from hbm.tracer import Tracer

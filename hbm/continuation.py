@@ -9,8 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.arc_step import Metric, lost, neglected, next_point, tangent, turn
+from hbm.correction import Correction, Outcome
 from hbm.errors import PLACE, ContinuationError
-from hbm.newton import Correction, Outcome, SingularError, System, correct
+from hbm.linearised import SingularError, System
+from hbm.newton import correct
 from hbm.predictor import Predictor
 from hbm.settler import UNSETTLED, Settler
 from hbm.step_control import StepControl

@@ -14,7 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from hbm.arc_step import Metric, tangent
-from hbm.newton import Correction, Outcome, SingularError, System, correct
+from hbm.correction import Correction, Outcome
+from hbm.linearised import SingularError, System
+from hbm.newton import correct
 from microslip_mechanics.arrays import Array
 
 BEYOND = (0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from hbm.adaptive import AdaptiveBalance
+from hbm.correction import Correction
 from hbm.fourier import FourierBasis
 from hbm.moving import Moving, outside
 from hbm.multipliers import Multipliers
-from hbm.newton import Correction
 from hbm.segment import ROUGH, ROUGHER, Segment
 from hbm.settled import Settled, by_harmonics
 from microslip_mechanics.arrays import ComplexArray

@@ -9,12 +9,12 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.arc_step import Metric
+from hbm.correction import Correction
 from hbm.crossings import BRANCH, TORUS, crossings
 from hbm.errors import ContinuationError
 from hbm.events import Events
 from hbm.fourier import FourierBasis
 from hbm.multipliers import Multipliers
-from hbm.newton import Correction
 from hbm.path_resolution import PathResolution
 from hbm.residual import HarmonicBalance
 from hbm.settled import Settled

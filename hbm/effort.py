@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hbm.errors import ContinuationError
-from hbm.newton import Linearised, System
+from hbm.linearised import Linearised, System
 from microslip_mechanics.arrays import Array
 
 UNIT = 31

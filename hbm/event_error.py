@@ -7,7 +7,7 @@ import math
 from hbm.adaptive import AdaptiveBalance
 from hbm.amplitude_growth import AmplitudeGrowth
 from hbm.arc_step import Metric
-from hbm.newton import Correction
+from hbm.correction import Correction
 from hbm.segment import PRECISION, Segment, folds
 from microslip_mechanics.arrays import Array
 

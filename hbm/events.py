@@ -15,12 +15,12 @@ import numpy as np
 from hbm.adaptive import AdaptiveBalance
 from hbm.amplitude_growth import AmplitudeGrowth
 from hbm.arc_step import Metric
+from hbm.correction import Correction, Outcome
 from hbm.crossings import Crossings
 from hbm.event_error import fold_error, peak_error
 from hbm.fold_place import placed_fold
 from hbm.found import Found, found_between, in_order
 from hbm.multipliers import Multipliers
-from hbm.newton import Correction, Outcome
 from hbm.segment import PRECISION, SURE, Segment, folds
 from hbm.settled import Settled, by_harmonics
 from hbm.step_control import StepControl

@@ -9,8 +9,9 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.correction import Correction
 from hbm.linearisation import Linearisation
-from hbm.newton import Correction, Small
+from hbm.newton import Small
 from hbm.settler import Unsettled
 from microslip_mechanics.arrays import Array
 

@@ -11,10 +11,11 @@ import numpy as np
 from hbm.along_parameter import AlongParameter
 from hbm.balance import Balance
 from hbm.continuation import trace
+from hbm.correction import Correction
 from hbm.curve import response
 from hbm.fold_balance import FoldBalance, Inner, beyond
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, SingularError
+from hbm.linearised import SingularError
 from hbm.options import CurveOptions
 from hbm.parametric import mirrored
 from hbm.residual import HarmonicBalance

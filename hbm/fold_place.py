@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.amplitude_growth import AmplitudeGrowth
-from hbm.newton import Correction
+from hbm.correction import Correction
 from hbm.resolution_choice import MARKED
 from hbm.segment import PRECISION, Segment, folds
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from hbm.correction import Correction
 from hbm.crossings import BRANCH
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction
 from hbm.segment import Segment, folds
 
 UPRIGHT = 5e-3

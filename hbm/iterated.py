@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from hbm.bordered import Bordered
-from hbm.newton import SingularError
+from hbm.linearised import SingularError
 from microslip_mechanics.arrays import Array
 
 PRECISE, ROUGH = 1e-7, 1e-5

@@ -13,8 +13,10 @@ import numpy as np
 
 from hbm.arc_step import Metric
 from hbm.continuation import trace
+from hbm.correction import Correction, Outcome
 from hbm.errors import PLACE, ContinuationError
-from hbm.newton import Correction, Outcome, System, correct
+from hbm.linearised import System
+from hbm.newton import correct
 from hbm.settler import Settler
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array

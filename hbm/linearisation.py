@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hbm.bordered import Bordered
 from hbm.iterated import Iterated, Parts, UnreachedError
-from hbm.newton import SingularError
+from hbm.linearised import SingularError
 from microslip_mechanics.arrays import Array
 
 EPSILON = 1e-14

@@ -11,6 +11,7 @@ import numpy as np
 from hbm.active import moving, symmetric
 from hbm.adaptive import AdaptiveBalance
 from hbm.condensation import condense
+from hbm.correction import Correction
 from hbm.errors import ContinuationError, placed
 from hbm.fourier import FourierBasis, derivative
 from hbm.free_motion import free_motion
@@ -18,7 +19,6 @@ from hbm.leaps import Leaping
 from hbm.linear_modes import FreeDecay, LinearMode, linear_modes
 from hbm.modal_parts import Reference
 from hbm.modal_resolution import ModalResolution
-from hbm.newton import Correction
 from hbm.one_thread import one_thread
 from hbm.relative import relative_problem
 from hbm.step_control import StepControl

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.correction import Outcome
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome, Small, correct
+from hbm.newton import Small, correct
 from hbm.path_resolution import PathResolution
 from hbm.stability import SmallMotions
 from hbm.step_control import StepControl

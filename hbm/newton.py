@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import enum
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import blas
 
+from hbm.correction import Correction, Outcome
+from hbm.linearised import Linearised, SingularError, System
 from microslip_mechanics.arrays import Array, largest
 
 ROUNDING = 1e-8
@@ -24,42 +24,6 @@ CHORD = 0.1
 """contraction that shows that the Jacobian has hardly changed"""
 
 
-class Linearised(Protocol):
-    """The derivative of a residual at a point."""
-
-    @property
-    def exact(self) -> bool:
-        """Whether solutions are exact but for rounding; else tangents err by 1e-4."""
-
-    def solve(self, normal: Array, right: Array) -> Array:
-        """Solve [Jacobian; normal] d = right.
-
-        ``normal`` has shape ``(n + 1,)``, ``right`` that or ``(n + 1, several)``.
-
-        Raises
-        ------
-        SingularError
-            If there is no solution.
-        """
-
-    def orientation(self, tangent: Array) -> float:
-        """Return the sign of the determinant that has the tangent as its border.
-
-        Along a curve it changes at branch points alone. 0 if it is not known.
-        """
-
-    def forget(self) -> None:
-        """Let go of what takes memory: solving again makes it anew."""
-
-
-class SingularError(ArithmeticError):
-    """The bordered Jacobian has no inverse."""
-
-
-System: TypeAlias = Callable[[Array], tuple[Array, Linearised]]
-"""point (n + 1,) ↦ residual (n,) and what solves with its Jacobian"""
-
-
 class Small(NamedTuple):
     """What does not matter near a solution."""
 
@@ -67,47 +31,6 @@ class Small(NamedTuple):
     """point (n + 1,) ↦ changes of its components that do not matter"""
     residual: float
     """largest residual with which a point may be taken for a solution"""
-
-
-class Outcome(enum.Enum):
-    """How a Newton correction ended."""
-
-    CONVERGED = "the residual fell below the tolerance, or the step became negligible"
-    EXHAUSTED = "the iteration limit was reached"
-    STALLED = "no step along Newton's direction lowers the residual"
-    SINGULAR = "the bordered Jacobian is singular"
-    OVERFLOW = "the residual is not finite"
-
-
-@dataclass(frozen=True, slots=True)
-class Correction:
-    """A point, what the correction saw, and how it ended."""
-
-    point: Array
-    residual: Array
-    """at the point, shape (n,)"""
-    linearised: Linearised
-    outcome: Outcome
-    residuals: tuple[float, ...]
-    """largest residual before the first and after each iteration"""
-    tangent: Array | None = None
-    """of the curve at the point, shape (n + 1,), if it is known"""
-    orientation: float = 0.0
-    """that of its linearisation by the tangent; 0 if it is not known"""
-    joined: bool = True
-    """whether the curve comes from the point before"""
-    turns: bool = False
-    """whether it comes round a corner at which its parameter turns back"""
-
-    @property
-    def along(self) -> Array:
-        """The tangent; zero if it is not known."""
-        return np.zeros_like(self.point) if self.tangent is None else self.tangent
-
-    @property
-    def iterations(self) -> int:
-        """Number of Newton steps taken."""
-        return len(self.residuals) - 1
 
 
 def correct(

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import trace
 from hbm.corner import round_corner
+from hbm.correction import Correction
 from hbm.effort import Effort
 from hbm.errors import PLACE, ContinuationError
-from hbm.newton import Correction
 from hbm.path import Path
 from hbm.path_metric import path_metric
 from hbm.restart import FIRST, LEAPS, Restart

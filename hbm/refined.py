@@ -7,7 +7,8 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from hbm.newton import CHORD, ROUNDING, Linearised
+from hbm.linearised import Linearised
+from hbm.newton import CHORD, ROUNDING
 from microslip_mechanics.arrays import Array
 
 SURE = 0.25

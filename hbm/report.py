@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, replace
 
 from hbm.arc_step import tangent
+from hbm.correction import Correction
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, SingularError
+from hbm.linearised import SingularError
 from hbm.resolution import Estimate
 from hbm.resolution_choice import MARKED
 from microslip_mechanics.arrays import Array

@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.correction import Correction
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, Linearised
+from hbm.linearised import Linearised
 from hbm.refined import Refined, Resolved, refined
 from microslip_mechanics.arrays import Array, ComplexArray, largest
 

@@ -18,7 +18,9 @@ from scipy.optimize import brentq
 
 from hbm.arc_step import tangent
 from hbm.bracket import bracketed
-from hbm.newton import Correction, Outcome, SingularError, Small, System, correct
+from hbm.correction import Correction, Outcome
+from hbm.linearised import SingularError, System
+from hbm.newton import Small, correct
 from microslip_mechanics.arrays import Array
 
 PRECISION, ROUGH, ROUGHER = 1e-5, 1e-3, 1e-2

@@ -6,8 +6,8 @@ import math
 from operator import attrgetter
 from typing import NamedTuple
 
+from hbm.correction import Correction
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction
 from microslip_mechanics.arrays import ComplexArray
 
 by_harmonics = attrgetter("harmonics")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import Protocol
 
-from hbm.newton import Correction, Small
+from hbm.correction import Correction
+from hbm.newton import Small
 from microslip_mechanics.arrays import Array
 
 

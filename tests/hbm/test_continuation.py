@@ -9,8 +9,10 @@ import pytest
 
 from hbm.arc_step import tangent
 from hbm.continuation import correct_at, trace
+from hbm.correction import Correction, Outcome
 from hbm.errors import ContinuationError
-from hbm.newton import Correction, Outcome, Small, System
+from hbm.linearised import System
+from hbm.newton import Small
 from hbm.settler import Unsettled
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array

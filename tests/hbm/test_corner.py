@@ -7,8 +7,8 @@ import pytest
 
 from hbm.continuation import trace
 from hbm.corner import round_corner
+from hbm.correction import Correction, Outcome
 from hbm.errors import ContinuationError
-from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from hbm.step_control import StepControl

@@ -6,7 +6,7 @@ import pytest
 from hbm.effort import UNIT, Effort
 from hbm.errors import ContinuationError
 from hbm.linearisation import Linearisation
-from hbm.newton import Linearised
+from hbm.linearised import Linearised
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from honesty import block

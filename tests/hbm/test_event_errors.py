@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hbm.correction import Correction, Outcome
 from hbm.event_error import fold_error
 from hbm.found import found_between
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.segment import Segment, folds
 from hbm.solve import frequency_response

@@ -9,9 +9,9 @@ import pytest
 from numpy.polynomial import polynomial
 
 from hbm.amplitude_growth import AmplitudeGrowth
+from hbm.correction import Correction, Outcome
 from hbm.events import Events
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, Outcome
 from hbm.settled import Settled
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array, ComplexArray

@@ -8,7 +8,7 @@ import pytest
 from hbm.continuation import trace
 from hbm.errors import ContinuationError
 from hbm.leaps import Leaping
-from hbm.newton import System
+from hbm.linearised import System
 from hbm.settler import UNSETTLED
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array

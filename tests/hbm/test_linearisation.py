@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hbm.linearisation import Linearisation
-from hbm.newton import SingularError
+from hbm.linearised import SingularError
 
 SIZE = 9
 PLACES = np.array([0, 2, 3, 6])

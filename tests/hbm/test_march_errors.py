@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hbm.correction import Outcome
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome, correct
+from hbm.newton import correct
 from hbm.path import along_frequency
 from hbm.path_resolution import PathResolution
 from memory_problems import CONTACTS, masses

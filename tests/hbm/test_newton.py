@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from hbm.newton import Correction, Outcome, Small, System, correct
+from hbm.correction import Correction, Outcome
+from hbm.linearised import System
+from hbm.newton import Small, correct
 from microslip_mechanics.arrays import Array
 from systems import Dense
 

@@ -10,9 +10,9 @@ import pytest
 
 import hbm.pieces
 from hbm.along_parameter import AlongParameter
+from hbm.correction import Correction, Outcome
 from hbm.effort import Effort
 from hbm.errors import ContinuationError
-from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
 from hbm.pieces import Pieces

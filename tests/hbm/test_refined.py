@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hbm.newton import Linearised
+from hbm.linearised import Linearised
 from hbm.refined import MOST, SAFE, WARY, Refined, refined
 from microslip_mechanics.arrays import Array
 

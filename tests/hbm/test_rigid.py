@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hbm.correction import Outcome
 from hbm.equivalent import equivalent_contact
 from hbm.fourier import FourierBasis
-from hbm.newton import Outcome, correct
+from hbm.newton import correct
 from hbm.options import CurveOptions
 from hbm.parameter_curves import fold_curve
 from hbm.periodic_response import periodic_response

@@ -10,9 +10,9 @@ import pytest
 
 from hbm.adaptive import WAIT, AdaptiveBalance
 from hbm.continuation import correct_at
+from hbm.correction import Correction, Outcome
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
-from hbm.newton import Correction, Outcome
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
 from hbm.path_resolution import PathResolution

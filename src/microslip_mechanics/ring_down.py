@@ -39,6 +39,10 @@ def ring_down(
     extreme to the next is free of a constant offset; it falls by exp(−πζ/√(1−ζ²)) each
     half cycle of a linear decay, and by 2F/k of one against constant friction F.
 
+    The natural frequency is √(ω² + a″/a) of the one with which the motion turns and the
+    envelope a, with one a″/a over three swings: exact for both decays, since a dashpot
+    slows the motion by ζ²/2 of its frequency and constant friction does not.
+
     Parameters
     ----------
     time, displacement, velocity
@@ -56,14 +60,15 @@ def ring_down(
         none = np.zeros(0)
         return RingDown(none, none, none, none)
     middle = 0.5 * (moments[1:] + moments[:-1])
+    half = 0.5 * (middle[2:] - middle[:-2])
     decrement = np.log(swing[:-2] / swing[2:])
-    turning = 2.0 * np.pi / (middle[2:] - middle[:-2])
-    damping = decrement / np.hypot(2.0 * np.pi, decrement)
+    curved = 0.5 * (swing[:-2] + swing[2:]) / swing[1:-1]
+    bent = (np.arccosh(curved.astype(complex)) ** 2).real  # a″/a of half a cycle
     return RingDown(
         middle[1:-1],
         np.sqrt(swing[:-2] * swing[2:]),
-        turning / np.sqrt(1.0 - damping**2),
-        damping,
+        np.sqrt(np.pi**2 + bent) / half,
+        decrement / np.hypot(2.0 * np.pi, decrement),
     )
 
 

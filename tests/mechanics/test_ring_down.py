@@ -33,9 +33,9 @@ def test_linear_decay_has_its_frequency_and_damping(
 
 
 def test_decay_against_constant_friction_falls_on_a_line() -> None:
-    natural, lost, rows = 10.0, 0.01, 80
+    natural, lost, rows = 10.0, 0.02, 80
     half = np.pi / natural
-    time = np.arange(1, 10 * 2 * rows) * half / rows
+    time = np.arange(1, 20 * rows) * half / rows
     number = np.floor(time / half)
     # each half cycle is a cosine about ±lost
     side = (-1.0) ** number
@@ -53,8 +53,7 @@ def test_decay_against_constant_friction_falls_on_a_line() -> None:
     decrement = np.log((mean + 2.0 * lost) / (mean - 2.0 * lost))
     expected = decrement / np.hypot(2.0 * np.pi, decrement)
     np.testing.assert_allclose(found.damping, expected, rtol=1e-4)
-    turning = found.frequency * np.sqrt(1.0 - found.damping**2)
-    np.testing.assert_allclose(turning, natural, rtol=1e-5)
+    np.testing.assert_allclose(found.frequency, natural, rtol=1e-5)
 
 
 @pytest.mark.parametrize("cycles", [0.2, 1.2])

@@ -29,17 +29,22 @@ def read_table(
                 f"{source}: {place}{key}{shown(values[key])} is unknown"
                 f"{meant(key, [*fields, *known])}"
             )
-    made = {}
-    for name, field in fields.items():
-        if name in values:
-            kind = _kind(fields, values, name)
-            made[name] = _value(source, place, name, kind, hints[name], values[name])
-        elif field.default is dataclasses.MISSING:
-            what = (
-                f"{place}{name}" if "quantity" in field.metadata else f"table [{name}]"
+    missing = [
+        name if "quantity" in field.metadata else f"table [{name}]"
+        for name, field in fields.items()
+        if name not in values and field.default is dataclasses.MISSING
+    ]
+    if missing:
+        lacks = "is missing: add it" if len(missing) == 1 else "are missing: add them"
+        raise SceneError(f"{source}: {place}{', '.join(missing)} {lacks}")
+    return table(
+        **{
+            name: _value(
+                source, place, name, _kind(fields, values, name), hints[name], value
             )
-            raise SceneError(f"{source}: {what} is missing: add it")
-    return table(**made)
+            for name, value in values.items()
+        }
+    )
 
 
 def _kind(

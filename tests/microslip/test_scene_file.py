@@ -214,3 +214,15 @@ def test_tables_that_are_left_out_are_named(name: str, tmp_path: Path) -> None:
 
     with pytest.raises(SceneError, match=rf"table \[{name}\] is missing: add it"):
         getattr(load_scene(str(path)), name)
+
+
+def test_all_that_a_table_lacks_is_told_at_once(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'scene = "two-blades"\nmodel = "A"\n[excitation]\nforce = "1 N"\n',
+        encoding="utf-8",
+    )
+
+    told = r"table \[blade\], table \[blade_end\], .* are missing: add them"
+    with pytest.raises(SceneError, match=told):
+        load_scene(str(path))

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.response_curve import ResponseCurve
 
+NAME = "microslip.curve"
+
 
 def curve(
     problem: Problem,
@@ -44,9 +46,8 @@ def curve(
     """
     from microslip.studies.curve import trace_curve
 
-    name = "microslip.curve"
     wanted: Curve = resolved(
-        name,
+        NAME,
         Curve,
         lowest=lowest,
         highest=highest,
@@ -54,7 +55,7 @@ def curve(
         harmonics=harmonics,
         samples=samples,
     )
-    check_apart(name, wanted.lowest, wanted.highest)
-    given = checked(name, problem)
-    with named(name):
+    check_apart(NAME, wanted.lowest, wanted.highest)
+    given = checked(NAME, problem)
+    with named(NAME):
         return trace_curve(given, wanted).curve

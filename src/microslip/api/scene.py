@@ -11,6 +11,8 @@ from microslip.api.arguments import texts_of
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
 
+NAME = "microslip.scene"
+
 
 def scene(source: str | PathLike[str], overrides: Sequence[str] = ()) -> Problem:
     """Return the problem of a built-in scene, or of a scene file.
@@ -30,5 +32,5 @@ def scene(source: str | PathLike[str], overrides: Sequence[str] = ()) -> Problem
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
 
-    several = texts_of("microslip.scene", source, overrides)
+    several = texts_of(NAME, source, overrides)
     return problem_of(load_scene(str(source), several))

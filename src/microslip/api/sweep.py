@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.time_history import TimeHistory
 
-
+NAME = "microslip.sweep"
 REMEDY = (
     "give a longer time_step, a larger store_every, a shorter duration or ramp, or "
     "lower frequencies"
@@ -75,10 +75,9 @@ def sweep(
     from timedomain.closure import OPEN, closes
     from timedomain.options import MarchOptions
 
-    name = "microslip.sweep"
-    march: March = read(name, March, time_step=time_step, store_every=store_every)
+    march: March = read(NAME, March, time_step=time_step, store_every=store_every)
     swept: Swept = read(
-        name,
+        NAME,
         Swept,
         lowest=lowest,
         highest=highest,
@@ -86,12 +85,12 @@ def sweep(
         ramp=ramp,
         tolerance=tolerance,
     )
-    check_apart(name, swept.lowest, swept.highest)
+    check_apart(NAME, swept.lowest, swept.highest)
     begin, end = swept.ramp, swept.ramp + swept.duration
     loads = SweptSine(begin, begin, end, end, swept.lowest, swept.highest)
-    given = checked(name, problem)
+    given = checked(NAME, problem)
     options = MarchOptions(march.time_step, march.store_every, swept.tolerance)
-    with named(name):
+    with named(NAME):
         demand_end(loads, options, REMEDY)
         history = march_sweep(given, loads, march, tolerance=swept.tolerance)
     if history.ending != "complete" or closes(history):

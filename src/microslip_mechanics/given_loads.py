@@ -62,12 +62,12 @@ class BaseMotion:
         unit: Array = direction / np.linalg.norm(direction)
         return unit
 
-    def load(self, structure: Structure) -> ComplexArray:
+    def load(self, structure: Structure) -> Array:
         """Return the load on a structure [N], shape (dofs,)."""
-        from microslip_mechanics.base_excitation import base_excitation, translation
+        from microslip_mechanics.base_excitation import carried_inertia, translation
 
         carried = translation(structure.names, self.unit)
-        return base_excitation(structure, carried).by_acceleration(self.acceleration)
+        return -float(self.acceleration) * carried_inertia(structure, carried)
 
 
 def driven(

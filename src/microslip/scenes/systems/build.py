@@ -92,10 +92,9 @@ def _whole(rig: System) -> Problem:
 
 def _moved(made: Problem, frame: Frame, motion: BaseMotion) -> Problem:
     """Return a problem whose ground moves."""
-    from microslip_mechanics.base_excitation import frame_base_excitation
+    from microslip_mechanics.base_excitation import frame_carried_inertia
 
-    carried = frame_base_excitation(frame, motion.unit)
-    load = carried.by_acceleration(motion.acceleration).real
+    load = -motion.acceleration * frame_carried_inertia(frame, motion.unit)
     return replace(made, drive=made.drive + load)
 
 

@@ -13,7 +13,7 @@ from scipy.sparse.linalg import LinearOperator
 from microslip_mechanics.arrays import Array, Matrix, numbers_of, shown
 from microslip_mechanics.factors import indefinite_factors
 from microslip_mechanics.given_matrices import check_like, square_matrix
-from microslip_mechanics.hysteretic import Hysteretic
+from microslip_mechanics.hysteretic import equivalent_viscous
 from microslip_mechanics.modal_damping import ModalDamping
 from microslip_mechanics.rayleigh import Rayleigh
 from microslip_mechanics.structure import Structure
@@ -75,7 +75,7 @@ class Damping:
                     f"loss_factor = {shown(self.loss_factor)}: give a number such as "
                     "0.01"
                 )
-            return Hysteretic(self.loss_factor).viscous(bare.dofs).matrix(bare)
+            return equivalent_viscous(self.loss_factor, bare.dofs).matrix(bare)
         return ModalDamping(self._ratios(bare)).matrix(bare)
 
     def _check_single(self) -> None:

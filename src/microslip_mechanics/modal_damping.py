@@ -18,16 +18,14 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class ModalDamping:
-    """Ratios of the slowest modes, and what damps all others.
+    """Ratios of the slowest modes; faster ones are damped in proportion to stiffness.
 
-    C = α M + β K + Σ M φ (2ζω − α − βω²) φᵀ M over the modes that have ratios.
+    C = β K + Σ M φ (2ζω − βω²) φᵀ M over the modes that have ratios, with the last of
+    these ratios by β at its mode.
     """
 
     ratios: tuple[float, ...]
     """ζ of the slowest modes, the slowest first"""
-    rest: Rayleigh | None = None
-    """of all other modes; proportional to stiffness if left out, with the last ratio at
-    the last of these modes: faster ones are damped more"""
 
     def __post_init__(self) -> None:
         """Check that there are ratios, none of them negative."""
@@ -68,8 +66,6 @@ class ModalDamping:
 
     def _rest(self, last: float) -> Rayleigh:
         """Return what damps the other modes; ``last`` is the frequency [rad/s]."""
-        if self.rest is not None:
-            return self.rest
         if not last > 0.0:
             return Rayleigh()
         return Rayleigh(stiffness=2.0 * self.ratios[-1] / last)

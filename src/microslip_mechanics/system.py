@@ -65,8 +65,8 @@ def system(
         α [1/s] and β [s] of C = α M + β K, in place of C.
     loss_factor
         η of the stiffness, in place of C: the ratio η/2 of all modes, the same at
-        resonance and nowhere off by more than η (:class:`~microslip_mechanics.\
-hysteretic.Hysteretic`).
+        resonance and nowhere off by more than η (:func:`~microslip_mechanics.\
+hysteretic.equivalent_viscous`).
     names
         Of the degrees of freedom; x1, x2, … if left out.
     elements

@@ -10,6 +10,7 @@ import scipy.linalg
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.structure import Structure
 from microslip_mechanics.stuck import stuck_structure
+from microslip_mechanics.stuck_modes import slowest
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,9 +37,8 @@ def natural_modes(structure: Structure, count: int) -> NaturalModes:
             f"give {structure.dofs} at the most"
         )
     if structure.sparse:
-        squares, shapes = stuck_structure(
-            structure, np.zeros((0, structure.dofs))
-        ).slowest(count)
+        held = stuck_structure(structure, np.zeros((0, structure.dofs)))
+        squares, shapes = slowest(held, count)
         squares, shapes = squares[:count], shapes[:, :count]
     else:
         squares, shapes = scipy.linalg.eigh(

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array, Matrix
 from microslip_mechanics.factors import indefinite_factors
-from microslip_mechanics.reduction import projected, residual_vectors
+from microslip_mechanics.projected_structure import projected
+from microslip_mechanics.residual_vectors import residual_vectors
 from microslip_mechanics.structure import MATRICES, Structure
 from microslip_mechanics.stuck import stuck_structure
+from microslip_mechanics.stuck_modes import stuck_modes
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +87,7 @@ def craig_bampton(
     selection = np.zeros((interface.size, structure.dofs))
     selection[np.arange(interface.size), interface] = 1.0
     stuck = stuck_structure(_sparse(structure), selection)
-    modes = stuck.modes(highest)
+    modes = stuck_modes(stuck, highest)
     shapes = np.hstack([stuck.static, stuck.free @ modes.shapes])
     names = [structure.names[place] for place in interface]
     names += [f"fixed mode {place + 1}" for place in range(modes.squares.size)]
@@ -111,7 +113,7 @@ def modal_truncation(
         Modes are kept up to here [rad/s].
     """
     stuck = stuck_structure(_sparse(structure), np.zeros((0, structure.dofs)))
-    modes = stuck.modes(highest)
+    modes = stuck_modes(stuck, highest)
     loads = np.zeros((structure.dofs, interface.size))
     loads[interface, np.arange(interface.size)] = 1.0
     residual, _ = residual_vectors(stuck, modes, stuck.free.T @ loads)

@@ -12,15 +12,14 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.extended import extended_product
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.structure import Structure
-from microslip_mechanics.stuck import StuckModes, StuckStructure, stuck_structure
+from microslip_mechanics.projected_structure import projected
+from microslip_mechanics.residual_vectors import residual_vectors
+from microslip_mechanics.stuck import stuck_structure
+from microslip_mechanics.stuck_modes import loss_beside, stuck_modes
 
 MARGIN = 2.0
 """modes are kept up to this multiple of the highest frequency that is wanted"""
-NEGLIGIBLE = 1e-8
-"""share of a static response that counts as rounding"""
 
 
 class Truncation(NamedTuple):
@@ -107,7 +106,7 @@ def reduced(problem: Problem, highest: float) -> Reduction:
         )
     basis, selection = problem.interface.relative_motion()
     stuck = stuck_structure(problem.structure, selection)
-    modes = stuck.modes(MARGIN * highest)
+    modes = stuck_modes(stuck, MARGIN * highest)
     inertia, friction = (
         stuck.free.T @ (matrix @ stuck.static)
         for matrix in (problem.structure.mass, problem.structure.damping)
@@ -122,43 +121,13 @@ def reduced(problem: Problem, highest: float) -> Reduction:
         stuck, modes, np.hstack([loads, inertia, friction])
     )
     shapes = np.hstack([stuck.static, stuck.free @ np.hstack([modes.shapes, residual])])
-    damping = stuck.loss(modes) if 0.0 < modes.next < np.inf else 0.0
+    damping = loss_beside(stuck, modes) if 0.0 < modes.next < np.inf else 0.0
     return Reduction(
         problem,
         _projected(problem, basis, shapes),
         shapes,
         Truncation(modes.next, damping, energy),
     )
-
-
-def residual_vectors(
-    stuck: StuckStructure, modes: StuckModes, loads: Array
-) -> tuple[Array, Array]:
-    """Return what modes miss of the static response to loads, and its energy.
-
-    Parameters
-    ----------
-    stuck, modes
-        A structure that is held, and its slowest modes.
-    loads
-        Shape ``(free, loads)``.
-
-    Returns
-    -------
-    vectors, energy
-        Of unit mass, shape ``(free, some)``; twice the energy, ``(loads, loads)``.
-    """
-    left = stuck.factors.solve(loads)
-    sizes = np.linalg.norm(stuck.factors.root(left), axis=0)
-    sizes[sizes == 0.0] = 1.0
-    for _ in range(2):  # once more, for what rounding leaves
-        left = left - modes.shapes @ (modes.shapes.T @ (stuck.mass @ left))
-    strain = stuck.factors.root(left)
-    _, shares, mixing = np.linalg.svd(strain / sizes, full_matrices=False)
-    kept = shares > NEGLIGIBLE
-    vectors = left @ (mixing[kept].T / (sizes[:, None] * shares[kept]))
-    squares, turned = np.linalg.eigh(_symmetric(vectors.T @ (stuck.mass @ vectors)))
-    return vectors @ (turned / np.sqrt(squares)), strain.T @ strain
 
 
 def _projected(problem: Problem, basis: Array, shapes: Array) -> Problem:
@@ -175,35 +144,3 @@ def _projected(problem: Problem, basis: Array, shapes: Array) -> Problem:
         drive=shapes.T @ problem.drive,
         probes=Probes(problem.probes.names, problem.probes.rows @ shapes),
     )
-
-
-def projected(
-    structure: Structure, shapes: Array, rank: int, names: tuple[str, ...]
-) -> Structure:
-    """Return the dense structure of the motions u = shapes q.
-
-    Parameters
-    ----------
-    structure
-        Of the motions u.
-    shapes
-        Shape ``(dofs, coordinates)``.
-    rank
-        So many coordinates come first that do no work on the others.
-    names
-        Of the coordinates.
-    """
-    mass, damping = (
-        shapes.T @ (matrix @ shapes) for matrix in (structure.mass, structure.damping)
-    )
-    if not structure.gyroscopic:
-        damping = _symmetric(damping)
-    forces = extended_product(structure.stiffness, shapes)
-    stiffness = _symmetric(shapes.T @ forces)
-    stiffness[rank:, :rank] = stiffness[:rank, rank:] = 0.0
-    return Structure(_symmetric(mass), damping, stiffness, names, structure.gyroscopic)
-
-
-def _symmetric(matrix: Array) -> Array:
-    """Return a matrix without the asymmetry of rounding."""
-    return (matrix + matrix.T) / 2.0

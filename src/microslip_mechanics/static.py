@@ -7,10 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.normal import contact_energy, normal_response
-from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.errors import MicroslipError
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.potential import potential
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction import reduced
 
@@ -68,9 +66,9 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
         small = static_equilibrium(reduction.problem, tolerance=tolerance)
         return replace(small, displacement=reduction.shapes @ small.displacement)
     state = np.zeros(problem.structure.dofs)
-    _, forces, gradient, _ = _potential(problem, state)
-    load = max(np.abs(problem.preload).max(initial=0.0), np.abs(gradient).max())
-    found = StaticState(state, forces, 0.0, 0)
+    at_zero = potential(problem, state)
+    load = max(np.abs(problem.preload).max(initial=0.0), np.abs(at_zero.gradient).max())
+    found = StaticState(state, at_zero.normal_force, 0.0, 0)
     if load > 0.0:
         found = _descended(problem, state, load, _limit(problem), tolerance)
     for _ in range(HILLTOPS):
@@ -88,23 +86,22 @@ def _descended(
 
     ``load`` is what forces are compared with [N], besides what springs hold there.
     """
-    energy, forces, gradient, hessian = _potential(problem, state)
-    pseudo_time = 1e-5
+    here, pseudo_time = potential(problem, state), 1e-5
     for iteration in range(1, 400):
-        matrix = problem.structure.mass / pseudo_time**2 + hessian
-        step = np.linalg.solve(matrix, -gradient)
-        trial = _potential(problem, state + step)
+        matrix = problem.structure.mass / pseudo_time**2 + here.hessian
+        step = np.linalg.solve(matrix, -here.gradient)
+        trial = potential(problem, state + step)
         noise = _rounding(problem, state) * np.abs(state).sum()
-        if trial[0] > energy + 1e-12 * abs(energy) + noise or gradient @ step > 0.0:
+        highest = here.energy + 1e-12 * abs(here.energy) + noise
+        if trial.energy > highest or here.gradient @ step > 0.0:
             pseudo_time *= 0.25
             continue
-        state, pseudo_time = state + step, pseudo_time * 2.0
-        energy, forces, gradient, hessian = trial
+        state, here, pseudo_time = state + step, trial, pseudo_time * 2.0
         size = load or _held(problem, state)
-        residual = float(np.abs(gradient).max()) / size
+        residual = float(np.abs(here.gradient).max()) / size
         if residual <= tolerance + _rounding(problem, state) / size:
-            return StaticState(state, forces, residual, iteration)
-        if not np.abs(state).max() <= limit or not np.isfinite(energy):
+            return StaticState(state, here.normal_force, residual, iteration)
+        if not np.abs(state).max() <= limit or not np.isfinite(here.energy):
             break
     raise StaticError(
         f"the static preload (largest load {load:g} N) has no equilibrium in contact "
@@ -121,7 +118,7 @@ def _below(problem: Problem, state: Array) -> Array | None:
     end there is no other place to rest, and that one is kept: its poles tell that it is
     unstable, or friction, which is not looked at here, holds it.
     """
-    energy, _, _, hessian = _potential(problem, state)
+    energy, _, _, hessian = potential(problem, state)
     size, direction = _weakest(hessian)
     if direction is None or not problem.interface.count:
         return None
@@ -131,7 +128,7 @@ def _below(problem: Problem, state: Array) -> Array | None:
     far = max(NEAR, (2.0 * noise / size) ** 0.5)
     lowest, place = energy, state
     while far < ENDLESS:
-        trial = _potential(problem, state + far * direction)[0]
+        trial = potential(problem, state + far * direction).energy
         if not trial < lowest:
             return place if lowest < energy - noise else None
         lowest, place, far = trial, state + far * direction, 2.0 * far
@@ -173,32 +170,3 @@ def _rounding(problem: Problem, state: Array) -> float:
     """Return the force that rounding alone leaves unbalanced [N]."""
     terms = np.abs(problem.structure.stiffness) @ np.abs(state)
     return float(4.0 * np.finfo(float).eps * terms.max())
-
-
-def _potential(problem: Problem, state: Array) -> tuple[float, Array, Array, Array]:
-    """Return energy, normal forces, gradient and Hessian of the potential energy."""
-    normals = problem.interface.displacement[0::3]
-    elastic = problem.structure.stiffness @ state
-    energies, forces, stiffness = _normal_springs(
-        problem.interface.points, normals @ state
-    )
-    energy = state @ (0.5 * elastic - problem.preload) + energies.sum()
-    gradient = elastic + normals.T @ forces - problem.preload
-    hessian = problem.structure.stiffness + (normals.T * stiffness) @ normals
-    return float(energy), forces, gradient, hessian
-
-
-@kernel
-def _normal_springs(
-    points: ContactPoints, penetration: Array
-) -> tuple[Array, Array, Array]:
-    """Return elastic energy, normal force and normal stiffness of points at rest."""
-    energy = np.zeros(penetration.size)
-    force = np.zeros(penetration.size)
-    stiffness = np.zeros(penetration.size)
-    for point in range(penetration.size):
-        force[point], stiffness[point], _ = normal_response(
-            points, point, penetration[point], 0.0
-        )
-        energy[point] = contact_energy(points, point, penetration[point])
-    return energy, force, stiffness

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from microslip_mechanics.envelope import Envelope, enveloped, parted
+from microslip_mechanics.cycle_rows import enveloped, parted
+from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.segments import factors_over
 from microslip_mechanics.sine_test import SineTest, Tone

@@ -10,7 +10,8 @@ from microslip.experiments import March, Sweep
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.studies.march_size import demand_end
-from microslip_mechanics.envelope import Envelope, enveloped, parted
+from microslip_mechanics.cycle_rows import enveloped, parted
+from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import clock

@@ -1,16 +1,8 @@
 """The exact derivative of what a period of the reference march does to a state.
 
-With φ the contact force, of tangents D at the new and at the old time, a step is
-
-    s₁ = A s₀ + b (φ₀ + φ₁) + load ,    δφ = D W δs ,
-
-and z = δs − b δφ turns its derivative into a matrix of rank r more than A:
-
-    z₁ = (A + c E W) z₀ ,   c = A b + b ,   E = (1 − D W b)⁻¹ D .
-
-Steps are taken together in blocks, each a constant power of A and a small matrix. With
-friction that remembers the tractions are part of the state, and steps are taken one by
-one (:mod:`timedomain.carried`).
+With friction that remembers the tractions are part of the state, and steps are taken
+one by one (:mod:`timedomain.carried`); without, a small matrix each
+(:mod:`timedomain.monodromy`).
 """
 
 from __future__ import annotations
@@ -19,16 +11,14 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import ONE_SIDED, RIGID
+from microslip_mechanics.contact.points import RIGID
 from timedomain.carried import carried
-from timedomain.period_map import BLOCK, Period, PeriodMap
+from timedomain.monodromy import monodromy_of
+from timedomain.period_map import Period, PeriodMap
 from timedomain.start import Start
 
-PARTS = 32
-"""of a step, in which tangents are looked at"""
 NUDGE = 1e-6
 """of the vibration, for derivatives by differences"""
 
@@ -48,23 +38,6 @@ def sensitivity_of(period_map: PeriodMap, period: Period) -> Sensitivity:
         whole = _without_memory(period_map, period)
         return Sensitivity(whole, np.zeros((0, len(whole))))
     return _with_memory(period_map, period)
-
-
-def small_motions(period_map: PeriodMap, period: Period) -> Array | None:
-    """Return what becomes of a small motion in a period, (states, states).
-
-    The march's own derivative knows the time that a stop is touched to whole steps
-    only. Here the tangents of steps in which a point touches or parts are means over
-    them, along a motion that is linear from sample to sample. None where no point
-    does, or contacts remember or are rigid.
-    """
-    rigid = (period_map.problem.interface.points.friction == RIGID).any()
-    if rigid or period_map.sliders.count:
-        return None
-    passed = _touching(period_map, period)
-    if not passed.size:
-        return None
-    return _carried(period_map, _mean_tangents(period_map, period, passed))
 
 
 def loose_monodromy(
@@ -110,56 +83,7 @@ def _without_memory(period_map: PeriodMap, period: Period) -> Array:
     tangents = period_map.tangents(
         *period_map.points(period.displacement, period.velocity)
     )
-    return _carried(period_map, tangents)
-
-
-def _carried(period_map: PeriodMap, tangents: Array) -> Array:
-    """Return the derivative over a period from the tangents at the samples."""
-    free, push = period_map.step(-period_map.structure.selection.T)
-    seen = period_map.seen
-    answers = np.linalg.solve(
-        np.eye(push.shape[1]) - tangents @ (seen @ push), tangents
-    )
-    product = _product(free, push, seen, answers[:-1])
-    whole: Array = np.eye(len(free))
-    before = whole - push @ tangents[0] @ seen
-    made: Array = (whole + push @ answers[-1] @ seen) @ product @ before
-    return made
-
-
-def _touching(period_map: PeriodMap, period: Period) -> NDArray[np.int64]:
-    """Return the steps in which a point touches or lifts off."""
-    points = period_map.problem.interface.points
-    moved, _ = period_map.points(period.displacement, period.velocity)
-    closed = moved[:, :, 0] > points.gap
-    passes = (closed[1:] != closed[:-1]) & (points.normal == ONE_SIDED)
-    return np.flatnonzero(passes.any(axis=1))
-
-
-def _mean_tangents(
-    period_map: PeriodMap, period: Period, passed: NDArray[np.int64]
-) -> Array:
-    """Return the tangents at the samples, shared by the half steps around each.
-
-    Each half of the steps ``passed`` has the mean over itself instead.
-    """
-    motion = period.displacement, period.velocity
-    own = period_map.tangents(*period_map.points(*(each[:-1] for each in motion)))
-    halves = own / 2.0, np.roll(own, -1, axis=0) / 2.0
-    shares = np.split((np.arange(PARTS) + 0.5) / PARTS, 2)
-    for half, parts in zip(halves, shares, strict=True):
-        along = parts[:, None, None]
-        between = [
-            ((1.0 - along) * each[passed] + along * each[passed + 1]).reshape(
-                -1, each.shape[1]
-            )
-            for each in motion
-        ]
-        found = period_map.tangents(*period_map.points(*between))
-        half[passed] = found.reshape(parts.size, passed.size, *own.shape[1:]).sum(0)
-        half[passed] /= PARTS
-    mean = halves[0] + np.roll(halves[1], 1, axis=0)
-    return np.concatenate([mean, mean[:1]])
+    return monodromy_of(period_map, tangents)
 
 
 def _differences(period_map: PeriodMap, period: Period) -> Array:
@@ -174,33 +98,3 @@ def _differences(period_map: PeriodMap, period: Period) -> Array:
         ends.append(period_map.state(Start(near.displacement[-1], near.velocity[-1])))
     derivative: Array = (np.array(ends[1:]) - ends[0]).T / nudge
     return derivative
-
-
-def _product(free: Array, push: Array, seen: Array, answers: Array) -> Array:
-    """Return the product of A + c E W over all steps, later ones on the left.
-
-    ``answers`` holds E of each step, shape ``(steps, rank, 2 rank)``.
-    """
-    size, rank = push.shape
-    count = len(answers) // BLOCK
-    blocks = answers.reshape(count, BLOCK, rank, 2 * rank)
-    powers = [np.eye(size)]
-    for _ in range(BLOCK):
-        powers.append(free @ powers[-1])
-    kick = free @ push + push
-    watched = np.stack([seen @ power for power in powers[:BLOCK]])
-    kicked = np.hstack([power @ kick for power in powers[BLOCK - 1 :: -1]])
-    coupled = np.zeros((BLOCK, 2 * rank, BLOCK, rank))
-    for late in range(BLOCK):
-        for early in range(late):
-            coupled[late, :, early] = watched[late - 1 - early] @ kick
-    width = BLOCK * rank
-    lag = blocks @ coupled.reshape(BLOCK, 2 * rank, width)
-    drive = (blocks @ watched).reshape(count, width, size)
-    carried = powers[0]
-    for delay, driven in zip(lag.reshape(count, width, width), drive, strict=True):
-        forces = solve_triangular(
-            -delay, driven, lower=True, unit_diagonal=True, check_finite=False
-        )
-        carried = (powers[BLOCK] + kicked @ forces) @ carried
-    return carried

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array, ComplexArray
 from timedomain.closed_march import ClosedMarch
 from timedomain.floquet import extrapolated_multipliers
-from timedomain.period_sensitivity import loose_monodromy, small_motions
+from timedomain.period_sensitivity import loose_monodromy
+from timedomain.small_motions import small_motions
 from timedomain.start import Start
 
 SHARE = 8

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import scipy.linalg
 
 from microslip_mechanics.arrays import Array
 from timedomain.coordinates import Contacts, Modes
+from timedomain.propagators import embedded_difference, propagators
 from timedomain.schemes import Scheme
 
 LEVELS = 24
@@ -16,16 +16,12 @@ LEVELS = 24
 
 
 class Tables(NamedTuple):
-    """What depends on the step's length; the first axis is the level of the ladder.
-
-    A stage is z_k = E_k z_0 + Σ_j Q_kj f_j in each mode, with z = (q, q̇) and the modal
-    forces f_j of the stages j = 0 … k.
-    """
+    """What depends on the step's length; the first axis is the level of the ladder."""
 
     ready: Array
     """1 where a level is made, shape (levels,)"""
     free: Array
-    """E, shape (levels, stages, 2, 2, modes)"""
+    """E of :mod:`timedomain.propagators`, shape (levels, stages, 2, 2, modes)"""
     forced: Array
     """Q, shape (levels, stages, stages + 1, 2, modes)"""
     error_free: Array
@@ -88,78 +84,15 @@ def fill(
     step: float,
 ) -> None:
     """Make the tables of a level, whose steps have the length ``step`` [s]."""
-    free, forced = (
-        _exact(modes, step) if scheme.exact else _implicit(scheme, modes, step)
-    )
+    free, forced = propagators(scheme, modes, step)
     tables.free[level] = np.moveaxis(free[1:], 1, -1)
     tables.forced[level] = np.moveaxis(forced[1:], 2, -1)
-    error = _error(scheme, modes, step, free, forced)
+    error = embedded_difference(scheme, modes, step, free, forced)
     tables.error_free[level] = np.moveaxis(error[0], 0, -1)
     tables.error_forced[level] = np.moveaxis(error[1], 1, -1)
     for stage in range(scheme.stages):
         _contact(tables, scheme, modes, contacts, level, stage, step)
     tables.ready[level] = 1.0
-
-
-def _system(modes: Modes) -> Array:
-    """Return (q, q̇) to its rate in each mode, shape (modes, 2, 2)."""
-    system = np.zeros((modes.stiffness.size, 2, 2))
-    system[:, 0, 1] = 1.0
-    system[:, 1, 0], system[:, 1, 1] = -modes.stiffness, -modes.damping
-    return system
-
-
-def _implicit(scheme: Scheme, modes: Modes, step: float) -> tuple[Array, Array]:
-    """Return E and Q of a Runge–Kutta scheme, modes before the rest."""
-    system, stages = _system(modes), scheme.stages
-    count = len(system)
-    free = np.zeros((stages + 1, count, 2, 2))
-    forced = np.zeros((stages + 1, stages + 1, count, 2))
-    free[0] = np.eye(2)
-    for stage in range(1, stages + 1):
-        row = step * scheme.matrix[stage]
-        free[stage] = np.eye(2)
-        for before in range(stage):
-            free[stage] += row[before] * system @ free[before]
-            forced[stage] += row[before] * np.einsum(
-                "mab,jmb->jma", system, forced[before]
-            )
-            forced[stage, before, :, 1] += row[before]
-        forced[stage, stage, :, 1] += row[stage]
-        solver = np.linalg.inv(np.eye(2) - row[stage] * system)
-        free[stage] = solver @ free[stage]
-        forced[stage] = np.einsum("mab,jmb->jma", solver, forced[stage])
-    return free, forced
-
-
-def _exact(modes: Modes, step: float) -> tuple[Array, Array]:
-    """Return E and Q for a force that is linear over the step, solved exactly."""
-    count = modes.stiffness.size
-    augmented = np.zeros((count, 4, 4))
-    augmented[:, :2, :2] = step * _system(modes)
-    augmented[:, 1, 2], augmented[:, 2, 3] = step, 1.0
-    moved = scipy.linalg.expm(augmented)
-    free = np.stack([np.broadcast_to(np.eye(2), (count, 2, 2)), moved[:, :2, :2]])
-    forced = np.zeros((2, 2, count, 2))
-    forced[1, 1] = moved[:, :2, 3]
-    forced[1, 0] = moved[:, :2, 2] - moved[:, :2, 3]
-    return free, forced
-
-
-def _error(
-    scheme: Scheme, modes: Modes, step: float, free: Array, forced: Array
-) -> tuple[Array, Array]:
-    """Return the filtered difference from the embedded solution, as E and Q."""
-    system = _system(modes)
-    weights = step * (scheme.matrix[-1] - scheme.other)
-    solver = np.linalg.inv(np.eye(2) - step * scheme.matrix[-1, -1] * system)
-    by_state = sum(w * system @ each for w, each in zip(weights, free, strict=True))
-    by_force = sum(
-        w * np.einsum("mab,jmb->jma", system, each)
-        for w, each in zip(weights, forced, strict=True)
-    )
-    by_force[:, :, 1] += weights[:, None]
-    return solver @ by_state, np.einsum("mab,jmb->jma", solver, by_force)
 
 
 def _contact(
@@ -190,6 +123,18 @@ def _contact(
     else:
         tables.scalar[level, stage] = step * scheme.matrix[stage + 1, stage + 1]
         tables.slope[level, stage] = tables.scalar[level, stage] * np.eye(len(moving))
+    _points(tables, contacts, level, stage, moving, moved)
+
+
+def _points(
+    tables: Tables,
+    contacts: Contacts,
+    level: int,
+    stage: int,
+    moving: Array,
+    moved: Array,
+) -> None:
+    """Make the scales of single points: what its own force moves each."""
     for point, (first, width) in enumerate(
         zip(contacts.first, contacts.width, strict=True)
     ):

@@ -10,7 +10,8 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.motion import DRIFT, LARGEST_DRIFT, OTHER_WORK, REFERENCE, UNKEPT
-from timedomain.record import FLOWS, STORES, row_length
+from timedomain.record import row_length
+from timedomain.stored_history import stored_history
 
 NUMBERS = 5
 """that a row holds behind the energies"""
@@ -37,29 +38,20 @@ def fast_history(
     checkpoint: Checkpoint,
 ) -> TimeHistory:
     """Return the history of a block; see :class:`TimeHistory` for what it holds."""
-    probes, contacts = problem.probes.names, problem.interface.names
-    sizes = [len(probes), len(probes), len(contacts), 1, len(FLOWS) + len(STORES)]
-    shown, moving, normal, power, energy, more = np.split(
-        rows, np.cumsum(sizes), axis=1
-    )
-    difference = energy[:, FLOWS.index("friction")] - more[:, OTHER_WORK]
-    history = TimeHistory(
+    length = row_length(len(problem.probes.names), problem.interface.count)
+    stored, more = np.split(rows, [length], axis=1)
+    history = stored_history(
+        problem,
         times,
-        probes,
-        shown,
-        moving,
-        contacts,
-        normal,
-        power[:, 0],
-        (*FLOWS, *STORES),
-        energy,
-        stored_at_start,
-        step,
-        iterations,
-        0 if tolerance else rejected,
+        stored,
+        stored_at_start=stored_at_start,
+        step=step,
+        iterations=iterations,
+        divided=0 if tolerance else rejected,
         checkpoint=checkpoint,
-        work_difference=difference,
     )
+    difference = history.of("friction") - more[:, OTHER_WORK]
+    history = replace(history, work_difference=difference)
     return history if tolerance is None else _estimated(history, more, tolerance)
 
 

@@ -14,10 +14,11 @@ from timedomain.meters import meters, stored_energy
 from timedomain.newmark import march
 from timedomain.operators import Operators, step_operators
 from timedomain.options import IntegrationError, MarchOptions
-from timedomain.record import FLOWS, STORES, accumulate, row_length, store
+from timedomain.record import accumulate, row_length, store
 from timedomain.rigid_points import sliders
 from timedomain.set_valued import march_sliders
 from timedomain.start import Start, first_state
+from timedomain.stored_history import stored_history
 
 SAME = 1e-9
 """relative difference of steps that rounding makes"""
@@ -44,7 +45,8 @@ class ReferenceMarch:
         self._meters = meters(problem, self._shapes)
         self._stored_at_start = stored_energy(problem, self._state)
         # the powers at time zero, for the first trapezoid
-        self._measure(self._factors(np.zeros(1))[0], 0.0)
+        begin = self._factors(np.zeros(1))[0]
+        accumulate(self._meters, problem.interface.points, self._state, begin, 0.0)
 
     def resume(self, end: Checkpoint) -> int:
         """Go back to the end of a block; return the steps until there.
@@ -80,14 +82,22 @@ class ReferenceMarch:
             divided, done = divided + 1, done + 1
             if done % stride == 0:
                 store(self._meters, points, self._state, rows[done // stride - 1])
-        end = checkpoint(
-            self._state,
-            self._meters,
-            first + count,
-            self._step,
-            self._stored_at_start,
+        return stored_history(
+            self._problem,
+            times[stride - 1 :: stride],
+            rows,
+            stored_at_start=self._stored_at_start,
+            step=self._step,
+            iterations=iterations,
+            divided=divided,
+            checkpoint=self._checkpoint(first + count),
         )
-        return self._table(times[stride - 1 :: stride], rows, iterations, divided, end)
+
+    def _checkpoint(self, steps: int) -> Checkpoint:
+        """Return the end of a block, so many steps from the start of the march."""
+        return checkpoint(
+            self._state, self._meters, steps, self._step, self._stored_at_start
+        )
 
     def _marched(
         self, operators: Operators, factors: Array, rows: Array, first: int
@@ -131,35 +141,3 @@ class ReferenceMarch:
     def _times(self, steps: Array) -> Array:
         """Return the times after so many steps; the last is exactly the duration."""
         return self._history.duration * (steps / self._steps)
-
-    def _measure(self, factors: Array, step: float) -> None:
-        points = self._problem.interface.points
-        accumulate(self._meters, points, self._state, factors, step)
-
-    def _table(
-        self,
-        times: Array,
-        rows: Array,
-        iterations: int,
-        divided: int,
-        end: Checkpoint,
-    ) -> TimeHistory:
-        probes, contacts = self._problem.probes.names, self._problem.interface.names
-        cuts = np.cumsum([len(probes), len(probes), len(contacts), 1])
-        shown, moving, normal, power, energy = np.split(rows, cuts, axis=1)
-        return TimeHistory(
-            times,
-            probes,
-            shown,
-            moving,
-            contacts,
-            normal,
-            power[:, 0],
-            (*FLOWS, *STORES),
-            energy,
-            self._stored_at_start,
-            self._step,
-            iterations,
-            divided,
-            checkpoint=end,
-        )

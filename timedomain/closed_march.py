@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -55,10 +54,8 @@ class ClosedMarch:
             return sensitivity_of(self.map, self.period).monodromy
 
 
-def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedMarch:
+def closed(carried: PeriodMap, state: Array) -> ClosedMarch:
     """Return the orbit of one number of steps by Newton's iteration.
-
-    It is given up where :func:`time.process_time` has passed ``until`` [s].
 
     Sliders that never slip carry no mean traction, or as little as their limits admit.
     Directions in which nothing pins the state, such as the mean position of a body
@@ -70,7 +67,7 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
     ShootingError
         If it does not converge.
     """
-    marched = _marched(carried, state, until)
+    marched = _marched(carried, state)
     slope, own = _slope(carried, marched[0]), True
     for iteration in range(1, ITERATIONS + 1):
         period, gap = marched
@@ -81,7 +78,7 @@ def closed(carried: PeriodMap, state: Array, until: float = math.inf) -> ClosedM
         )
         if size <= CLOSED * unit:
             return _held(found)
-        closer = _closer(found, change, gap, until, HALVINGS if own else 1)
+        closer = _closer(found, change, gap, HALVINGS if own else 1)
         if closer is None and own:
             if size <= LEAP * unit:
                 return replace(found, left=size / unit)
@@ -112,7 +109,7 @@ def _held(found: ClosedMarch) -> ClosedMarch:
 
 
 def _closer(
-    before: ClosedMarch, change: Array, gap: Array, until: float, attempts: int
+    before: ClosedMarch, change: Array, gap: Array, attempts: int
 ) -> tuple[Array, tuple[Period, Array]] | None:
     """Return the state after a change, halved until the period closes better.
 
@@ -123,23 +120,19 @@ def _closer(
     for halvings in range(attempts):
         trial = before.state + 0.5**halvings * change
         try:
-            marched = _marched(carried, trial, until)
+            marched = _marched(carried, trial)
         except ShootingError:
-            if time.process_time() > until:
-                raise
             continue
         if np.linalg.norm(marched[1]) < apart:
             return trial, marched
     settled = carried.settled(before.state, before.period)
     if attempts == 1 or np.array_equal(settled, before.state):
         return None
-    return settled, _marched(carried, settled, until)
+    return settled, _marched(carried, settled)
 
 
-def _marched(carried: PeriodMap, state: Array, until: float) -> tuple[Period, Array]:
+def _marched(carried: PeriodMap, state: Array) -> tuple[Period, Array]:
     """Return one period from a state, and by how much it does not close."""
-    if time.process_time() > until:
-        raise ShootingError(f"{_at(carried)} is out of time")
     with np.errstate(over="ignore", invalid="ignore"):
         try:
             period = carried.march(state)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -40,8 +39,6 @@ class ShootingOptions:
     """steps are doubled until the amplitude's estimated relative error is below it"""
     most: int = 8192
     """steps of the finest orbit"""
-    seconds: float = math.inf
-    """of processor time after which the search is given up, between two marches"""
 
     def __post_init__(self) -> None:
         """Check that orbits can be compared, and that a number of steps ends it."""
@@ -54,8 +51,6 @@ class ShootingOptions:
             )
         if not 0.0 < self.error < math.inf:
             raise ValueError(f"error {self.error:g}: give a positive finite number")
-        if not self.seconds > 0.0:
-            raise ValueError(f"{self.seconds:g} seconds: give a positive number")
 
 
 def periodic_orbit(
@@ -101,19 +96,18 @@ def periodic_orbit(
             "once: march to the steady state (dwell)"
         )
     chosen = options or ShootingOptions()
-    until = time.process_time() + chosen.seconds
     if beyond_motion(points):
         near = None
-    coarse = _first(problem, frequency, start, chosen, near, until)
+    coarse = _first(problem, frequency, start, chosen, near)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
         try:
-            fine = _found(finer, coarse.state, near, until)
+            fine = _found(finer, coarse.state, near)
         except ShootingError:
-            if 4 * finer.steps > chosen.most or time.process_time() > until:
+            if 4 * finer.steps > chosen.most:
                 raise
             more = replace(chosen, steps=2 * finer.steps)
-            coarse = _first(problem, frequency, start, more, near, until)
+            coarse = _first(problem, frequency, start, more, near)
             continue
         close = amplitude_error(coarse, fine) <= chosen.error
         if close or 2 * finer.steps > chosen.most:
@@ -127,7 +121,6 @@ def _first(
     start: Start,
     chosen: ShootingOptions,
     near: PeriodicResponse | None,
-    until: float,
 ) -> ClosedMarch:
     """Return the orbit of the fewest steps that have one, and close to ``near``.
 
@@ -139,12 +132,12 @@ def _first(
         carried = PeriodMap.of(problem, frequency, steps)
         last = 4 * steps > chosen.most
         try:
-            found = _found(carried, carried.state(start), near, until)
+            found = _found(carried, carried.state(start), near)
             if near is None or not _astray(found, near):
                 return found
             astray = astray or found
         except ShootingError:
-            if (last and astray is None) or time.process_time() > until:
+            if last and astray is None:
                 raise
         if last and astray is not None:
             return astray
@@ -152,7 +145,7 @@ def _first(
 
 
 def _found(
-    carried: PeriodMap, state: Array, near: PeriodicResponse | None, until: float
+    carried: PeriodMap, state: Array, near: PeriodicResponse | None
 ) -> ClosedMarch:
     """Return the orbit of one number of steps, marched or all steps at once.
 
@@ -160,18 +153,18 @@ def _found(
     too fast on none.
     """
     try:
-        marched = closed(carried, state, until)
+        marched = closed(carried, state)
     except ShootingError as error:
         if near is None:
             raise
         try:
-            return whole_orbit(carried, near, until)
+            return whole_orbit(carried, near)
         except ShootingError as other:
             raise ShootingError(f"{error}; {other}") from other
     if near is None or not _astray(marched, near):
         return marched
     try:
-        whole = whole_orbit(carried, near, until)
+        whole = whole_orbit(carried, near)
     except ShootingError:
         return marched
     return min(marched, whole, key=lambda each: _away(each, near))

@@ -8,7 +8,6 @@ however fast it grows.
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,9 +31,7 @@ from timedomain.period_map import Period, PeriodMap
 from timedomain.whole_change import whole_change
 
 
-def whole_orbit(
-    carried: PeriodMap, near: PeriodicResponse, until: float = math.inf
-) -> ClosedMarch:
+def whole_orbit(carried: PeriodMap, near: PeriodicResponse) -> ClosedMarch:
     """Return the orbit of one number of steps near a periodic response.
 
     It is what :func:`~timedomain.closed_march.closed` returns, stable or not: a march
@@ -44,15 +41,12 @@ def whole_orbit(
     Raises
     ------
     ShootingError
-        If Newton's iteration does not converge, or :func:`time.process_time` has
-        passed ``until`` [s].
+        If Newton's iteration does not converge.
     """
     steps = _Steps.of(carried)
     states = steps.sampled(near)
     left = steps.left(states)
     for iteration in range(1, ITERATIONS + 1):
-        if time.process_time() > until:
-            raise ShootingError(f"{_at(carried)} is out of time")
         change = steps.change(states, left)
         small = CLOSED * _norm(states - states.mean(axis=0))
         done = _norm(change) <= small

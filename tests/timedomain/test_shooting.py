@@ -366,15 +366,3 @@ def test_a_frequency_must_be_positive_and_finite(frequency: float) -> None:
 
 def test_steps_are_rounded_up_to_whole_blocks() -> None:
     assert PeriodMap.of(linear(), FREQUENCY, 3 * BLOCK - 1).steps == 3 * BLOCK
-
-
-def test_a_search_without_time_is_given_up() -> None:
-    problem, options = linear(), ShootingOptions(seconds=1e-9)
-
-    with pytest.raises(ShootingError, match="out of time"):
-        periodic_orbit(problem, FREQUENCY, start=from_rest(problem), options=options)
-
-
-def test_a_search_needs_time() -> None:
-    with pytest.raises(ValueError, match="0 seconds"):
-        ShootingOptions(seconds=0.0)

@@ -87,9 +87,9 @@ class Comparison:
         apart = abs(self.multiplier - self.found_multiplier)
         return apart <= self.multiplier_error + MULTIPLIER_FLOOR
 
-    def worst(self, count: int = 3) -> list[int]:
-        """Return the orders whose coefficients differ most, the worst first."""
-        order = np.argsort(-self.harmonics, kind="stable")[:count]
+    def worst(self) -> list[int]:
+        """Return the three orders whose coefficients differ most, the worst first."""
+        order = np.argsort(-self.harmonics, kind="stable")[:3]
         return [int(each) for each in order if self.harmonics[each] > 0.0]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import html
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from string import Template
@@ -99,7 +99,7 @@ def page(title: str, about: str, command: str, sections: Sequence[Section]) -> s
     """
     return PAGE.substitute(
         style=STYLE,
-        rows="\n".join(_filled(ROW, _row(each)) for each in sections),
+        rows="\n".join(_row(each) for each in sections),
         sections="\n".join(_section(each) for each in sections),
         title=html.escape(title),
         about=html.escape(about),
@@ -107,14 +107,16 @@ def page(title: str, about: str, command: str, sections: Sequence[Section]) -> s
     )
 
 
-def _row(section: Section) -> dict[str, str]:
-    return {
+def _row(section: Section) -> str:
+    """Return the row of a section in the table at the top."""
+    words = {
         "name": section.name,
         "title": section.title,
         "state": section.state.replace(" ", "-"),
         "result": section.result,
         "time": "" if section.seconds is None else f"{section.seconds:.0f} s",
     }
+    return ROW.substitute({k: html.escape(v) for k, v in words.items()})
 
 
 def _section(section: Section) -> str:
@@ -139,8 +141,3 @@ def _picture(path: Path, title: str) -> str:
     """Return a picture as part of the page."""
     content = base64.b64encode(path.read_bytes()).decode("ascii")
     return f'<img alt="{html.escape(title)}" src="data:image/png;base64,{content}">'
-
-
-def _filled(template: Template, words: Mapping[str, str]) -> str:
-    """Return a template with words that are no HTML."""
-    return template.substitute({k: html.escape(v) for k, v in words.items()})

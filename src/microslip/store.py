@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from scipy.io import netcdf_file
 
 from microslip.errors import GivenError
-from microslip.record_file import Value
+from microslip.record_layout import Value
 from microslip.schema import (
     Growing,
     Result,

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from microslip.record_file import Layout, RecordFile, Value, Variable, layout
+from microslip.record_file import RecordFile
+from microslip.record_layout import Layout, Value, Variable, layout
 from microslip.schema import GROWS, SCHEMAS, Growing, Schema, columns, flat, kind_of
 
 if TYPE_CHECKING:

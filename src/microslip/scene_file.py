@@ -10,7 +10,7 @@ from pathlib import Path
 
 from microslip.experiments import Curve, March, Sweep, check_curve, check_sweep
 from microslip.force_file import read_force
-from microslip.key_path import key_path
+from microslip.override import override_value
 from microslip.quantity import SceneError
 from microslip.scene_tables import Experiments, Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
@@ -22,10 +22,6 @@ KINDS = ("two-blades", "system", "bladed-disk")
 SYSTEMS = ("duffing", "jenkins", "gap", "chain", "friction-beam", "tip-damper")
 BUILT_IN = ("two-blades", "bladed-disk", *SYSTEMS)
 """names of built-in scenes"""
-NESTED = (["element"], ["drive"], ["structure"])
-"""tables of a system with tables in them"""
-AMPLITUDE = "amplitude"
-"""what a bare number changes of a force whose table has it"""
 
 
 def built_in_text(name: str) -> str:
@@ -60,7 +56,7 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{source}: not valid TOML: {error}") from None
     for override in overrides:
-        _apply(document, override)
+        override_value(document, override)
         text += f"\n# --set {override}"
     scene = _scene(source, document, text)
     sweep = scene.experiments.sweep
@@ -99,63 +95,6 @@ def _read(source: str) -> str:
 def _printed(source: str) -> str:
     """Return a name without characters that none can have."""
     return source.replace("\0", "\\0")
-
-
-def _apply(document: dict[str, typing.Any], override: str) -> None:
-    """Put one ``table.key=value`` into the document."""
-    name, equals, text = override.partition("=")
-    *tables, key = key_path(name)
-    deepest = 2 if tables[:1] in NESTED else 1
-    if not equals or not key or len(tables) > deepest or not all(tables):
-        raise SceneError(
-            f"--set {override}: give table.key=value, such as contact.sigma=3e-7"
-        )
-    value = _value(text)
-    place = document
-    for table in tables:
-        place = _inner(place, table, override)
-        if not isinstance(place, dict):
-            raise SceneError(
-                f"--set {override}: {table}{shown(place)} has no keys: give "
-                f"{name.partition(table)[0]}{table} as a whole"
-            )
-    held = place.get(key) if tables == ["drive"] else None
-    if isinstance(held, dict) and AMPLITUDE in held and not isinstance(value, dict):
-        value = {**held, AMPLITUDE: value}
-    place[key] = value
-
-
-def _value(text: str) -> typing.Any:  # noqa: ANN401  (whatever TOML may hold)
-    """Return a value of the command line: TOML, a number such as .5 or 5., a text."""
-    try:
-        parsed = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
-        parsed = {}
-    if len(parsed) == 1:
-        return parsed["value"]
-    try:
-        return float(text)
-    except ValueError:
-        return text.strip()
-
-
-def _inner(place: dict[str, typing.Any], table: str, override: str) -> typing.Any:  # noqa: ANN401
-    """Return the table of a name within another, or the element of that name."""
-    elements = place.get("element")
-    if table != "element" or not isinstance(elements, list):
-        return place.setdefault(table, {})
-    named = {
-        each.get("name", f"element-{number}"): each
-        for number, each in enumerate(elements, start=1)
-        if isinstance(each, dict)
-    }
-    name = override.split(".")[1]
-    if name not in named:
-        raise SceneError(
-            f"--set {override}: there is no element {name}"
-            f"{meant(name, [str(each) for each in named])}"
-        )
-    return named
 
 
 def _scene(source: str, document: dict[str, typing.Any], text: str) -> Scene:

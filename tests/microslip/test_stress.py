@@ -14,7 +14,6 @@ from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies import stress, stress_curve
-from microslip.studies.bounded import Ended
 from microslip.studies.curve import curve_options, trace_curve
 from microslip.studies.stress import tried
 from microslip.studies.stress_bad_values import BAD, bad_values
@@ -23,6 +22,7 @@ from microslip.studies.stress_case import Case
 from microslip.studies.stress_cases import cases
 from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError, limited
 from microslip.studies.stress_finding import Finding, Outcome, Tried
+from microslip.studies.worker import Ended
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.closed_march import ShootingError
 

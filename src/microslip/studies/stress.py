@@ -13,7 +13,7 @@ from itertools import islice
 from hbm.errors import ContinuationError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.studies.bounded import Ended, bounded
+from microslip.studies.bounded import bounded
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_budget import Budget
 from microslip.studies.stress_case import Case
@@ -29,6 +29,7 @@ from microslip.studies.stress_finding import (
 )
 from microslip.studies.stress_refusals import refusals
 from microslip.studies.stress_witness import from_rest, witnessed
+from microslip.studies.worker import Ended
 from timedomain.period_map import BLOCK, PeriodMap
 from timedomain.verify import march_periods
 from timedomain.whole_orbit import whole_orbit

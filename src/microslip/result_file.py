@@ -11,17 +11,15 @@ from typing import Any
 import numpy as np
 from scipy.io import netcdf_file
 
-from microslip.schema import CURVE, GROWS, SCHEMAS, Growing, checkpoint_of
+from microslip.schema import GROWS, SCHEMAS, Growing, checkpoint_of, names_of
 from microslip.store import Stored, WrongFileError
+from microslip.stored_curve import stored_curve
 from microslip.stream import Head, rows_of
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.thinning import thinned
 from microslip_mechanics.time_history import TimeHistory, joined
 
 TEXTS = ("kind", "scene", "command")
-LATER = ("parameter_error",)
-"""what files of earlier versions do not have"""
 CHUNK = 50_000
 """rows that are read at a time"""
 SHARED = 6
@@ -45,7 +43,7 @@ def load(path: Path, most: int | None = None) -> Stored:
         kind = _known(path, texts["kind"])
         head = Head.read(file, kind) if kind in GROWS else None
         if head is None:
-            return Stored(_curve(file), texts["scene"], texts["command"])
+            return Stored(stored_curve(file), texts["scene"], texts["command"])
     with _told(path):
         return Stored(_grown(path, head, most), texts["scene"], texts["command"])
 
@@ -172,38 +170,5 @@ def _result(head: Head, rows: dict[str, Array]) -> Growing:
 def _fixed(values: np.ndarray) -> object:
     """Return names or a checkpoint."""
     if values.dtype.kind == "S":
-        return _names(values)
+        return names_of(values)
     return checkpoint_of(values.astype(float))
-
-
-def _curve(file: netcdf_file) -> ResponseCurve:
-    made: dict[str, Any] = {}
-    for field in dataclasses.fields(ResponseCurve):
-        if field.name in CURVE:
-            dimensions, *_ = CURVE[field.name]
-            made[field.name] = _variable(file, field.name, dimensions)
-        else:
-            value = getattr(file, field.name)
-            made[field.name] = (
-                value.decode() if isinstance(value, bytes) else value.item()
-            )
-    return ResponseCurve(**made)
-
-
-def _variable(file: netcdf_file, name: str, dimensions: tuple[str, ...]) -> object:
-    """Return names as a tuple of texts, numbers as float64 in native order.
-
-    What the file leaves out is empty, if one of its dimensions is.
-    """
-    sizes = [file.dimensions.get(each) or 0 for each in dimensions]
-    if name not in file.variables and 0 in sizes:
-        return () if "name" in dimensions else np.zeros(sizes)
-    if name not in file.variables and name in LATER:
-        return np.full(sizes, np.nan)
-    data = file.variables[name].data
-    return _names(data) if data.dtype.kind == "S" else data.astype(float)
-
-
-def _names(data: np.ndarray) -> tuple[str, ...]:
-    rows = np.ascontiguousarray(data).view(f"S{data.shape[-1]}")
-    return tuple(text.decode() for text in rows.ravel())

@@ -153,3 +153,9 @@ def attributes(result: Result) -> dict[str, str | int | float]:
 
 def _single(value: object) -> bool:
     return isinstance(value, (str, int, float))
+
+
+def names_of(data: np.ndarray) -> tuple[str, ...]:
+    """Return the texts of a variable of characters."""
+    rows = np.ascontiguousarray(data).view(f"S{data.shape[-1]}")
+    return tuple(text.decode() for text in rows.ravel())

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 
 from figure_checks import check_labels, check_lines, legend
 from microslip.figures import curve as curves
+from microslip.figures import march
 from microslip.figures import sweep as sweeps
 from microslip.figures.passes import Pass, amplitude
 from microslip.figures.style import alike, legend_beside, one_range
@@ -70,7 +71,7 @@ def test_friction_power_is_shown_negative_as_in_the_paper(
 def test_energies_show_all_flows_with_their_totals(
     axes: Axes, small_history: TimeHistory
 ) -> None:
-    sweeps.energies(axes, small_history)
+    march.energies(axes, small_history)
 
     check_lines(axes.lines, small_history.time, [*small_history.energy.T[:4]])
     names = ("input", "friction", "normal damping", "structural damping")
@@ -186,7 +187,7 @@ def test_legend_of_energies_lies_above_their_lines(
     axes: Axes, panel: str, small_history: TimeHistory, small_curve: ResponseCurve
 ) -> None:
     if panel == "sweep":
-        sweeps.energies(axes, small_history)
+        march.energies(axes, small_history)
     else:
         curves.dissipated_energy(axes, small_curve)
 
@@ -227,7 +228,7 @@ def test_curves_that_hide_one_another_are_one_with_both_names(
 def test_an_input_that_friction_takes_all_of_is_seen_beneath_it(
     axes: Axes, small_history: TimeHistory
 ) -> None:
-    sweeps.energies(axes, small_history)
+    march.energies(axes, small_history)
 
     first, *others = axes.lines
     assert all(first.get_linewidth() >= 2.0 * each.get_linewidth() for each in others)

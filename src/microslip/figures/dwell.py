@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.amplitude import greatest
+from microslip.figures.march import energies
 from microslip.figures.names import absolute, foremost, readable, relative
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
-from microslip.figures.sweep import displacement, energies
+from microslip.figures.sweep import displacement
 from microslip_mechanics.time_history import TimeHistory
 
 FEW = 40

@@ -6,54 +6,22 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.names import (
-    called,
-    faces,
-    force_kind,
-    foremost,
-    readable,
-    relative,
-)
-from microslip.figures.passes import amplitude, passes
-from microslip.figures.style import (
-    COLOURS,
-    WIDTH,
-    framed,
-    headline,
-    legend_beside,
-    one_range,
-)
-from microslip.figures.sweep import TIME, energies, grid_of, pressed
+from microslip.figures.march import TIME, Panels, march_figure
+from microslip.figures.names import called, force_kind, readable
+from microslip.figures.style import COLOURS, WIDTH, framed, legend_beside
 from microslip_mechanics.envelope import Envelope
 
 
 def envelope_figure(envelope: Envelope, title: str) -> Figure:
     """Draw ranges of each cycle over time, energies, and amplitude over frequency."""
-    slips = relative(envelope.probes)
-    shrouds = pressed(faces(envelope.contacts), envelope.normal_largest)
-    sizes = np.maximum(abs(envelope.highest), abs(envelope.lowest))
-    sizes = sizes.max(axis=0, initial=0.0)
-    blades, ways = foremost(envelope.probes, sizes), passes(envelope)
-    rubs = bool(envelope.of("friction").any())
-    count = len(blades) + len(slips) + len(shrouds) + int(rubs) + 1
-    figure, panels, others = grid_of(count, len(blades) if ways else 0)
-    sides = envelope.lowest, envelope.highest
-    limits = one_range(1e3 * side[:, place] for side in sides for place in blades)
-    for colour, place in zip(COLOURS, blades, strict=False):
-        axes = next(panels)
-        _displacement(axes, envelope, place, colour)
-        axes.set_ylim(limits)
-    for place in slips:
-        _relative_velocity(next(panels), envelope, place)
-    for face, places in shrouds.items():
-        _normal_force(next(panels), envelope, face, places)
-    if rubs:
-        _friction_power(next(panels), envelope)
-    energies(next(panels), envelope)
-    for axes, place in zip(others, blades, strict=False):
-        amplitude(axes, ways, place, envelope.probes[place])
-    headline(figure, title)
-    return figure
+    return march_figure(
+        envelope,
+        title,
+        Panels(_displacement, _relative_velocity, _normal_force, _friction_power),
+        motions=(envelope.lowest, envelope.highest),
+        forces=envelope.normal_largest,
+        rubs=bool(envelope.of("friction").any()),
+    )
 
 
 def _displacement(axes: Axes, envelope: Envelope, place: int, colour: str) -> None:

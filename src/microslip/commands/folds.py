@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from hbm.fold_curve import FoldPoint
+    from microslip.figures.folds import FoldLine
     from microslip.studies.folds import FollowedFold
     from microslip.studies.parameter import Parameter
 
@@ -121,36 +122,53 @@ def _keep(
     paths: tuple[Path, Path],
 ) -> None:
     """Write table and picture."""
-    from microslip.figures.folds import FoldLine, folds_figure
+    from microslip.figures.folds import folds_figure
     from microslip.store import save_figure, save_table
 
-    rows, lines = [], []
-    for number, fold in enumerate(folds, start=1):
-        values = fold.curve.parameter.tolist()
-        hertz = (fold.curve.frequency / math.tau).tolist()
-        amplitudes = fold.curve.amplitude.max(axis=1, initial=0.0).tolist()
-        unstable = [point.unstable > 0 for point in fold.points]
-        events = fold.curve.event
-        sure = [
-            event if math.isfinite(point.parameter_error) else ""
-            for event, point in zip(events, fold.points, strict=True)
-        ]
-        lines.append(FoldLine(values, hertz, amplitudes, unstable, sure))
-        rows += [
-            (
-                number,
-                values[place],
-                events[place],
-                hertz[place],
-                amplitudes[place],
-                point.unstable,
-                point.frequency_error,
-                point.parameter_error,
-            )
-            for place, point in enumerate(fold.points)
-        ]
     table, picture = paths
+    rows = [
+        (number, *row)
+        for number, fold in enumerate(folds, start=1)
+        for row in _rows(fold)
+    ]
     save_table(table, keyed(COLUMNS, options.key), rows)
-    title = arguments.title(options)
+    lines, title = [_drawn(fold) for fold in folds], arguments.title(options)
     with written(f"table in {table}", picture):
         save_figure(picture, folds_figure(lines, along.label, title))
+
+
+def _rows(fold: FollowedFold) -> Iterator[tuple[object, ...]]:
+    """Yield the rows of a fold in the table, behind its number."""
+    value, hertz, amplitude = _columns(fold)
+    for place, point in enumerate(fold.points):
+        yield (
+            value[place],
+            fold.curve.event[place],
+            hertz[place],
+            amplitude[place],
+            point.unstable,
+            point.frequency_error,
+            point.parameter_error,
+        )
+
+
+def _drawn(fold: FollowedFold) -> FoldLine:
+    """Return a fold as a line, with those of its events that are sure."""
+    from microslip.figures.folds import FoldLine
+
+    unstable = [point.unstable > 0 for point in fold.points]
+    sure = [
+        event if math.isfinite(point.parameter_error) else ""
+        for event, point in zip(fold.curve.event, fold.points, strict=True)
+    ]
+    return FoldLine(*_columns(fold), unstable, sure)
+
+
+def _columns(fold: FollowedFold) -> tuple[list[float], list[float], list[float]]:
+    """Return parameter, frequency [Hz] and largest amplitude [m] of each point."""
+    curve = fold.curve
+    return (
+        curve.parameter.tolist(),
+        (curve.frequency / math.tau).tolist(),
+        curve.amplitude.max(axis=1, initial=0.0).tolist(),
+    )

@@ -115,8 +115,6 @@ def _keep(
 
 
 def _draw(options: argparse.Namespace, found: list[Tracked], picture: Path) -> None:
-    from statistics import median
-
     from microslip.figures.track import track_figure
     from microslip.scene_file import load_scene
     from microslip.store import save_figure
@@ -142,14 +140,18 @@ def _draw(options: argparse.Namespace, found: list[Tracked], picture: Path) -> N
             for event in each.events
             if event is not highest
         ]
-    title = arguments.title(options)
+    title, error = arguments.title(options), _usual_error(found)
+    save_figure(picture, track_figure(peaks, others, label, title, names, error))
+
+
+def _usual_error(found: list[Tracked]) -> float:
+    """Return the median of the known errors of frequencies [Hz]; 0 if there is none."""
+    from statistics import median
+
     errors = [
         event.frequency_error / math.tau
         for each in found
         for event in each.events
         if math.isfinite(event.frequency_error)
     ]
-    save_figure(
-        picture,
-        track_figure(peaks, others, label, title, names, median(errors or [0.0])),
-    )
+    return median(errors or [0.0])

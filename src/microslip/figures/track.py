@@ -47,7 +47,7 @@ def track_figure(
     names
         Of values that are no numbers: no line joins these.
     error
-        Largest of the frequencies, estimated [Hz].
+        Of the frequencies, estimated [Hz]: what differs by less is not told apart.
     """
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)

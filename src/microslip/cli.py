@@ -37,6 +37,28 @@ from microslip.errors import GivenError
 from microslip.interruption import heeded, unmasked
 from microslip_mechanics.errors import MicroslipError
 
+COMMANDS = (
+    frc,
+    sweep,
+    dwell,
+    decay,
+    verify,
+    track,
+    follow,
+    folds,
+    jumps,
+    poles,
+    modes,
+    precision,
+    grid,
+    stress,
+    tables,
+    report,
+    scenes,
+    explain,
+    plot,
+)
+"""in the order of the help"""
 EPILOG = """\
 start with: microslip frc two-blades
 exit status: 0 done, 1 failed or the solvers disagree, 2 wrong scene, file or arguments,
@@ -142,27 +164,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(
         required=True, metavar="COMMAND", parser_class=_Command
     )
-    for command in (
-        frc,
-        sweep,
-        dwell,
-        decay,
-        verify,
-        track,
-        follow,
-        folds,
-        jumps,
-        poles,
-        modes,
-        precision,
-        grid,
-        stress,
-        tables,
-        report,
-        scenes,
-        explain,
-        plot,
-    ):
+    for command in COMMANDS:
         command.add(commands)
     return parser
 

@@ -29,8 +29,9 @@ def gkf_coefficients(
 ) -> tuple[float, float, float, float, float]:
     """Return friction per unit normal load and its derivatives by the sliding velocity.
 
-    Arguments and results are those of :func:`coulomb_coefficients`; the coefficient is
-    µd + (µs − µd) exp(−(|v|/V_str)^γ).
+    Arguments and results are those of
+    :func:`~microslip_mechanics.contact.coulomb.coulomb_coefficients`; the coefficient
+    is µd + (µs − µd) exp(−(|v|/V_str)^γ).
     """
     speed = math.hypot(first, second)
     if speed == 0.0:

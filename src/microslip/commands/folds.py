@@ -11,11 +11,11 @@ from microslip.commands.columns import KEY, decimal, keyed
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterator
     from pathlib import Path
 
-    from hbm.fold_curve import FoldPoint
     from microslip.figures.folds import FoldLine
+    from microslip.progress import Watch
     from microslip.studies.folds import FollowedFold
     from microslip.studies.parameter import Parameter
 
@@ -49,7 +49,6 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
     from microslip.studies.folds import FoldError, NoFoldsError, followed_folds
     from microslip.studies.parameter import parameter
 
@@ -57,20 +56,10 @@ def _run(options: argparse.Namespace) -> int:
     along = parameter(
         options.scene, options.overrides, options.key, options.first, options.last
     )
-
-    def watch(points: Iterable[FoldPoint]) -> Iterator[FoldPoint]:
-        return shown(
-            points,
-            total=abs(along.last - along.first),
-            done=lambda point: abs(point.response.parameter - along.first),
-            unit="SI",
-            name=options.key,
-        )
-
     folds: list[FollowedFold] = []
     ending = "complete"
     try:
-        for fold in followed_folds(along, watch):
+        for fold in followed_folds(along, _watched(along, options.key)):
             folds.append(fold)
             ending = fold.curve.ending if ending == "complete" else ending
             print("\n".join(_lines(fold, len(folds))), flush=True)
@@ -85,6 +74,19 @@ def _run(options: argparse.Namespace) -> int:
         raise FoldError(ending)
     _keep(options, along, folds, (data.with_suffix(".csv"), picture))
     return arguments.ended(ending)
+
+
+def _watched(along: Parameter, key: str) -> Watch:
+    """Return what shows the progress of a fold."""
+    from microslip.progress import shown
+
+    return lambda points: shown(
+        points,
+        total=abs(along.last - along.first),
+        done=lambda point: abs(point.response.parameter - along.first),
+        unit="SI",
+        name=key,
+    )
 
 
 def _lines(fold: FollowedFold, number: int) -> list[str]:

@@ -11,11 +11,12 @@ from microslip.commands.modes_tables import mode_table
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
     from pathlib import Path
 
     from hbm.modes import ModeOptions, NonlinearMode
+    from microslip.progress import Watch
     from microslip.studies.modes import FollowedMode
+    from microslip_mechanics.problem import Problem
 
 COLUMNS = (
     "mode_hz",
@@ -71,35 +72,21 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.progress import shown
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.studies.modes import ModeError, followed
-    from microslip_mechanics.contact.points import rubs
 
     data, picture = arguments.outputs(options, "modes", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
     lowest, highest = options.range or (scene.curve.lowest, scene.curve.highest)
     chosen = _chosen(options)
-    decades = math.log10(chosen.largest / chosen.smallest)
-
-    def done(point: NonlinearMode) -> float:
-        return math.log10(point.amplitude / chosen.smallest)
-
-    def watch(points: Iterable[NonlinearMode]) -> Iterator[NonlinearMode]:
-        return shown(points, total=decades, done=done, unit="decades", name="mode")
-
     frequencies = math.tau * lowest, math.tau * highest
     problem = problem_of(scene)
-    state = (
-        "while its contacts stick"
-        if rubs(problem.interface.points)
-        else "in small motions"
-    )
+    state = _state(problem)
     modes: list[FollowedMode] = []
     ending = "complete"
     try:
-        for mode in followed(problem, frequencies, chosen, watch):
+        for mode in followed(problem, frequencies, chosen, _watched(chosen)):
             modes.append(mode)
             ending = mode.ending if ending == "complete" else ending
             print("\n".join(mode_table(mode, state)), flush=True)
@@ -111,6 +98,27 @@ def _run(options: argparse.Namespace) -> int:
         raise ModeError(ending)
     _keep(options, modes, data.with_suffix(".csv"), picture)
     return arguments.ended(ending)
+
+
+def _watched(chosen: ModeOptions) -> Watch:
+    """Return what shows the progress of a mode."""
+    from microslip.progress import shown
+
+    def done(point: NonlinearMode) -> float:
+        return math.log10(point.amplitude / chosen.smallest)
+
+    decades = math.log10(chosen.largest / chosen.smallest)
+    return lambda points: shown(
+        points, total=decades, done=done, unit="decades", name="mode"
+    )
+
+
+def _state(problem: Problem) -> str:
+    """Return in words when a structure has the modes of its small motions."""
+    from microslip_mechanics.contact.points import rubs
+
+    sticks = rubs(problem.interface.points)
+    return "while its contacts stick" if sticks else "in small motions"
 
 
 def _chosen(options: argparse.Namespace) -> ModeOptions:

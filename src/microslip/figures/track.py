@@ -68,12 +68,7 @@ def track_figure(
                 label=kind,
             )
     for axes in (left, right):
-        if min(values) > 0.0 and max(values) > 10.0 * min(values):
-            axes.set_xscale("log")
-        if names:
-            axes.set_xticks(range(len(names)), [literal(name) for name in names])
-        else:
-            _ticks(axes, values)
+        _abscissa(axes, values, names)
     right.ticklabel_format(axis="y", useOffset=False)
     widened(right, error)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
@@ -85,6 +80,16 @@ def track_figure(
         axes.margins(x=0.04)
     headline(figure, title)
     return figure
+
+
+def _abscissa(axes: Axes, values: Sequence[float], names: Sequence[str]) -> None:
+    """Scale the axis of the parameter, and label it with values or names."""
+    if min(values) > 0.0 and max(values) > 10.0 * min(values):
+        axes.set_xscale("log")
+    if names:
+        axes.set_xticks(range(len(names)), [literal(name) for name in names])
+    else:
+        _ticks(axes, values)
 
 
 def _ticks(axes: Axes, values: Sequence[float]) -> None:

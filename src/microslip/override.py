@@ -15,7 +15,7 @@ AMPLITUDE = "amplitude"
 """what a bare number changes of a force whose table has it"""
 
 
-def override_value(document: dict[str, typing.Any], override: str) -> None:
+def apply_override(document: dict[str, typing.Any], override: str) -> None:
     """Put one ``table.key=value`` into the document.
 
     Raises

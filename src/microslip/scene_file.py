@@ -10,7 +10,7 @@ from pathlib import Path
 
 from microslip.experiments import Curve, March, Sweep, check_curve, check_sweep
 from microslip.force_file import read_force
-from microslip.override import override_value
+from microslip.override import apply_override
 from microslip.quantity import SceneError
 from microslip.scene_tables import Experiments, Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
@@ -56,7 +56,7 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{source}: not valid TOML: {error}") from None
     for override in overrides:
-        override_value(document, override)
+        apply_override(document, override)
         text += f"\n# --set {override}"
     scene = _scene(source, document, text)
     sweep = scene.experiments.sweep

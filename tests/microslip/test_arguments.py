@@ -38,6 +38,7 @@ def test_frequencies_that_are_none_are_refused(
         (("verify", "--periods=1"), "1: give a whole number from 2 to 10000000"),
         (("stress", "--processes=65"), "65: give a whole number from 1 to 64"),
         (("modes", "--harmonics=128"), "128: give a whole number from 1 to 127"),
+        (("modes", "--tolerance=2"), "2: give a number from 1e-06 to 0.5"),
     ],
 )
 def test_numbers_that_are_none_are_told_what_is_wanted(

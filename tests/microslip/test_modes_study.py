@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from hbm.errors import ContinuationError
@@ -14,6 +15,7 @@ from hbm.modes import ModeOptions, NonlinearMode, nonlinear_mode
 from microslip.cli import main
 from microslip.mode_lines import mode_lines
 from microslip.studies.modes import followed
+from microslip_mechanics.arrays import Array
 from rigs import rig_problem
 
 RANGE = (800.0, 900.0)
@@ -43,6 +45,32 @@ def test_the_command_writes_a_table_and_a_picture(
         rows = list(csv.DictReader(file))
     assert float(rows[0]["frequency_hz"]) == pytest.approx(134.978, abs=1e-3)
     assert float(rows[-1]["damping_ratio"]) > 1.2 * float(rows[0]["damping_ratio"])
+
+
+def test_harmonics_follow_from_a_tolerance(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["modes", "jenkins", "--amplitudes", "0.15", "0.4"]
+
+    for name, more in (("asked", "--tolerance=1e-2"), ("fixed", "--harmonics=31")):
+        assert main([*words, more, "-o", str(tmp_path / name)]) == 0
+
+    said = capsys.readouterr().out
+    assert " points with 3 to 15 harmonics and 64 to 512 samples; " in said
+    asked, fixed = (columns(tmp_path / f"{name}.csv") for name in ("asked", "fixed"))
+    assert asked["damping_error"].max() <= 1e-2
+    known = np.interp(
+        asked["amplitude_m"], fixed["amplitude_m"], fixed["damping_ratio"]
+    )
+    assert known.max() > 15.0 * known.min()
+    np.testing.assert_allclose(asked["damping_ratio"], known, rtol=2e-2)
+
+
+def columns(path: Path) -> dict[str, Array]:
+    """Return the columns of a table."""
+    with path.open(encoding="utf-8", newline="") as file:
+        names, *rows = csv.reader(file)
+    return dict(zip(names, np.array(rows, dtype=float).T, strict=True))
 
 
 def test_an_interrupted_mode_keeps_what_it_has() -> None:

@@ -57,9 +57,12 @@ def test_what_scales_with_the_parameter_does_along_it() -> None:
     np.testing.assert_allclose(scaled, scaled[0], rtol=1e-6)
 
 
-def test_a_cubic_spring_s_mode_has_its_exact_period() -> None:
+@pytest.mark.parametrize("resolution", [{"harmonics": 15}, {"tolerance": 1e-3}])
+def test_a_cubic_spring_s_mode_has_its_exact_period(
+    resolution: dict[str, Any],
+) -> None:
     (mode,) = microslip.modes(
-        spring(), 0.5, 1.5, smallest="10 mm", largest=5.0, harmonics=15
+        spring(), 0.5, 1.5, smallest="10 mm", largest=5.0, **resolution
     )
 
     assert repr(mode).startswith("<FollowedMode: 0.8717")
@@ -147,6 +150,10 @@ def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
                 frequency=1,
             ),
             "follow: problem_at makes <Problem.* of 1, and <Problem.* of 3: it may",
+        ),
+        (
+            call("modes", spring(), 1, 2, harmonics=3, tolerance=1e-3),
+            "modes: tolerance = 0.001: harmonics are fixed: leave one of them out",
         ),
         (
             call("modes", spring(), 1, 2, smallest=2, largest=1),

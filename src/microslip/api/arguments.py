@@ -74,11 +74,7 @@ def resolved(
     GivenError
         If it is of no use, or told twice.
     """
-    if tolerance is not None and harmonics is not None:
-        raise GivenError(
-            f"{function}: tolerance = {tolerance!r}: harmonics are fixed: leave one of "
-            "them out"
-        )
+    check_single(function, tolerance, harmonics)
     wanted = read(
         function,
         table,
@@ -89,6 +85,21 @@ def resolved(
     )
     check_samples(f"{function}:", wanted)
     return wanted
+
+
+def check_single(function: str, tolerance: float | None, harmonics: int | None) -> None:
+    """Check that harmonics are either given or follow from a tolerance.
+
+    Raises
+    ------
+    GivenError
+        If they are both.
+    """
+    if tolerance is not None and harmonics is not None:
+        raise GivenError(
+            f"{function}: tolerance = {tolerance!r}: harmonics are fixed: leave one of "
+            "them out"
+        )
 
 
 def _check_unmasked(function: str, name: str, value: object) -> None:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from microslip.api.arguments import check_apart, checked, named, read
+from microslip.api.arguments import check_apart, check_single, checked, named, read
 from microslip.errors import GivenError
 from microslip.experiments import HERTZ
 from microslip.quantity import quantity
@@ -26,7 +26,8 @@ class Asked:
     highest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
     smallest: float = quantity("m", positive=True)
     largest: float = quantity("m", positive=True)
-    harmonics: int = quantity(lowest=1, highest=127)
+    harmonics: int = quantity(default=31, lowest=1, highest=127)
+    tolerance: float | None = quantity(lowest=1e-6, highest=0.5, optional=True)
 
 
 def modes(
@@ -36,7 +37,8 @@ def modes(
     *,
     smallest: float | str = 1e-5,
     largest: float | str = 1e-2,
-    harmonics: int = 31,
+    harmonics: int | None = None,
+    tolerance: float | None = None,
 ) -> tuple[FollowedMode, ...]:
     """Return the modes of free decaying motion, natural frequency against amplitude.
 
@@ -49,7 +51,10 @@ def modes(
     smallest, largest
         Amplitudes between which each mode is followed [m].
     harmonics
-        Of the motion.
+        Of the motion; 31 if it is left out.
+    tolerance
+        Relative error of the damping ratio at each point, from which harmonics follow,
+        instead of a fixed number.
 
     Returns
     -------
@@ -66,6 +71,7 @@ def modes(
     from hbm.modes import ModeOptions
     from microslip.studies.modes import followed
 
+    check_single(NAME, tolerance, harmonics)
     asked: Asked = read(
         NAME,
         Asked,
@@ -74,6 +80,7 @@ def modes(
         smallest=smallest,
         largest=largest,
         harmonics=harmonics,
+        tolerance=tolerance,
     )
     check_apart(NAME, asked.lowest, asked.highest)
     if not asked.smallest < asked.largest:
@@ -83,6 +90,10 @@ def modes(
         )
     given = checked(NAME, problem)
     turn = sorted((math.tau * asked.lowest, math.tau * asked.highest))
-    options = ModeOptions(asked.smallest, asked.largest, harmonics=asked.harmonics)
+    amplitudes = asked.smallest, asked.largest
+    if asked.tolerance is None:
+        options = ModeOptions(*amplitudes, harmonics=asked.harmonics)
+    else:
+        options = ModeOptions(*amplitudes, error=asked.tolerance)
     with named(NAME):
         return tuple(followed(given, (turn[0], turn[1]), options))

@@ -29,6 +29,8 @@ COLUMNS = (
 AMPLITUDES = (1e-2, 10.0)
 """smallest and largest [mm]"""
 HARMONICS = 31
+TIGHTEST, LOOSEST = 1e-6, 0.5
+"""relative errors that can be asked for"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -60,15 +62,30 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="natural frequencies, in Hz, of the modes that are followed, while their "
         "contacts stick (default: the range of the scene's curve)",
     )
-    parser.add_argument(
+    resolution = parser.add_mutually_exclusive_group()
+    resolution.add_argument(
+        "--tolerance",
+        type=_tolerance,
+        help="relative error of the damping ratio at each point, from which harmonics "
+        "and samples follow, instead of a fixed number",
+    )
+    resolution.add_argument(
         "--harmonics",
         type=arguments.whole(1, 127),
-        default=HARMONICS,
         metavar="N",
         help=f"number of harmonics, 1 to 127 (default: {HARMONICS})",
     )
     arguments.add_output(parser, "modes")
     parser.set_defaults(run=_run)
+
+
+def _tolerance(text: str) -> float:
+    number = arguments.positive(text)
+    if not TIGHTEST <= number <= LOOSEST:
+        raise argparse.ArgumentTypeError(
+            f"{text}: give a number from {TIGHTEST:g} to {LOOSEST:g}"
+        )
+    return number
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -140,7 +157,10 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
         raise SceneError(
             f"--amplitudes {smallest:g} {largest:g}: give the smaller one first"
         )
-    return ModeOptions(1e-3 * smallest, 1e-3 * largest, harmonics=options.harmonics)
+    amplitudes = 1e-3 * smallest, 1e-3 * largest
+    if options.tolerance is not None:
+        return ModeOptions(*amplitudes, error=options.tolerance)
+    return ModeOptions(*amplitudes, harmonics=options.harmonics or HARMONICS)
 
 
 def _keep(

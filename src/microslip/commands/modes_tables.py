@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from microslip.commands.columns import decimal
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from microslip.studies.modes import FollowedMode
 
 HEADER = (
@@ -39,10 +41,18 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
             f"{point.damping_error:10.1e}{note}"
         )
     errors = [point.damping_error for point in mode.points]
+    harmonics = _span(point.harmonics for point in mode.points)
+    samples = _span(point.samples for point in mode.points)
     rows.append(
-        f"{len(mode.points)} points with {mode.points[-1].harmonics} harmonics and "
-        f"{mode.points[-1].samples} samples; estimated error of the damping ratio: "
+        f"{len(mode.points)} points with {harmonics} harmonics and "
+        f"{samples} samples; estimated error of the damping ratio: "
         f"{100.0 * median(errors):.2g} % in the median, above 5 % at "
         f"{sum(error > 0.05 for error in errors)} points"
     )
     return rows
+
+
+def _span(counts: Iterable[int]) -> str:
+    """Return the least and the largest of numbers."""
+    known = sorted(set(counts))
+    return f"{known[0]} to {known[-1]}" if len(known) > 1 else str(known[0])

@@ -83,3 +83,49 @@ def test_the_error_of_a_reduction_is_asked_at_a_frequency() -> None:
     for given in (np.nan, "1 m", -1.0):
         with pytest.raises(ValueError, match=r"^error: hertz = .*: (is|has) "):
             reduced.error(given)
+
+
+PRESSED_AND_LOADED = """
+scene = "system"
+
+[structure]
+mass = [1]
+stiffness = [[1e4]]
+damping_ratio = 0.01
+
+[[element]]
+name = "stop"
+law = "unilateral-spring"
+between = ["x1", "ground"]
+stiffness = 1e4
+preload = 2
+
+[[element]]
+name = "rubs"
+law = "coulomb"
+tangents = [["x1", "ground"]]
+mu = 0.1
+load = 5
+threshold_velocity = 1e-2
+
+[drive]
+x1 = 0.5
+
+[curve]
+lowest = 5
+highest = 5.1
+harmonics = 3
+samples = 64
+"""
+
+
+def test_forces_at_rest_are_those_of_contacts_that_have_some(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("microslip.store.save_figure", lambda *_: None)
+    (tmp_path / "both.toml").write_text(PRESSED_AND_LOADED)
+
+    status, output, _ = run("frc", str(tmp_path / "both.toml"))
+
+    assert status == 0
+    assert "normal force at rest [N]: stop 1.000\n" in output

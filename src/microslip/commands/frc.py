@@ -96,7 +96,7 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     """Print the curve, its events, its errors, and what was sought."""
     print(frc_tables.table(traced))
     if traced.rest.normal_force.any():
-        print(frc_tables.rest(traced.curve.contacts, traced.rest))
+        print(frc_tables.rest(traced.curve, traced.rest))
     print(frc_tables.events(traced.curve))
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in frc_tables.barren(traced.curve) if sought else ():

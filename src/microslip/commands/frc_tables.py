@@ -52,10 +52,19 @@ def table(traced: Traced) -> str:
     return "\n".join(lines)
 
 
-def rest(names: tuple[str, ...], state: StaticState) -> str:
-    """Return the normal forces under the preload alone."""
-    points = zip(names, state.normal_force, strict=True)
-    forces = ", ".join(f"{name} {force:.3f}" for name, force in points)
+def rest(curve: ResponseCurve, state: StaticState) -> str:
+    """Return the normal forces under the preload alone.
+
+    Contacts that have none at any time, such as those under a constant load, are left
+    out.
+    """
+    pressed = state.normal_force != 0.0
+    pressed |= (curve.normal_smallest != 0.0).any(axis=0)
+    pressed |= (curve.normal_largest != 0.0).any(axis=0)
+    forces = ", ".join(
+        f"{curve.contacts[place]} {state.normal_force[place]:z.3f}"
+        for place in pressed.nonzero()[0]
+    )
     return f"normal force at rest [N]: {forces}"
 
 

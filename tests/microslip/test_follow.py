@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from hbm.detached import Sought
+from hbm.errors import PLACE, ContinuationError
 from microslip.cli import main
 from microslip.quantity import SceneError
 from microslip.result_file import load
 from microslip.studies.curve import trace_curve
 from microslip.studies.follow import follow
-from microslip.studies.parameter import parameter
+from microslip.studies.parameter import parameter, told_along
 from microslip_mechanics.response_curve import ResponseCurve
 
 STICKY = ("model=A", "friction.mu_dynamic=50", "friction.mu_static=50")
@@ -207,3 +208,18 @@ def test_a_negative_value_with_an_exponent_is_a_value(
 
     assert status == 0
     assert "-0.012" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("label", "place"), [("drive.x [N]", "drive.x = 0.25 N"), ("mu", "mu = 0.25")]
+)
+def test_errors_along_a_parameter_name_it(label: str, place: str) -> None:
+    def lost() -> Iterator[int]:
+        yield 1
+        raise ContinuationError(f"it is lost at {PLACE}: try less", 0.25)
+
+    points = told_along(lost(), label)
+
+    assert next(points) == 1
+    with pytest.raises(ContinuationError, match=f"^it is lost at {place}: try less$"):
+        next(points)

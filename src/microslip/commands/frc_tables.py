@@ -114,7 +114,11 @@ def _stability(curve: ResponseCurve) -> str:
             f"{stable.sum()} of {stable.size} points are stable, of the others the "
             "stability is not known"
         )
-    return "stability is not known: no Floquet multipliers are computed"
+    return (
+        "stability is not known: there are no Floquet multipliers of rigid friction, "
+        "or of contacts that remember beside regularised friction or a body that "
+        "nothing holds; microslip verify finds them by shooting"
+    )
 
 
 def _multiplier(value: float) -> str:

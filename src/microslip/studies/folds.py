@@ -16,7 +16,7 @@ from microslip.experiments import Curve
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.studies.curve import trace_curve
-from microslip.studies.parameter import Parameter
+from microslip.studies.parameter import Parameter, told_along
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.response_curve import ResponseCurve, response_curve
@@ -108,11 +108,12 @@ def _followed(
         harmonics=curve.harmonics,
         samples=curve.samples,
     )
+    followed = fold_curve(parameter.problem_at, start, options)
     points: list[FoldPoint] = []
     ending = "complete"
     try:
         with unmasked():
-            for point in watch(fold_curve(parameter.problem_at, start, options)):
+            for point in watch(told_along(followed, parameter.label)):
                 points.append(point)
                 if _far(point.response.frequency / math.tau, curve):
                     ending = _left(parameter, point.response)

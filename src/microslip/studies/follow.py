@@ -11,7 +11,7 @@ from microslip.progress import Watch
 from microslip.rigs import solvable
 from microslip.studies.curve import gathered
 from microslip.studies.gaps import told
-from microslip.studies.parameter import Parameter
+from microslip.studies.parameter import Parameter, told_along
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response_curve import ResponseCurve, response_curve
 
@@ -75,6 +75,6 @@ def along(
         harmonics=resolution.harmonics,
         samples=resolution.samples,
     )
-    traced = parameter_response(problem_at, frequency, options)
+    traced = told_along(parameter_response(problem_at, frequency, options), label)
     responses, ending = gathered(watch(traced))
     return told(response_curve(problem_at(ends[1]), responses, ending, label))

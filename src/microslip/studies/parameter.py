@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
+from hbm.errors import placed
 from microslip.experiments import APART
 from microslip.key_path import key_path
 from microslip.quantity import SceneError
@@ -15,6 +17,8 @@ from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
 from microslip.studies import numbers
 from microslip_mechanics.problem import Problem
+
+Point = TypeVar("Point")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +43,19 @@ class Parameter:
         """Return the problem at a value [SI units]."""
         changed = numbers.replaced(self.scene.rig, key_path(self.name), value)
         return problem_of(dataclasses.replace(self.scene, rig=changed))
+
+
+def told_along(points: Iterable[Point], label: str) -> Iterator[Point]:
+    """Yield points along a parameter; errors name it, as its label does, and its unit.
+
+    Raises
+    ------
+    ContinuationError
+        Where the points end with one.
+    """
+    name, _, unit = label.partition(" [")
+    with placed(lambda value: f"{name} = {value:.9g} {unit.rstrip(']')}".rstrip()):
+        yield from points
 
 
 def parameter(

@@ -50,6 +50,7 @@ def assemble(
     viscous: Array,
     frequency: float,
     terms: Terms,
+    growth: float = 0.0,
 ) -> Array:
     """Return ∂R/∂y of the terms.
 
@@ -64,6 +65,9 @@ def assemble(
         Excitation frequency [rad/s].
     terms
         What is solved for.
+    growth
+        Rate [1/s] at which all motions but the mean grow: it adds as much of these
+        motions to their velocity.
 
     Returns
     -------
@@ -71,6 +75,7 @@ def assemble(
     """
     size = terms.unknowns.size
     jacobian = np.zeros((size, size))
+    grown = stiffness + growth * damping
     linked = _linked(stiffness, damping)
     for row in range(terms.order.size):
         a, j = terms.coordinate[row], terms.order[row]
@@ -80,7 +85,8 @@ def assemble(
             left, right = terms.cosine[column], terms.sine[column]
             if not linked[a, b] and j != k:
                 continue
-            cc, cs, sc, ss = _product(stiffness[a, b], j, k)
+            series = grown if k > 0 else stiffness
+            cc, cs, sc, ss = _product(series[a, b], j, k)
             vcc, vcs, vsc, vss = _product(damping[a, b], j, k)
             # the rate of cos kθ is −kω sin kθ, that of sin kθ is kω cos kθ
             rate = k * frequency

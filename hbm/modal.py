@@ -139,29 +139,39 @@ class ModalBalance:
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
         """Return the residual, (size − 1,), and what solves with its Jacobian."""
         whole, state = self._evaluated(point)
-        structure = self._tangents.structure(state.stiffness)
-        contact, by_pole, by_logarithm = self._tangents.contacts(
-            state.parts, state.reaction
+        calls = self._contact.calls
+
+        def made() -> tuple[Array, Array]:
+            if self._contact.calls != calls:
+                self._evaluated(point)  # other tangents lie in the buffers
+            return self._derivatives(state)
+
+        places = np.concatenate([self._inner, self._outer])
+        return whole, Linearisation(made, places, point.size)
+
+    def _derivatives(self, state: _State) -> tuple[Array, Array]:
+        """Return those of the residual by the unknowns, and by log a."""
+        parts, active = state.parts, self._active
+        inner = self._tangents(parts, state.stiffness)
+        amplitudes = to_complex(parts.shape)
+        structure = (state.stiffness @ amplitudes[..., None])[..., 0]
+        by_logarithm = (
+            inner @ parts.shape[active] - (to_real(structure) + state.reaction)[active]
         )
-        turned = state.by_pole
-        by_pole[0] += to_real(turned)[self._active]
-        by_pole[1] += to_real(-1j * self._orders[:, None] * turned)[self._active]
-        border = state.first.border(self._active)
+        by_pole, turned = self._tangents.by_pole(parts), state.by_pole
+        by_pole[0] += to_real(turned)[active]
+        by_pole[1] += to_real(-1j * self._orders[:, None] * turned)[active]
+        border = state.first.border(active)
         border[:, -1] = self._speed * by_pole
-        bottom, corner = state.first.bottom(self._active), state.first.turning()
+        bottom, corner = state.first.bottom(active), state.first.turning()
         scale = self.reference.stiffness
         jacobian = np.block(
             [
-                [
-                    (structure + contact) / scale,
-                    border.reshape(len(bottom), -1).T / scale,
-                ],
+                [inner / scale, border.reshape(len(bottom), -1).T / scale],
                 [bottom, corner],
             ]
         )
-        slope = np.append(by_logarithm / scale, np.zeros(len(bottom)))
-        places = np.concatenate([self._inner, self._outer])
-        return whole, Linearisation(lambda: (jacobian, slope), places, point.size)
+        return jacobian, np.append(by_logarithm / scale, np.zeros(len(bottom)))
 
     def _others(self, pole: complex) -> ComplexArray:
         """Return s of each order: the mean is at rest, all others decay alike.

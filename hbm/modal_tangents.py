@@ -24,64 +24,38 @@ class ModalTangents:
         self._places = np.full(active.shape, -1)
         self._places[active] = np.arange(np.count_nonzero(active))
 
-    def structure(self, stiffness: ComplexArray) -> Array:
-        """Return the derivative by y of the structure's forces, (unknowns, unknowns).
+    def __call__(self, parts: ModalParts, stiffness: ComplexArray) -> Array:
+        """Return the derivative of the forces on y by y, (unknowns, unknowns).
 
-        ``stiffness`` of each order has shape ``(H + 1, rank, rank)``.
+        ``stiffness`` of the structure, order by order, has shape
+        ``(H + 1, rank, rank)``; contacts are where they were called last.
         """
-        return self._assembled(None, stiffness)
+        pole = parts.pole
+        matrix = assemble(
+            *self._contact.tangents.spectra(2 * self._harmonics),
+            np.ascontiguousarray(stiffness.real),
+            np.ascontiguousarray(stiffness.imag),
+            pole.imag,
+            self._terms,
+            pole.real,
+        )
+        self._contact.add_remembered(pole.imag, self._places, matrix)
+        touched = self._contact.touched(pole.imag, self._places)
+        if touched is not None:
+            matrix += touched.matrix
+        return matrix
 
-    def contacts(
-        self, parts: ModalParts, reaction: Array
-    ) -> tuple[Array, Array, Array]:
-        """Return what the contacts add to the derivatives of the forces on y, over a.
-
-        By the unknown coefficients of y, by Re s and −Im s, shape (2, unknowns), and by
-        log a, shape (unknowns,). ``reaction`` is the change of the contact forces from
-        rest, over a, shape (2H + 1, rank).
-        """
-        shape, pole = parts.shape, parts.pole
-        elastic, viscous = self._contact.tangents.spectra(2 * self._harmonics)
-        stiff, damped = self._assembled(elastic), self._assembled(viscous)
+    def by_pole(self, parts: ModalParts) -> Array:
+        """Return what the contacts feel of Re s and −Im s, over a, (2, unknowns)."""
+        shape, rank = parts.shape, self._active.shape[1]
+        _, viscous = self._contact.tangents.spectra(2 * self._harmonics)
+        none = np.zeros((self._harmonics + 1, rank, rank))
+        damped = assemble(viscous, np.zeros_like(viscous), none, none, 0.0, self._terms)
         vibration = shape.copy()
         vibration[0] = 0.0
-        by_pole = np.array(
+        return np.array(
             [
                 damped @ vibration[self._active],
                 -damped @ derivative(shape)[self._active],
             ]
         )
-        matrix = stiff + self._rated(damped, pole)
-        self._contact.add_remembered(pole.imag, self._places, matrix)
-        touched = self._contact.touched(pole.imag, self._places)
-        if touched is not None:
-            matrix += touched.matrix
-        by_logarithm = matrix @ shape[self._active] - reaction[self._active]
-        return matrix, by_pole, by_logarithm
-
-    def _assembled(
-        self, series: Array | None, stiffness: ComplexArray | None = None
-    ) -> Array:
-        """Return the product with a periodic matrix, plus a matrix for each order."""
-        rank = self._active.shape[1]
-        if stiffness is None:
-            stiffness = np.zeros((self._harmonics + 1, rank, rank), complex)
-        none = np.zeros((rank, rank, 4 * self._harmonics + 1))
-        return assemble(
-            none if series is None else series,
-            none,
-            stiffness.real.copy(),
-            stiffness.imag.copy(),
-            0.0,
-            self._terms,
-        )
-
-    def _rated(self, damped: Array, pole: complex) -> Array:
-        """Return the derivative by y of what depends on ẏ, given that by ẏ."""
-        moving = self._terms.order > 0
-        cosine, sine = self._terms.cosine[moving], self._terms.sine[moving]
-        speed = pole.imag * self._terms.order[moving]
-        result = np.zeros_like(damped)
-        result[:, cosine] = pole.real * damped[:, cosine] - speed * damped[:, sine]
-        result[:, sine] = pole.real * damped[:, sine] + speed * damped[:, cosine]
-        return result

@@ -63,7 +63,11 @@ CURVES: dict[str, dict[str, object]] = {
 }
 
 
-@pytest.fixture(name="traced", params=CURVES, scope="module")
+@pytest.fixture(
+    name="traced",
+    params=["A", "B, GKF", "stiff", pytest.param("soft", marks=pytest.mark.long)],
+    scope="module",
+)
 def _traced(request: pytest.FixtureRequest) -> tuple[Problem, list[PeriodicResponse]]:
     problem = rig_problem(**CURVES[request.param])
     return problem, curve_of(problem)

@@ -146,7 +146,7 @@ def test_frc_says_that_nothing_is_detached(
     assert "only up to" not in output
 
 
-@pytest.mark.parametrize("barren", [False, True])
+@pytest.mark.parametrize("barren", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_a_branch_point_without_a_branch_is_named(
     barren: bool,
     tmp_path: Path,

@@ -32,8 +32,11 @@ def test_a_function_of_a_value_is_followed_as_a_key_of_a_scene_is() -> None:
     def driven(force: float) -> Problem:
         return microslip.scene("duffing", f"drive.x={force!r}")
 
-    curve = microslip.follow(driven, 0.05, 0.2, frequency=5.4, label="force [N]")
-    by_key = follow(parameter("duffing", (), "drive.x", "0.05", "0.2"), 10.8 * math.pi)
+    curve = microslip.follow(
+        driven, 0.05, 0.2, frequency=5.4, label="force [N]", harmonics=5
+    )
+    few = ("curve.harmonics=5",)
+    by_key = follow(parameter("duffing", few, "drive.x", "0.05", "0.2"), 10.8 * math.pi)
 
     assert curve.ending == "complete"
     assert curve.along == "force [N]"

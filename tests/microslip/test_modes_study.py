@@ -52,8 +52,8 @@ def test_harmonics_follow_from_a_tolerance(
 ) -> None:
     words = ["modes", "jenkins", "--amplitudes", "0.15", "0.4"]
 
-    for name, more in (("asked", "--tolerance=1e-2"), ("fixed", "--harmonics=31")):
-        assert main([*words, more, "-o", str(tmp_path / name)]) == 0
+    for name, more in (("asked", []), ("fixed", ["--harmonics=15"])):
+        assert main([*words, *more, "-o", str(tmp_path / name)]) == 0
 
     said = capsys.readouterr().out
     assert " points with 3 to 15 harmonics and 64 to 512 samples; " in said

@@ -26,8 +26,8 @@ class Asked:
     highest: float = quantity("Hz", lowest=HERTZ[0], highest=HERTZ[1])
     smallest: float = quantity("m", positive=True)
     largest: float = quantity("m", positive=True)
-    harmonics: int = quantity(default=31, lowest=1, highest=127)
-    tolerance: float | None = quantity(lowest=1e-6, highest=0.5, optional=True)
+    tolerance: float = quantity(default=1e-2, lowest=1e-6, highest=0.5)
+    harmonics: int | None = quantity(lowest=1, highest=127, optional=True)
 
 
 def modes(
@@ -37,8 +37,8 @@ def modes(
     *,
     smallest: float | str = 1e-5,
     largest: float | str = 1e-2,
-    harmonics: int | None = None,
     tolerance: float | None = None,
+    harmonics: int | None = None,
 ) -> tuple[FollowedMode, ...]:
     """Return the modes of free decaying motion, natural frequency against amplitude.
 
@@ -50,11 +50,11 @@ def modes(
         Between which natural frequencies of small motions lie [Hz].
     smallest, largest
         Amplitudes between which each mode is followed [m].
-    harmonics
-        Of the motion; 31 if it is left out.
     tolerance
-        Relative error of the damping ratio at each point, from which harmonics follow,
-        instead of a fixed number.
+        Relative error of the damping ratio at each point, from which harmonics follow;
+        0.01 if it is left out.
+    harmonics
+        Fixed number instead.
 
     Returns
     -------
@@ -79,8 +79,8 @@ def modes(
         highest=highest,
         smallest=smallest,
         largest=largest,
-        harmonics=harmonics,
         tolerance=tolerance,
+        harmonics=harmonics,
     )
     check_apart(NAME, asked.lowest, asked.highest)
     if not asked.smallest < asked.largest:
@@ -90,10 +90,11 @@ def modes(
         )
     given = checked(NAME, problem)
     turn = sorted((math.tau * asked.lowest, math.tau * asked.highest))
-    amplitudes = asked.smallest, asked.largest
-    if asked.tolerance is None:
-        options = ModeOptions(*amplitudes, harmonics=asked.harmonics)
-    else:
-        options = ModeOptions(*amplitudes, error=asked.tolerance)
+    options = ModeOptions(
+        asked.smallest,
+        asked.largest,
+        error=asked.tolerance,
+        harmonics=asked.harmonics,
+    )
     with named(NAME):
         return tuple(followed(given, (turn[0], turn[1]), options))

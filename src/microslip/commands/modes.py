@@ -28,7 +28,7 @@ COLUMNS = (
 )
 AMPLITUDES = (1e-2, 10.0)
 """smallest and largest [mm]"""
-HARMONICS = 31
+TOLERANCE = 1e-2
 TIGHTEST, LOOSEST = 1e-6, 0.5
 """relative errors that can be asked for"""
 
@@ -67,13 +67,13 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--tolerance",
         type=_tolerance,
         help="relative error of the damping ratio at each point, from which harmonics "
-        "and samples follow, instead of a fixed number",
+        f"and samples follow (default: {TOLERANCE:g})",
     )
     resolution.add_argument(
         "--harmonics",
         type=arguments.whole(1, 127),
         metavar="N",
-        help=f"number of harmonics, 1 to 127 (default: {HARMONICS})",
+        help="fixed number instead, 1 to 127",
     )
     arguments.add_output(parser, "modes")
     parser.set_defaults(run=_run)
@@ -158,9 +158,11 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
             f"--amplitudes {smallest:g} {largest:g}: give the smaller one first"
         )
     amplitudes = 1e-3 * smallest, 1e-3 * largest
-    if options.tolerance is not None:
-        return ModeOptions(*amplitudes, error=options.tolerance)
-    return ModeOptions(*amplitudes, harmonics=options.harmonics or HARMONICS)
+    return ModeOptions(
+        *amplitudes,
+        error=options.tolerance or TOLERANCE,
+        harmonics=options.harmonics,
+    )
 
 
 def _keep(

@@ -238,10 +238,10 @@ class AdaptiveBalance:
         upright = np.zeros_like(normal)
         upright[-1] = 1.0
         estimate = self._resolution.estimate(correction, self.fourier, upright)
-        if estimate.error < STEEP:
+        if self._resolution.steepness(estimate) < STEEP:
             return estimate
         other = self._resolution.estimate(correction, self.fourier, normal)
-        return min(estimate, other, key=lambda each: each.error)
+        return min(estimate, other, key=self._resolution.steepness)
 
     @property
     def _exhausted(self) -> bool:

@@ -19,6 +19,8 @@ from microslip_mechanics.arrays import Array, ComplexArray
 
 STRIDE = 0.01
 """change of the pole, over that of the linear mode, that counts as one unit of arc"""
+FARTHER = 0.2
+"""change of the pole, over that since the linear mode, that does so where it is more"""
 FARTHEST = 60.0
 """of log a, either way, that a trial may go"""
 FAINT = 1e-2
@@ -84,13 +86,14 @@ class ModalBalance:
         """Return the change of each component that counts as one unit of arc.
 
         Relative changes of the relative motion and of the amplitude each, and
-        :data:`STRIDE` of the linear mode's pole, or of half the pole if that is more.
+        :data:`STRIDE` of the linear mode's pole, or :data:`FARTHER` of how far the pole
+        has moved if that is more.
         """
         table = point[:-1].reshape(-1, self.width)
         scale = np.ones_like(table)
         scale[:, : self.rank] = np.linalg.norm(table[1:, : self.rank]) + FAINT
-        faster = 0.5 * float(np.linalg.norm(table[1:3, -1]))
-        scale[:, -1] = STRIDE * max(1.0, faster)
+        moved = table[1:3, -1] - _pair(np.array(self.reference.pole / self._speed))
+        scale[:, -1] = max(STRIDE, FARTHER * float(np.linalg.norm(moved)))
         return np.append(scale.ravel(), 1.0)
 
     def impulses(self, above: int, most: int) -> float:

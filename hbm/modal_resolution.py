@@ -16,15 +16,18 @@ from hbm.memory import marched
 from hbm.modal import ModalBalance
 from hbm.modal_parts import ModalParts, Reference
 from hbm.relative import RelativeProblem
-from hbm.resolution import Resolution
+from hbm.resolution import Estimate, Resolution
 from microslip_mechanics.arrays import Array
 
 FAINTEST = 1e-4
 """damping ratio below which errors of damping are relative to this one"""
+STRICTER = 100.0
+"""times an error of the frequency counts: frequencies are known better than damping,
+and hardly change where that changes by orders of magnitude"""
 
 
 class ModalResolution(Resolution):
-    """Balances of a mode; what is estimated is the error of its damping."""
+    """Balances of a mode; what is estimated are errors of damping and frequency."""
 
     def __init__(
         self,
@@ -54,9 +57,32 @@ class ModalResolution(Resolution):
         return self._balances[fourier]
 
     def amplitudes(self, points: Sequence[Array]) -> Array:
-        """Return the decay rate [1/s], and the least by which its error is measured."""
-        rates = [-self._coarsest.parts(point).pole.real for point in points]
-        return np.array([(rate, FAINTEST * self._linear.frequency) for rate in rates])
+        """Return decay rate and frequency by what counts, of the first point one.
+
+        The values are the rate over that of the first point, or over the least that
+        counts, then one, and :data:`STRICTER` times the change of the frequency since
+        the first one; shape ``(points, 3)``.
+        """
+        poles = np.array([self._coarsest.parts(point).pole for point in points])
+        least = max(abs(poles[0].real), FAINTEST * abs(poles[0]))
+        ones = np.ones(len(points))
+        turned = STRICTER * (np.abs(poles) / abs(poles[0]) - 1.0)
+        return np.array([-poles.real / least, ones, turned]).T
+
+    def steepness(self, estimate: Estimate) -> float:
+        """Return the error of the damping: that of the frequency counts too much."""
+        return estimate.of(0)[1]
+
+    def errors(self, estimate: Estimate, corrected: bool) -> tuple[float, float]:
+        """Return those of frequency and damping ratio, relative.
+
+        They are of the point after the steps of the estimate if it is ``corrected``.
+        """
+        damping, frequency = (
+            error if corrected else change + error
+            for change, error in (estimate.of(0), estimate.of(2))
+        )
+        return frequency / STRICTER, damping
 
     def metric(self, point: Array) -> Array:
         """Return the change of each component that counts as one unit of arc."""

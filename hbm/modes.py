@@ -43,7 +43,8 @@ class ModeOptions:
     largest: float
     """last amplitude [m], likewise: where the shape changes, probes have another one"""
     error: float = 1e-2
-    """of the damping ratio at each point, relative: harmonics follow from it"""
+    """of the damping ratio at each point, relative, of the frequency a hundredth of it:
+    harmonics follow from it"""
     harmonics: int | None = None
     """fixed number instead"""
     tolerance: float = 1e-7
@@ -203,12 +204,9 @@ def _mode(
     motion, pole = balance.motion(point), balance.parts(point).pole
     first = problem.probes.rows @ (motion[1] - 1j * motion[2])
     motion[0] += rest.displacement
-    change = math.inf
-    if system.estimate is not None:
-        finer = resolution.at(system.estimate.fourier)
-        better = finer.parts(system.estimate.corrected).pole
-        rough = resolution.at(system.settled).parts(correction.point).pole
-        change = abs(abs(better) / abs(rough) - 1.0)
+    errors, estimate = (error, error), system.estimate
+    if estimate is not None and math.isfinite(error):
+        errors = resolution.errors(estimate, system.report.corrects)
     return NonlinearMode(
-        pole, first, motion, change, error, fourier.harmonics, fourier.samples
+        pole, first, motion, *errors, fourier.harmonics, fourier.samples
     )

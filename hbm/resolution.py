@@ -40,12 +40,27 @@ class Estimate:
     """change of the parameter by the steps, across a fold"""
     aside: float
     """error of the parameter after them"""
-    corrected: Array
-    """the point after the steps"""
     fourier: FourierBasis
-    """its resolution"""
-    slope: Linearised
-    """the derivative of the residual about there"""
+    """resolution of the corrected point"""
+    made: Refined
+    """what the steps came to"""
+    values: Array
+    """by whose changes errors are measured, in the order of :func:`_changes`"""
+
+    @property
+    def corrected(self) -> Array:
+        """The point after the steps."""
+        return self.made.corrected
+
+    @property
+    def slope(self) -> Linearised:
+        """The derivative of the residual about there."""
+        return self.made.slope
+
+    def of(self, value: int) -> tuple[float, float]:
+        """Return how one of the values changes by the steps, and its error after."""
+        change, truncation, sampling = _changes(self.values[:, [value]], self.made)
+        return change, truncation + sampling
 
     @property
     def error(self) -> float:
@@ -78,6 +93,10 @@ class Resolution(ABC):
     def phasors(self, points: Sequence[Array]) -> ComplexArray:
         """Return what these are the moduli of."""
         return self.amplitudes(points).astype(complex)
+
+    def steepness(self, estimate: Estimate) -> float:
+        """Return the error that is large where the curve is steep."""
+        return estimate.error
 
     def estimate(
         self, correction: Correction, fourier: FourierBasis, normal: Array
@@ -118,9 +137,9 @@ class Resolution(ABC):
             smoothing / size,
             shift,
             sum(aside) + moved,
-            made.corrected,
             finer,
-            made.slope,
+            made,
+            sizes,
         )
 
     def _resampled(

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import scipy.integrate
 import scipy.linalg
+import scipy.optimize
+import scipy.special
 
 from contact_tables import contact_points
 from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
@@ -13,7 +15,13 @@ from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
-from small_problems import NORMAL, cantilever, mass_on_contact, sliding_block
+from small_problems import (
+    NORMAL,
+    cantilever,
+    cubic_oscillator,
+    mass_on_contact,
+    sliding_block,
+)
 
 EVERYTHING = (1.0, 1e6)
 """frequencies [rad/s]"""
@@ -121,6 +129,48 @@ def orbit_period(
     )
     assert found.t_events is not None
     return float(found.t_events[0][1] - found.t_events[0][0])
+
+
+@pytest.mark.parametrize("harmonics", [None, 1, 3, 7])
+def test_a_frequency_errs_by_no_more_than_is_told(harmonics: int | None) -> None:
+    spring = cubic_oscillator(damping=2e-7)
+    rest = static_equilibrium(spring)
+    (linear,) = modes_in_range(spring, rest, 0.5, 2.0)
+
+    options = ModeOptions(1e-2, 1e2, harmonics=harmonics)
+    points = list(nonlinear_mode(spring, rest, linear, options))
+
+    true = np.array(
+        [abs(each.frequency / cubic(each.amplitude) - 1) for each in points]
+    )
+    told = np.array([each.frequency_error for each in points])
+    known = true > 1e-9  # else it is rounding
+    assert known.sum() >= 20
+    assert np.mean(true[known] <= told[known]) >= 0.95
+    if harmonics is None:
+        assert told.max() <= 1e-4
+    else:
+        assert np.median(told[known] / true[known]) <= 2.0
+
+
+def cubic(first: float) -> float:
+    """Return the frequency of ẍ + x + x³ = 0 whose first harmonic has an amplitude.
+
+    x = A cn(u | m), of which the Fourier series is known by the nome q.
+    """
+
+    def elliptic(swing: float) -> tuple[float, float]:
+        modulus = swing**2 / (2.0 * (1.0 + swing**2))
+        quarter = scipy.special.ellipk(modulus)
+        nome = math.exp(-math.pi * scipy.special.ellipk(1.0 - modulus) / quarter)
+        share = 2.0 * math.pi / (math.sqrt(modulus) * quarter)
+        share *= math.sqrt(nome) / (1.0 + nome)
+        return math.pi / 2.0 * math.sqrt(1.0 + swing**2) / quarter, swing * share
+
+    swing = scipy.optimize.brentq(
+        lambda each: elliptic(each)[1] - first, 0.5 * first, 2.0 * first, xtol=1e-13
+    )
+    return elliptic(swing)[0]
 
 
 @pytest.mark.parametrize("model", ["A", "B"])

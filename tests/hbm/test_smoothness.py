@@ -16,6 +16,7 @@ from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.path import along_frequency
 from hbm.path_resolution import PathResolution
+from hbm.refined import Refined
 from hbm.resolution import Estimate, Resolution
 from hbm.resolution_choice import SHARPER
 from hbm.smoothness import FALL, smoothest
@@ -182,7 +183,9 @@ class Blunt(Resolution):
         smoothing = 0.1 * fourier.threshold
         point, slope = correction.point, correction.linearised
         errors = 0.0, 0.0, self.sampling, smoothing, 0.0, 0.0
-        return Estimate(*errors, point, fourier, slope)
+        rest = correction.residual
+        made = Refined(rest, point, point, 0.0, 0.0, rest, slope)
+        return Estimate(*errors, fourier, made, np.zeros((5, 1)))
 
 
 def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:

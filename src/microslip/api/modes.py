@@ -51,8 +51,8 @@ def modes(
     smallest, largest
         Amplitudes between which each mode is followed [m].
     tolerance
-        Relative error of the damping ratio at each point, from which harmonics follow;
-        0.01 if it is left out.
+        Relative error of the damping ratio at each point, of the frequency a hundredth
+        of it, from which harmonics follow; 0.01 if it is left out.
     harmonics
         Fixed number instead.
 

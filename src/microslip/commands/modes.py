@@ -66,8 +66,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     resolution.add_argument(
         "--tolerance",
         type=_tolerance,
-        help="relative error of the damping ratio at each point, from which harmonics "
-        f"and samples follow (default: {TOLERANCE:g})",
+        help="relative error of the damping ratio at each point, of the frequency a "
+        "hundredth of it: harmonics and samples follow from it "
+        f"(default: {TOLERANCE:g})",
     )
     resolution.add_argument(
         "--harmonics",

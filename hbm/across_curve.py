@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-import numpy as np
-
-from hbm.arc_step import lost, tangent
+from hbm.arc import plane_across, tangent, upright
+from hbm.corrected import lost
 from hbm.correction import Outcome
 from hbm.curve import response
 from hbm.dense_problem import RESOLVED, dense_problem
@@ -82,18 +81,15 @@ def _normal(path: AlongFrequency, balance: HarmonicBalance, point: Array) -> Arr
     ContinuationError
         If the curve has no tangent that leads to other frequencies.
     """
-    scale, along = path_metric(path, point), np.zeros_like(point)
-    along[-1] = 1.0
+    scale = path_metric(path, point)
     _, linearised = balance(point)
     try:
-        along = tangent(linearised, along, scale)
+        along = tangent(linearised, upright(point), scale)
     except SingularError:
         raise ContinuationError(
             "the curve has no tangent where a response is sought"
         ) from None
-    normal = along / scale**2
-    unit: Array = normal / np.abs(normal).max()
-    return unit
+    return plane_across(along, scale)
 
 
 def _longer(balance: HarmonicBalance, point: Array) -> Array:

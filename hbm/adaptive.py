@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.arc import upright
 from hbm.correction import Correction, Outcome
 from hbm.effort import Effort
 from hbm.fourier import FourierBasis
@@ -235,9 +236,9 @@ class AdaptiveBalance:
         """Return the error at constant frequency or, where that is steep, across."""
         if across:
             return self._resolution.estimate(correction, self.fourier, normal)
-        upright = np.zeros_like(normal)
-        upright[-1] = 1.0
-        estimate = self._resolution.estimate(correction, self.fourier, upright)
+        estimate = self._resolution.estimate(
+            correction, self.fourier, upright(correction.point)
+        )
         if self._resolution.steepness(estimate) < STEEP:
             return estimate
         other = self._resolution.estimate(correction, self.fourier, normal)

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.arc import distance, plane_across, tangent, turn
+from hbm.corrected import lost, neglected
 from hbm.correction import Correction, Outcome
-from hbm.errors import PLACE, REMEDY, ContinuationError
-from hbm.linearised import Linearised, SingularError, System
+from hbm.linearised import SingularError, System
 from hbm.newton import Small, correct
 from hbm.predictor import Predictor
 from hbm.settler import Settler
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
-
-Metric = Callable[[Array], Array]
-"""point (n + 1,) ↦ the change of each component that counts as one unit of arc"""
 
 ASKEW = 0.7
 """cosine between the tangents of a step to a point with more harmonics, by which the
@@ -137,13 +134,11 @@ class _Across:
         return _directed(settled, self.direction, self.scale)
 
     def _away(self, candidate: Correction, guess: Array) -> float:
-        return float(np.linalg.norm((candidate.point - guess) / self.scale))
+        return distance(candidate.point, guess, self.scale)
 
     @property
     def _normal(self) -> Array:
-        normal = self.direction / self.scale**2
-        unit: Array = normal / np.abs(normal).max()
-        return unit
+        return plane_across(self.direction, self.scale)
 
     @property
     def _small(self) -> Small | None:
@@ -182,42 +177,3 @@ def _turned_twice(candidate: Correction, start: Array, direction: Array) -> bool
     """
     changed = float(candidate.point[-1] - start[-1]) * float(direction[-1])
     return changed < 0.0 < float(candidate.along[-1] * direction[-1])
-
-
-def turn(candidate: Correction, direction: Array, scale: Array) -> float:
-    """Return the cosine between the tangent at a point and the one before it."""
-    return float((candidate.along / scale) @ (direction / scale))
-
-
-def tangent(linearised: Linearised, direction: Array, scale: Array) -> Array:
-    """Return the unit tangent (in the metric) that goes on along ``direction``.
-
-    Raises
-    ------
-    SingularError
-        If the curve does not go on along it.
-    """
-    right = np.zeros(direction.size)
-    right[-1] = 1.0
-    along = linearised.solve(direction / scale**2, right)
-    unit: Array = along / float(np.linalg.norm(along / scale))
-    return unit
-
-
-def neglected(control: StepControl, metric: Metric | None) -> Small | None:
-    """Return what a step of Newton's iteration may neglect, if it may."""
-    if metric is None or control.negligible == 0.0:
-        return None
-    return Small(lambda point: control.negligible * metric(point), control.loose)
-
-
-def lost(
-    what: str, where: float, failed: Correction, control: StepControl
-) -> ContinuationError:
-    """Return the error of a point at which the correction failed."""
-    return ContinuationError(
-        f"{what} at {PLACE}: {failed.outcome.value} "
-        f"(residual {failed.residuals[-1]:.1e} after {failed.iterations} iterations, "
-        f"tolerance {control.tolerance:.1e}); {REMEDY}",
-        where,
-    )

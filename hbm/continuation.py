@@ -8,11 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.arc_step import Metric, lost, neglected, next_point, tangent, turn
-from hbm.correction import Correction, Outcome
+from hbm.arc import Metric, tangent, turn
+from hbm.arc_step import next_point
+from hbm.corrected import correct_at
+from hbm.correction import Correction
 from hbm.errors import PLACE, ContinuationError
 from hbm.linearised import SingularError, System
-from hbm.newton import correct
 from hbm.predictor import Predictor
 from hbm.settler import UNSETTLED, Settler
 from hbm.step_control import StepControl
@@ -105,41 +106,6 @@ def trace(
         f"{PLACE}: a shorter range or a larger step helps",
         float(accepted.point[-1]),
     )
-
-
-def correct_at(
-    system: System,
-    guess: Array,
-    control: StepControl,
-    settler: Settler = UNSETTLED,
-    metric: Metric | None = None,
-) -> Correction:
-    """Correct a guess at its own parameter.
-
-    With a ``metric`` steps that :class:`StepControl` neglects end the iteration.
-
-    Raises
-    ------
-    ContinuationError
-        If it does not converge.
-    """
-    normal = np.zeros_like(guess)
-    normal[-1] = 1.0
-    small = neglected(control, metric)
-    found = correct(
-        system,
-        guess,
-        normal,
-        tolerance=control.tolerance,
-        small=small,
-        max_iterations=60,
-    )
-    if found.outcome is Outcome.CONVERGED:
-        found = settler.settle(found, normal, control.tolerance, small)
-        settler.keep()
-    if found.outcome is not Outcome.CONVERGED:
-        raise lost("no response is found", float(guess[-1]), found, control)
-    return found
 
 
 def _begun(first: Correction, direction: Array, scale: Array) -> Array:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hbm.arc_step import Metric, tangent
+from hbm.arc import Metric, distance, plane_across, tangent
 from hbm.correction import Correction, Outcome
 from hbm.linearised import SingularError, System
 from hbm.newton import correct
@@ -104,14 +104,13 @@ def _stepped(
     system: System, start: Array, direction: Array, scale: Array, tolerance: float
 ) -> Array | None:
     """Return a point of the curve a little way in a direction; None if none is near."""
-    normal = direction / scale**2
-    normal /= np.abs(normal).max()
+    normal = plane_across(direction, scale)
     for step in STEPS:
         predicted = start + step * direction
         found = correct(
             system, predicted, normal, tolerance=tolerance, max_iterations=ITERATIONS
         )
-        moved = float(np.linalg.norm((found.point - predicted) / scale))
-        if found.outcome is Outcome.CONVERGED and moved <= 0.2 * step:
+        near = distance(found.point, predicted, scale) <= 0.2 * step
+        if near and found.outcome is Outcome.CONVERGED:
             return found.point
     return None

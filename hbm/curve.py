@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
-from hbm.arc_step import Metric
+from hbm.arc import Metric
 from hbm.correction import Correction
 from hbm.crossings import BRANCH, TORUS, crossings
 from hbm.errors import ContinuationError

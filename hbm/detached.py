@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from hbm.along_parameter import AlongParameter
-from hbm.continuation import correct_at
+from hbm.corrected import correct_at
 from hbm.curve import response
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis

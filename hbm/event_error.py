@@ -6,7 +6,7 @@ import math
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.amplitude_growth import AmplitudeGrowth
-from hbm.arc_step import Metric
+from hbm.arc import Metric
 from hbm.correction import Correction
 from hbm.segment import PRECISION, Segment, folds
 from microslip_mechanics.arrays import Array

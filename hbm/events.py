@@ -10,11 +10,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-import numpy as np
-
 from hbm.adaptive import AdaptiveBalance
 from hbm.amplitude_growth import AmplitudeGrowth
-from hbm.arc_step import Metric
+from hbm.arc import Metric, distance, plane_across
 from hbm.correction import Correction, Outcome
 from hbm.crossings import Crossings
 from hbm.event_error import fold_error, peak_error
@@ -104,19 +102,16 @@ class Events:
     ) -> Correction | None:
         """Return what was located as accurate as it is to be; None if it is lost."""
         located = found.point
-        normal = located.along / metric(located.point) ** 2
-        normal /= np.abs(normal).max()
         settled = self.system.settle(
             located,
-            normal,
+            plane_across(located.along, metric(located.point)),
             self.control.tolerance,
             segment.small(PRECISION * SURE),
             share=STRICT if found.name in SHARP and not segment.after.turns else 1.0,
             across=found.name == "fold",
         )
-        away = (settled.point - located.point) / segment.scale
-        near = float(np.linalg.norm(away)) < abs(segment.length)
-        if not near or settled.outcome is not Outcome.CONVERGED:
+        away = distance(settled.point, located.point, segment.scale)
+        if not away < abs(segment.length) or settled.outcome is not Outcome.CONVERGED:
             return None
         return replace(settled, tangent=located.tangent)
 

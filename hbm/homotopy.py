@@ -8,8 +8,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hbm.arc_step import Metric
-from hbm.continuation import correct_at, trace
+from hbm.arc import Metric
+from hbm.continuation import trace
+from hbm.corrected import correct_at
 from hbm.effort import Effort
 from hbm.errors import PLACE, ContinuationError
 from hbm.fourier import FourierBasis

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.arc_step import Metric
+from hbm.arc import Metric, distance, plane_across
 from hbm.continuation import trace
 from hbm.correction import Correction, Outcome
 from hbm.errors import PLACE, ContinuationError
@@ -99,15 +99,14 @@ class Leaping:
             and float(along @ ((last.point - kept[0].point) / scale**2)) < 0
         ):
             along = -along
-        normal = along / scale**2
-        normal /= np.abs(normal).max()
+        normal = plane_across(along, scale)
         for leap in LEAPS:
             predicted = last.point + leap * along
             found = correct(
                 self.system, predicted, normal, tolerance=self.control.tolerance
             )
-            moved = float(np.linalg.norm((found.point - predicted) / scale))
-            if found.outcome is Outcome.CONVERGED and moved <= leap:
+            near = distance(found.point, predicted, scale) <= leap
+            if near and found.outcome is Outcome.CONVERGED:
                 return found.point, along
         raise ContinuationError(
             f"the curve does not go on at {PLACE}, not even past it; more harmonics or "

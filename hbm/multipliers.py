@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.arc import upright
 from hbm.correction import Outcome
 from hbm.fourier import FourierBasis
 from hbm.newton import Small, correct
@@ -119,14 +120,12 @@ class Multipliers:
 
     def finer(self, point: Array, fourier: FourierBasis) -> Array | None:
         """Return the orbit at the same parameter with another resolution, if found."""
-        normal = np.zeros_like(point)
-        normal[-1] = 1.0
         vibration = float(np.linalg.norm(point[self.resolution.rank : -1]))
         changes = np.full_like(point, SMALL * vibration)
         found = correct(
             self.resolution.at(fourier),
             point,
-            normal,
+            upright(point),
             tolerance=self.control.tolerance,
             small=Small(lambda _: changes, self.control.loose),
             chord=CHORD,

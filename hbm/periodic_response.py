@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.continuation import correct_at
+from hbm.corrected import correct_at
 from hbm.curve import response
 from hbm.dense_problem import RESOLVED, dense_problem, resolved_up_to
 from hbm.errors import hertz, placed

@@ -7,6 +7,7 @@ from itertools import islice
 
 import numpy as np
 
+from hbm.arc import distance
 from microslip_mechanics.arrays import Array
 
 MOST = 3
@@ -37,10 +38,7 @@ class Predictor:
         -------
         How far the best extrapolation missed the point, in units of ``scale``.
         """
-        missed = [
-            float(np.linalg.norm((each - point) / scale))
-            for each in self._extrapolated(step)
-        ]
+        missed = [distance(each, point, scale) for each in self._extrapolated(step)]
         if missed:
             self.order = 1 + int(np.argmin(missed))
         self._points = [point, *self._points][: MOST + 1]
@@ -70,8 +68,7 @@ class Predictor:
         """
         line, *others = islice(self._extrapolated(step), self.order)
         for expected in reversed(others):
-            bend = float(np.linalg.norm((expected - line) / self._scale))
-            if bend <= STEEPEST * step:
+            if distance(expected, line, self._scale) <= STEEPEST * step:
                 return expected
         return line
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from hbm.arc_step import tangent
+from hbm.arc import tangent
 from hbm.correction import Correction
 from hbm.fourier import FourierBasis
 from hbm.linearised import SingularError

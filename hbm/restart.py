@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
-from hbm.arc_step import Metric
-from hbm.continuation import correct_at
+from hbm.arc import Metric
+from hbm.corrected import correct_at
 from hbm.effort import Effort
 from hbm.errors import ContinuationError
 from hbm.homotopy import approaches

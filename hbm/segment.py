@@ -12,11 +12,10 @@ import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
 from scipy.interpolate import BarycentricInterpolator
 from scipy.optimize import brentq
 
-from hbm.arc_step import tangent
+from hbm.arc import plane_across, tangent
 from hbm.bracket import bracketed
 from hbm.correction import Correction, Outcome
 from hbm.linearised import SingularError, System
@@ -146,11 +145,10 @@ class Segment:
 
     def _at(self, guess: Array, near: float) -> Correction:
         direction = self.before.along
-        normal = direction / self.scale**2
         found = correct(
             self.system,
             guess,
-            normal / np.abs(normal).max(),
+            plane_across(direction, self.scale),
             tolerance=self.tolerance,
             small=self.small(SURE * near),
         )

@@ -9,7 +9,7 @@ import numpy as np
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.amplitude_growth import AmplitudeGrowth
-from hbm.continuation import correct_at
+from hbm.corrected import correct_at
 from hbm.curve import Curve
 from hbm.effort import Effort
 from hbm.events import Events

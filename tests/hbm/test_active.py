@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from contact_tables import contact_points
 from hbm.active import extended, moving, symmetric
-from hbm.continuation import correct_at
+from hbm.corrected import correct_at
 from hbm.fourier import FourierBasis
 from hbm.path import along_frequency
 from hbm.relative import RelativeProblem, relative_problem

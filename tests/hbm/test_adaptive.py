@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hbm.adaptive import PATIENT, SHORT, WAIT, AdaptiveBalance
-from hbm.continuation import correct_at
+from hbm.corrected import correct_at
 from hbm.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.path import along_frequency

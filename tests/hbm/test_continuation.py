@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from hbm.arc_step import tangent
-from hbm.continuation import correct_at, trace
+from hbm.arc import tangent
+from hbm.continuation import trace
+from hbm.corrected import correct_at
 from hbm.correction import Correction, Outcome
 from hbm.errors import ContinuationError
 from hbm.linearised import System

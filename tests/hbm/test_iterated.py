@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hbm import iterated, linearisation
 from hbm.bordered import Bordered
-from hbm.continuation import correct_at
+from hbm.corrected import correct_at
 from hbm.effort import Effort
 from hbm.fourier import FourierBasis, to_complex, to_real
 from hbm.homotopy import approaches

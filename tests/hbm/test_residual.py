@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from convergence import observed_order
-from hbm.continuation import correct_at
+from hbm.corrected import correct_at
 from hbm.fourier import FourierBasis, Transform, derivative, to_complex
 from hbm.relative import relative_problem
 from hbm.residual import HarmonicBalance

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from hbm.adaptive import WAIT, AdaptiveBalance
-from hbm.continuation import correct_at
+from hbm.corrected import correct_at
 from hbm.correction import Correction, Outcome
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis

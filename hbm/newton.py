@@ -70,35 +70,33 @@ def correct(
     point = predicted
     residual, linearised = system(point)
     slope = linearised
-    sizes, creeps = [largest(residual)], False
+    sizes, stuck = [largest(residual)], False
+
+    def ended(outcome: Outcome) -> Correction:
+        return Correction(point, residual, linearised, outcome, tuple(sizes))
+
     while True:
-        ended = _ended(sizes, tolerance, max_iterations)
-        if ended is Outcome.EXHAUSTED and creeps:
-            ended = Outcome.CONVERGED
-        if ended is not None:
-            return Correction(point, residual, linearised, ended, tuple(sizes))
+        outcome = _outcome(sizes, tolerance, max_iterations, stuck)
+        if outcome is not None:
+            return ended(outcome)
         try:
             step = slope.solve(normal, np.append(residual, 0.0))
         except SingularError:
-            return Correction(
-                point, residual, linearised, Outcome.SINGULAR, tuple(sizes)
-            )
-        stuck = creeps = _within(step, point, sizes[-1], small, STUCK)
-        once = stuck or slope is not linearised
-        lowered = _lowered(system, point, residual, step, 1 if once else HALVINGS)
-        if lowered is None and slope is not linearised:
+            return ended(Outcome.SINGULAR)
+        stuck = _within(step, point, sizes[-1], small, STUCK)
+        older = slope is not linearised
+        attempts = 1 if stuck or older else HALVINGS
+        lowered = _lowered(system, point, residual, step, attempts)
+        if lowered is None and older:
             slope = linearised
             continue
         if lowered is None:
-            outcome = Outcome.CONVERGED if stuck else Outcome.STALLED
-            return Correction(point, residual, linearised, outcome, tuple(sizes))
+            return ended(Outcome.CONVERGED if stuck else Outcome.STALLED)
         point, residual, linearised, share, part = lowered
         slope = slope if share < chord else linearised
         sizes.append(largest(residual))
         if part == 1.0 and _negligible(step, point, sizes[-1], small, 1.0):
-            return Correction(
-                point, residual, linearised, Outcome.CONVERGED, tuple(sizes)
-            )
+            return ended(Outcome.CONVERGED)
 
 
 class Lowered(NamedTuple):
@@ -131,13 +129,20 @@ def _lowered(
     return None
 
 
-def _ended(sizes: list[float], tolerance: float, max_iterations: int) -> Outcome | None:
-    """Return how a correction has ended; None if it has not."""
+def _outcome(
+    sizes: list[float], tolerance: float, max_iterations: int, stuck: bool
+) -> Outcome | None:
+    """Return how a correction has ended; None if it has not.
+
+    Where iterations run out, a last step that was ``stuck`` is good enough.
+    """
     if not np.isfinite(sizes[-1]):
         return Outcome.OVERFLOW
     if sizes[-1] <= tolerance:
         return Outcome.CONVERGED
-    return Outcome.EXHAUSTED if len(sizes) > max_iterations else None
+    if len(sizes) <= max_iterations:
+        return None
+    return Outcome.CONVERGED if stuck else Outcome.EXHAUSTED
 
 
 def _within(

@@ -27,13 +27,11 @@ THROWN = 10.0
 def next_point(
     system: System,
     past: Predictor,
-    direction: Array,
-    scale: Array,
     step: float,
     control: StepControl,
     settler: Settler,
 ) -> tuple[Correction, float]:
-    """Return the next point and the step that led to it.
+    """Return the next point and the step that led to it, ``step`` or a shorter one.
 
     Raises
     ------
@@ -42,26 +40,23 @@ def next_point(
     """
     failures = 0
     while True:
-        predicted = past.predict(step)
-        across = _Across(system, predicted, direction, scale, step, control, settler)
+        across = _Across(system, past, step, control, settler)
         candidate, close = across.settled()
         if candidate.outcome is Outcome.CONVERGED:
-            smooth = turn(candidate, direction, scale) > control.sharpest_turn
-            passed = settler.overlooks(candidate.point, scale, step)
-            passed |= _turned_twice(candidate, past.predict(0.0), direction)
-            passed |= (
-                settler.changed and candidate.orientation == -past.orientation != 0
-            )
-            seen = not passed or step <= control.narrowest
+            smooth = turn(candidate, past.tangent, past.scale) > control.sharpest_turn
+            overlooked = settler.overlooks(candidate.point, past.scale, step)
+            overlooked |= _turned_twice(past, candidate)
+            overlooked |= settler.changed and _branched(past, candidate)
+            seen = not overlooked or step <= control.narrowest
             if (close and smooth and seen) or step <= control.smallest:
                 settler.keep(step)
                 past.orientation = candidate.orientation
                 candidate.linearised.forget()
                 if not smooth:
-                    candidate = _away(candidate, past.predict(0.0), scale, step)
+                    candidate = _away(past, candidate, step)
                 return candidate, step
         elif step <= control.smallest:
-            where = float(past.predict(0.0)[-1])
+            where = float(past.point[-1])
             raise lost("the curve does not go on", where, candidate, control)
         else:
             failures += 1
@@ -76,9 +71,7 @@ class _Across:
     """The plane across a prediction, in which a point is sought and settled."""
 
     system: System
-    predicted: Array
-    direction: Array
-    scale: Array
+    past: Predictor
     step: float
     control: StepControl
     settler: Settler
@@ -89,13 +82,14 @@ class _Across:
         If settling moves it far away, to another branch perhaps, and the system that
         this has made finer has a point close to the prediction, that one is taken.
         """
-        candidate, close = self._found(self.predicted)
+        predicted = self.past.predict(self.step)
+        candidate, close = self._found(predicted)
         if not close:
-            return _directed(candidate, self.direction, self.scale), False
+            return self._directed(candidate), False
         settled = self._kept(candidate)
         far = max(0.5 * self.step, self.control.shift)
-        if self._away(settled, self.predicted) > far:
-            again, close = self._found(self.predicted)
+        if distance(settled.point, predicted, self.past.scale) > far:
+            again, close = self._found(predicted)
             settled = self._kept(again) if close else settled
         return self._straight(settled)
 
@@ -105,12 +99,13 @@ class _Across:
         Before a corner, and with the shortest steps that matter, it is what it is.
         """
         while settled.tangent is not None and self.step > self.control.narrowest:
-            guess = self.settler.straightened(settled, self.scale)
+            guess = self.settler.straightened(settled, self.past.scale)
             if guess is None:
                 break
             again, close = self._found(guess)
             settled = self._kept(again) if close else settled
-            if not close or turn(settled, self.direction, self.scale) < ASKEW:
+            along = turn(settled, self.past.tangent, self.past.scale)
+            if not close or along < ASKEW:
                 return settled, False
         return settled, True
 
@@ -124,56 +119,60 @@ class _Across:
             small=self._small,
         )
         slack = self.control.shift if self.settler.changed else self.control.slack
-        near = self._away(candidate, guess) <= max(0.5 * self.step, slack)
+        away = distance(candidate.point, guess, self.past.scale)
+        near = away <= max(0.5 * self.step, slack)
         return candidate, near and candidate.outcome is Outcome.CONVERGED
 
     def _kept(self, candidate: Correction) -> Correction:
         settled = self.settler.settle(
             candidate, self._normal, self.control.tolerance, self._small
         )
-        return _directed(settled, self.direction, self.scale)
+        return self._directed(settled)
 
-    def _away(self, candidate: Correction, guess: Array) -> float:
-        return distance(candidate.point, guess, self.scale)
+    def _directed(self, candidate: Correction) -> Correction:
+        """Return a converged point with its tangent; failed, if it has none."""
+        if candidate.outcome is not Outcome.CONVERGED:
+            return candidate
+        past = self.past
+        try:
+            turned = tangent(candidate.linearised, past.tangent, past.scale)
+        except SingularError:
+            return replace(candidate, outcome=Outcome.SINGULAR)
+        sign = candidate.linearised.orientation(turned)
+        return replace(candidate, tangent=turned, orientation=sign)
 
     @property
     def _normal(self) -> Array:
-        return plane_across(self.direction, self.scale)
+        return plane_across(self.past.tangent, self.past.scale)
 
     @property
     def _small(self) -> Small | None:
-        return neglected(self.control, lambda _: self.scale)
+        return neglected(self.control, lambda _: self.past.scale)
 
 
-def _directed(candidate: Correction, direction: Array, scale: Array) -> Correction:
-    """Return a converged point with its tangent; failed, if it has none."""
-    if candidate.outcome is not Outcome.CONVERGED:
-        return candidate
-    try:
-        turned = tangent(candidate.linearised, direction, scale)
-    except SingularError:
-        return replace(candidate, outcome=Outcome.SINGULAR)
-    sign = candidate.linearised.orientation(turned)
-    return replace(candidate, tangent=turned, orientation=sign)
-
-
-def _away(candidate: Correction, start: Array, scale: Array, step: float) -> Correction:
-    """Return a point that turns sharply, headed away from ``start`` if that is far.
-
-    What a far shorter step has thrown beyond a corner, in the plane across it, lies on
-    the curve's other side, which may lead away against what continuity would have.
-    """
-    moved = (candidate.point - start) / scale
-    far = float(np.linalg.norm(moved)) > THROWN * step
-    if far and float(moved @ (candidate.along / scale)) < 0.0:
-        return replace(candidate, tangent=-candidate.along)
-    return candidate
-
-
-def _turned_twice(candidate: Correction, start: Array, direction: Array) -> bool:
+def _turned_twice(past: Predictor, candidate: Correction) -> bool:
     """Return whether two folds lie between two points.
 
     The parameter goes back between them, though both tangents lead it the same way.
     """
-    changed = float(candidate.point[-1] - start[-1]) * float(direction[-1])
-    return changed < 0.0 < float(candidate.along[-1] * direction[-1])
+    onwards = float(past.tangent[-1])
+    changed = float(candidate.point[-1] - past.point[-1]) * onwards
+    return changed < 0.0 < float(candidate.along[-1] * onwards)
+
+
+def _branched(past: Predictor, candidate: Correction) -> bool:
+    """Return whether the orientation tells of a branch point between two points."""
+    return candidate.orientation == -past.orientation != 0.0
+
+
+def _away(past: Predictor, candidate: Correction, step: float) -> Correction:
+    """Return a point that turns sharply, headed away from the last if that is far.
+
+    What a far shorter step has thrown beyond a corner, in the plane across it, lies on
+    the curve's other side, which may lead away against what continuity would have.
+    """
+    moved = (candidate.point - past.point) / past.scale
+    far = float(np.linalg.norm(moved)) > THROWN * step
+    if far and float(moved @ (candidate.along / past.scale)) < 0.0:
+        return replace(candidate, tangent=-candidate.along)
+    return candidate

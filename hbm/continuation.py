@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -68,38 +69,34 @@ def trace(
         If the first point or, after the shortest step, a later one does not converge,
         or if shortest steps turn sharply again and again.
     """
-    accepted = correct_at(system, start, control, settler, metric)
-    step = control.initial
+    at = partial(correct_at, system, control=control, settler=settler, metric=metric)
+    accepted = at(start)
     begin = float(start[-1]) if begin is None else begin
     if direction is None:
         direction = np.zeros_like(start)
         direction[-1] = math.copysign(1.0, end - begin)
     scale = metric(accepted.point)
-    direction = _begun(accepted, direction, scale)
-    first = accepted = replace(accepted, tangent=direction, joined=False)
+    along = _begun(accepted, direction, scale)
+    first = accepted = replace(accepted, tangent=along, joined=False)
     accepted.linearised.forget()
     yield accepted
-    low, high = sorted((begin, end))
-    past, went, sharp = Predictor(), 0.0, 0
+    limits = min(begin, end), max(begin, end)
+    past, step, went, sharp = Predictor(), control.initial, 0.0, 0
     for number in range(control.most_points):
-        missed = past.append(accepted.point, direction, scale, went)
+        missed = past.append(accepted.point, along, scale, went)
         if went > 0.0:
             step = control.after(went, missed, past.order, accepted.iterations)
-        candidate, went = next_point(
-            system, past, direction, scale, step, control, settler
-        )
-        sharp = _sharp(sharp, candidate, went, direction, scale, control)
-        if not low < candidate.point[-1] < high:
-            limits = (low, high)
-            yield _border(system, accepted, candidate, limits, control, settler, metric)
+        candidate, went = next_point(system, past, step, control, settler)
+        sharp = _sharp(sharp, past, candidate, went, control)
+        if not limits[0] < candidate.point[-1] < limits[1]:
+            yield _border(accepted, candidate, limits, at)
             return
         if number >= FEWEST and _passes(first, accepted, candidate, scale):
-            closed = correct_at(system, first.point, control, settler, metric)
-            yield replace(closed, tangent=first.tangent)
+            yield replace(at(first.point), tangent=first.tangent)
             return
         scale = metric(candidate.point)
-        direction = candidate.along / float(np.linalg.norm(candidate.along / scale))
-        accepted = replace(candidate, tangent=direction, joined=True)
+        along = candidate.along / float(np.linalg.norm(candidate.along / scale))
+        accepted = replace(candidate, tangent=along, joined=True)
         yield accepted
     raise ContinuationError(
         f"the curve has not come to an end after {control.most_points} points, at "
@@ -128,13 +125,14 @@ def _begun(first: Correction, direction: Array, scale: Array) -> Array:
 
 def _sharp(
     before: int,
+    past: Predictor,
     candidate: Correction,
     went: float,
-    direction: Array,
-    scale: Array,
     control: StepControl,
 ) -> int:
     """Return how many sharp turns were made since steps are about the shortest.
+
+    ``before`` is their number up to the last point, ``went`` the step from there.
 
     Raises
     ------
@@ -144,7 +142,7 @@ def _sharp(
     """
     if went > FEW * control.smallest:
         return 0
-    sharp = turn(candidate, direction, scale) <= control.sharpest_turn
+    sharp = turn(candidate, past.tangent, past.scale) <= control.sharpest_turn
     made = before + int(sharp)
     if made > TURNS:
         raise ContinuationError(
@@ -171,13 +169,10 @@ def _passes(
 
 
 def _border(
-    system: System,
     accepted: Correction,
     candidate: Correction,
     limits: tuple[float, float],
-    control: StepControl,
-    settler: Settler,
-    metric: Metric,
+    corrected: Callable[[Array], Correction],
 ) -> Correction:
     """Return the point exactly on the limit that lies between two points."""
     limit = limits[0] if candidate.point[-1] <= limits[0] else limits[1]
@@ -185,7 +180,7 @@ def _border(
     share = (limit - before) / (after - before)
     guess = accepted.point + share * (candidate.point - accepted.point)
     guess[-1] = limit
-    found = correct_at(system, guess, control, settler, metric)
+    found = corrected(guess)
     point = found.point.copy()
     point[-1] = limit  # not what rounding makes of it
     return replace(found, point=point, tangent=candidate.tangent)

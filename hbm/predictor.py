@@ -24,12 +24,19 @@ class Predictor:
         self._points: list[Array] = []
         self._places: list[float] = []
         self._bends: list[Array] = []
-        self._tangent: Array = np.empty(0)
-        self._scale: Array = np.empty(0)
+        self.tangent: Array = np.empty(0)
+        """at the last point"""
+        self.scale: Array = np.empty(0)
+        """in units of arc there"""
         self.order = 1
         """of the extrapolation that predicted the last point best"""
         self.orientation = 0.0
         """of the last point, as a correction has it"""
+
+    @property
+    def point(self) -> Array:
+        """The last point."""
+        return self._points[0]
 
     def append(self, point: Array, tangent: Array, scale: Array, step: float) -> float:
         """Add a point that lies ``step`` further on, and its unit tangent.
@@ -43,7 +50,7 @@ class Predictor:
             self.order = 1 + int(np.argmin(missed))
         self._points = [point, *self._points][: MOST + 1]
         self._places = [0.0, *(place - step for place in self._places)][: MOST + 1]
-        self._tangent, self._scale = tangent, scale
+        self.tangent, self.scale = tangent, scale
         self._bends = self._differences()
         return min(missed, default=0.0)
 
@@ -51,7 +58,7 @@ class Predictor:
         """Return the divided differences of (x(s) − x(0) − s x'(0))/s²."""
         start, places = self._points[0], self._places[1:]
         bends: list[Array] = [
-            (point - start - place * self._tangent) / place**2
+            (point - start - place * self.tangent) / place**2
             for point, place in zip(self._points[1:], places, strict=True)
         ]
         for width in range(1, len(bends)):
@@ -68,7 +75,7 @@ class Predictor:
         """
         line, *others = islice(self._extrapolated(step), self.order)
         for expected in reversed(others):
-            if distance(expected, line, self._scale) <= STEEPEST * step:
+            if distance(expected, line, self.scale) <= STEEPEST * step:
                 return expected
         return line
 
@@ -79,7 +86,7 @@ class Predictor:
         """
         if not self._points:
             return
-        reached = self._points[0] + step * self._tangent
+        reached = self._points[0] + step * self.tangent
         yield reached
         weight = step**2
         for bend, place in zip(self._bends, self._places[1:], strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +17,8 @@ from microslip_mechanics.problem import Problem
 
 WIDE = 12
 """coordinates from which matrix products are faster than loops that use symmetry"""
+FAINT = 1e-10
+"""share of the largest excitation of a pole, up to which it is rounding"""
 
 
 @dataclass(frozen=True)
@@ -66,27 +68,37 @@ class CondensedStructure:
         Poles that neither the kept coordinates nor the loads ``force`` (loads, dofs)
         reach are dropped: they are not excited.
         """
-        into, back = self.inertial[:, kept], self.inertial_back[kept]
-        slow, slow_back = self.viscous[:, kept], self.viscous_back[kept]
+        into, slow = self.inertial[:, kept], self.viscous[:, kept]
         reach = _share(np.hstack([into, self.poles[:, None] * slow]))
         loaded = _share(self.participation @ force.T)
-        used = (reach > 1e-10) | (loaded > 1e-10)
         square = np.ix_(kept, kept)
-        return CondensedStructure(
-            self.stiffness[square],
-            self.damping[square],
-            self.mass[square],
-            self.poles[used],
-            slow[used],
-            into[used],
-            slow_back[:, used],
-            back[:, used],
-            self.static[:, kept],
-            self.modes[:, used],
-            self.participation[used],
-            self.unheld,
-            np.flatnonzero(reach[used] > 1e-10),
-            self.gyroscopic,
+        seen = replace(
+            self,
+            stiffness=self.stiffness[square],
+            damping=self.damping[square],
+            mass=self.mass[square],
+            viscous=slow,
+            inertial=into,
+            viscous_back=self.viscous_back[kept],
+            inertial_back=self.inertial_back[kept],
+            static=self.static[:, kept],
+            coupled=np.flatnonzero(reach > FAINT),
+        )
+        return seen.with_poles((reach > FAINT) | (loaded > FAINT))
+
+    def with_poles(self, which: NDArray[np.bool_]) -> CondensedStructure:
+        """Return the structure with some of its poles alone."""
+        places = np.cumsum(which) - 1
+        return replace(
+            self,
+            poles=self.poles[which],
+            viscous=self.viscous[which],
+            inertial=self.inertial[which],
+            viscous_back=self.viscous_back[:, which],
+            inertial_back=self.inertial_back[:, which],
+            modes=self.modes[:, which],
+            participation=self.participation[which],
+            coupled=places[self.coupled[which[self.coupled]]],
         )
 
     def possible(self, orders: int) -> NDArray[np.bool_]:

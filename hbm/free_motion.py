@@ -7,7 +7,7 @@ are therefore kept beside y; the others stay condensed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -155,25 +155,8 @@ def free_motion(
         condensed.inertial_back[kept][:, near] * factor,
         modes * factor,
     )
-    return FreeMotion(_without(condensed, near, kept), chosen)
-
-
-def _without(
-    condensed: CondensedStructure, near: NDArray[np.bool_], kept: NDArray[np.int64]
-) -> CondensedStructure:
-    """Return the structure seen by some coordinates, without some of its poles."""
-    far = replace(
-        condensed,
-        poles=condensed.poles[~near],
-        viscous=condensed.viscous[~near],
-        inertial=condensed.inertial[~near],
-        viscous_back=condensed.viscous_back[:, ~near],
-        inertial_back=condensed.inertial_back[:, ~near],
-        modes=condensed.modes[:, ~near],
-        participation=condensed.participation[~near],
-        coupled=np.arange(int(np.count_nonzero(~near))),
-    )
-    return far.restricted(kept, np.zeros((0, len(condensed.static)), complex))
+    none = np.zeros((0, len(condensed.static)), complex)
+    return FreeMotion(condensed.with_poles(~near).restricted(kept, none), chosen)
 
 
 def _coupling(

@@ -108,6 +108,7 @@ class AlternatingFrequencyTime:
         self._tangents = SampledTangents(basis, entries, self._symmetry, signs, samples)
         self._calls = [0]
         self._last: Call | None = None
+        self._frequency = np.nan
         self._moved: tuple[Array, Array] = (
             np.zeros((rows, samples)),
             np.zeros((rows, samples)),
@@ -156,12 +157,12 @@ class AlternatingFrequencyTime:
         self._last = Call(self.calls, motion, coefficients.copy(), force)
         return force
 
-    def by_frequency(self, frequency: float) -> Array:
+    def by_frequency(self) -> Array:
         """Return ∂force/∂ω [N s/rad] of the last call, shape (2H + 1, rank).
 
-        It is that of a steady motion; ``frequency`` is the one that was asked for.
+        It is that of a steady motion.
         """
-        return self._traces.changes() / frequency
+        return self._traces.changes() / self._frequency
 
     def _evaluated(self, coefficients: Array, frequency: float, decay: float) -> Array:
         """Return the force, and fill the buffers."""
@@ -169,7 +170,7 @@ class AlternatingFrequencyTime:
         traces = self._traces
         displacement, velocity = traces.motion(coefficients, frequency, decay)
         displacement += self._offset[:, None]
-        self._moved = displacement, velocity
+        self._moved, self._frequency = (displacement, velocity), frequency
         sample(
             self._points,
             *self._moved,
@@ -194,9 +195,7 @@ class AlternatingFrequencyTime:
         """Of the last call."""
         return self._tangents
 
-    def add_remembered(
-        self, frequency: float, places: NDArray[np.int64], jacobian: Array
-    ) -> None:
+    def add_remembered(self, places: NDArray[np.int64], jacobian: Array) -> None:
         """Add ∂force/∂y of the last call by what the contacts remember.
 
         ``places``, shape ``(2H + 1, rank)``, are the rows and columns of the
@@ -204,10 +203,10 @@ class AlternatingFrequencyTime:
         """
         if self._memory is not None:
             self._memory.add_jacobian(
-                self._points, self._moved, frequency, places, jacobian
+                self._points, self._moved, self._frequency, places, jacobian
             )
 
-    def touched(self, frequency: float, places: NDArray[np.int64]) -> Factors | None:
+    def touched(self, places: NDArray[np.int64]) -> Factors | None:
         """Return what :attr:`tangents` leave out of ∂force/∂y of the last call.
 
         That is of cells in which faces touch or part; None if there are none.
@@ -224,7 +223,7 @@ class AlternatingFrequencyTime:
         if half:
             # the other half, seen by coordinates that it mirrors, is the same again
             found = Touches(found.point, found.place, 2.0 * found.shared)
-        return touch_factors(found, self._basis, frequency, self.samples, places)
+        return touch_factors(found, self._basis, self._frequency, self.samples, places)
 
     @property
     def samples(self) -> int:

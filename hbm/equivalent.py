@@ -124,5 +124,5 @@ def _evaluated(
     count = motion.shape[1]
     cosines, remembered = np.full((3, count), -1), np.zeros((count, count))
     cosines[1] = np.arange(count)
-    contact.add_remembered(frequency, cosines, remembered)
+    contact.add_remembered(cosines, remembered)
     return force, EquivalentContact(stiffness + np.diag(remembered), damping)

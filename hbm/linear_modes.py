@@ -78,7 +78,7 @@ def _about_rest(problem: Problem, relative: RelativeProblem) -> tuple[Array, Arr
     # what contacts remember is a spring for so small a motion about a mean
     cosines = np.full((3, relative.rank), -1)
     cosines[1] = np.arange(relative.rank)
-    contact.add_remembered(1.0, cosines, elastic)
+    contact.add_remembered(cosines, elastic)
     select, structure = relative.selection, problem.structure
     return (
         structure.stiffness + select.T @ elastic @ select,

@@ -72,7 +72,7 @@ class LowOrders:
             frequency,
             self._terms,
         )
-        touched = contact.touched(frequency, self._places)
+        touched = contact.touched(self._places)
         if touched is not None:
             corner += touched.up_to(len(corner)).matrix
         high = self._high.factored(stiffness[low + 1 :], *tangents, frequency)

@@ -39,8 +39,8 @@ class ModalTangents:
             self._terms,
             pole.real,
         )
-        self._contact.add_remembered(pole.imag, self._places, matrix)
-        touched = self._contact.touched(pole.imag, self._places)
+        self._contact.add_remembered(self._places, matrix)
+        touched = self._contact.touched(self._places)
         if touched is not None:
             matrix += touched.matrix
         return matrix

@@ -108,8 +108,8 @@ class HarmonicBalance:
             frequency,
             self._terms,
         )
-        self.contact.add_remembered(frequency, self._places, jacobian)
-        touched = self.contact.touched(frequency, self._places)
+        self.contact.add_remembered(self._places, jacobian)
+        touched = self.contact.touched(self._places)
         if touched is not None:
             jacobian += touched.matrix
         return jacobian
@@ -118,7 +118,7 @@ class HarmonicBalance:
         """Return ∂R/∂ω of the unknowns where the contacts were called."""
         coefficients, frequency = self.split(point)
         change = self._linear.slope(coefficients, frequency)
-        whole = change + self.contact.by_frequency(frequency)
+        whole = change + self.contact.by_frequency()
         slope: Array = whole.ravel()[self._terms.unknowns]
         return slope
 

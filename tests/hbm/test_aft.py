@@ -115,7 +115,7 @@ def test_separated_faces_exchange_no_force() -> None:
     motion = moved(normal=(MEAN, -1.0), first=(SINE, 1.0))
 
     force = contact(motion, FREQUENCY)
-    by_frequency = contact.by_frequency(FREQUENCY)
+    by_frequency = contact.by_frequency()
     cycle = contact.cycle(motion, FREQUENCY)
 
     for each in (

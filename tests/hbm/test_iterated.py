@@ -144,7 +144,7 @@ def test_products_where_faces_part_are_those_of_the_jacobian() -> None:
     low = len(parts.corner)
     corner = linearised.jacobian[:low, :low]
     assert np.abs(parts.corner - corner).max() <= 1e-11 * np.abs(corner).max()
-    assert balance.contact.touched(FREQUENCY, places) is not None
+    assert balance.contact.touched(places) is not None
 
 
 def test_what_takes_too_many_products_is_solved_by_factors(

@@ -123,7 +123,7 @@ def test_without_events_the_tangents_are_those_of_the_law_at_each_sample(
     contact = AlternatingFrequencyTime(points, basis, FourierBasis(HARMONICS, samples))
 
     contact(motion, FREQUENCY)
-    by_frequency = contact.by_frequency(FREQUENCY)
+    by_frequency = contact.by_frequency()
 
     values, rates = waves(samples)
     expected = tangents_at(points, values @ motion, rates @ motion)

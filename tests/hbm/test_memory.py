@@ -143,9 +143,9 @@ def test_tangents_agree_with_differences(kind: int, constant: bool) -> None:
     random = np.random.default_rng(4)
     coefficients = 0.25 * random.normal(size=(7, 3))
     force = points(coefficients, FREQUENCY)
-    change = points.by_frequency(FREQUENCY)
+    change = points.by_frequency()
     remembered = np.zeros((21, 21))
-    points.add_remembered(FREQUENCY, np.arange(21).reshape(7, 3), remembered)
+    points.add_remembered(np.arange(21).reshape(7, 3), remembered)
     assert np.abs(force[:, 1:]).max() > 0.05
     step = 1e-7
     for place in ((0, 0), (3, 1), (6, 2)):

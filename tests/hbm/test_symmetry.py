@@ -56,7 +56,7 @@ def test_half_a_period_says_all_of_the_rig(model: str, law: str, samples: int) -
         moved = size * draw.standard_normal(moves.shape) * moves
         moved[0] = half.rest * draw.uniform(0.5, 1.5)
         pairs = [[each(moved, FREQUENCY) for each in (one, other)]]
-        pairs += [[each.by_frequency(FREQUENCY) for each in (one, other)]]
+        pairs += [[each.by_frequency() for each in (one, other)]]
 
         for found, exact in pairs:
             unit = np.abs(exact).max()
@@ -128,7 +128,7 @@ def test_faces_that_part_in_half_a_period_part_in_the_other_too() -> None:
     for each in (dataclasses.replace(whole, odd=odd), whole):
         contact = each.contact(FourierBasis(3, 64))
         contact(moved, 1.0)
-        touched.append(contact.touched(1.0, places))
+        touched.append(contact.touched(places))
 
     assert touched[0] is not None
     assert touched[1] is not None

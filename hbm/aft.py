@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,10 +13,10 @@ from hbm.fourier import FourierBasis
 from hbm.memory import FrictionMemory, marched
 from hbm.sampled_tangents import SampledTangents
 from hbm.sampling import sample
-from hbm.symmetry import Symmetry, holds, symmetry
+from hbm.symmetry import Symmetry, still_holds, symmetry
 from hbm.tangent_entries import kinds, tangent_entries
 from hbm.touch_factors import Factors, touch_factors
-from hbm.touches import Touches, touches
+from hbm.touches import touches
 from hbm.traces import Traces
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ONE_SIDED, RIGID, ContactPoints
@@ -80,33 +79,21 @@ class AlternatingFrequencyTime:
         MicroslipError
             If a contact is rigid: its traction does not follow from the motion.
         """
-        if (points.friction == RIGID).any():
-            raise MicroslipError(
-                "rigid friction has no force of a given motion: it is solved along a "
-                "frequency or a parameter; give coulomb with a small "
-                "threshold_velocity here"
-            )
-        rows = len(basis)
+        _refuse_rigid(points)
+        rows, samples = len(basis), fourier.samples
         self._points, self._basis, self._fourier = points, basis, fourier
         self._offset = np.zeros(rows) if offset is None else offset
-        entries = tangent_entries(points, pruned)
+        self._odd, self._pruned = odd, pruned
         recalls = bool(marched(points).any())
         self._memory = FrictionMemory(basis, fourier) if recalls else None
-        samples = fourier.samples
-        self._odd, self._pruned = odd, pruned
-        self._symmetry = symmetry(
-            points,
-            self._offset,
-            basis,
-            entries,
-            None if recalls or samples % 2 else odd,
-        )
+        entries = tangent_entries(points, pruned)
+        halves = None if recalls or samples % 2 else odd
+        self._symmetry = symmetry(points, self._offset, basis, entries, halves)
         signs = np.empty(0)
-        if odd is not None and self._symmetry.signs.size:
+        if odd is not None and self._symmetry.holds:
             signs = np.where(odd, -1.0, 1.0)
         self._traces = Traces(basis, fourier, signs)
         self._tangents = SampledTangents(basis, entries, self._symmetry, signs, samples)
-        self._calls = [0]
         self._last: Call | None = None
         self._frequency = np.nan
         self._moved: tuple[Array, Array] = (
@@ -121,7 +108,7 @@ class AlternatingFrequencyTime:
 
         Both share buffers, unless other tangents are needed or a symmetry is lost.
         """
-        alike = not self._symmetry.signs.size or holds(self._symmetry, points, offset)
+        alike = still_holds(self._symmetry, points, offset)
         if not (alike and np.array_equal(kinds(points), kinds(self._points))):
             return AlternatingFrequencyTime(
                 points,
@@ -166,7 +153,6 @@ class AlternatingFrequencyTime:
 
     def _evaluated(self, coefficients: Array, frequency: float, decay: float) -> Array:
         """Return the force, and fill the buffers."""
-        self._calls[0] += 1
         traces = self._traces
         displacement, velocity = traces.motion(coefficients, frequency, decay)
         displacement += self._offset[:, None]
@@ -188,7 +174,7 @@ class AlternatingFrequencyTime:
     @property
     def calls(self) -> int:
         """Number of calls so far: of this one and of what shares its buffers."""
-        return self._calls[0]
+        return self._traces.calls
 
     @property
     def tangents(self) -> SampledTangents:
@@ -215,14 +201,12 @@ class AlternatingFrequencyTime:
         """
         if not (self._points.normal == ONE_SIDED).any():
             return None
-        half = self._symmetry.signs.size > 0
-        seen = self.samples // 2 if half else self.samples
-        found = touches(self._points, *self._moved, seen)
+        found = touches(self._points, *self._moved, self._telling)
         if not found.place.size:
             return None
-        if half:
+        if self._symmetry.holds:
             # the other half, seen by coordinates that it mirrors, is the same again
-            found = Touches(found.point, found.place, 2.0 * found.shared)
+            found = found._replace(shared=2.0 * found.shared)
         return touch_factors(found, self._basis, self._frequency, self.samples, places)
 
     @property
@@ -262,18 +246,23 @@ class AlternatingFrequencyTime:
     def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
         """Return normal forces and energies over one period."""
         self(coefficients, frequency)
-        half = self._symmetry.signs.size > 0
-        seen = self._fourier.samples // (2 if half else 1)
         forces = self._traces.regular.force + self._traces.extra.force
         period = 2.0 * np.pi / frequency
-        cycle = contact_cycle(self._points, self._moved, forces, seen, period)
-        if not half:
-            return cycle
+        cycle = contact_cycle(self._points, self._moved, forces, self._telling, period)
         # in the other half a point does what its mirror image did in this one
-        image = self._symmetry.partners[::3] // 3
-        smallest, largest = cycle.normal_smallest, cycle.normal_largest
-        return replace(
-            cycle,
-            normal_smallest=np.minimum(smallest, smallest[image]),
-            normal_largest=np.maximum(largest, largest[image]),
+        return cycle.joined(self._symmetry.images) if self._symmetry.holds else cycle
+
+    @property
+    def _telling(self) -> int:
+        """Number of samples that tell all: those of half a period with a symmetry."""
+        return self.samples // 2 if self._symmetry.holds else self.samples
+
+
+def _refuse_rigid(points: ContactPoints) -> None:
+    """Raise an error if a contact is rigid."""
+    if (points.friction == RIGID).any():
+        raise MicroslipError(
+            "rigid friction has no force of a given motion: it is solved along a "
+            "frequency or a parameter; give coulomb with a small threshold_velocity "
+            "here"
         )

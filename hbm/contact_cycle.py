@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.refinement import node
 from hbm.transitions import steepness
@@ -31,6 +32,15 @@ class ContactCycle:
     """energy that friction takes out per period [J]"""
     normal_damping: float
     """energy that normal damping takes out per period [J]"""
+
+    def joined(self, images: NDArray[np.int64]) -> ContactCycle:
+        """Return it with the range of forces of each point's image, shape (points,)."""
+        smallest, largest = self.normal_smallest, self.normal_largest
+        return replace(
+            self,
+            normal_smallest=np.minimum(smallest, smallest[images]),
+            normal_largest=np.maximum(largest, largest[images]),
+        )
 
 
 def contact_cycle(

@@ -26,6 +26,16 @@ class Symmetry(NamedTuple):
     """the same for the tangents, shape (entries,) or (0,)"""
     entry_signs: Array
 
+    @property
+    def holds(self) -> bool:
+        """Whether there is one: half a period tells all."""
+        return self.signs.size > 0
+
+    @property
+    def images(self) -> NDArray[np.int64]:
+        """Point that moves like this one did half a period before, shape (points,)."""
+        return self.partners[::3] // 3
+
 
 def symmetry(
     points: ContactPoints,
@@ -50,9 +60,28 @@ def symmetry(
     odd
         Which coordinates have odd harmonics only; None without that symmetry.
     """
-    none = Symmetry(*(np.empty(0, kind) for kind in (int, float, int, float)))
-    if odd is None:
-        return none
+    mirrored = None if odd is None else _mirrored(points, offset, basis, odd)
+    turned = None if mirrored is None else _turned(entries, mirrored[0])
+    if mirrored is None or turned is None:
+        return Symmetry(*(np.empty(0, kind) for kind in (int, float, int, float)))
+    partners, signs = mirrored
+    return Symmetry(
+        partners, signs, turned, signs[entries[:, 0]] * signs[entries[:, 1]]
+    )
+
+
+def still_holds(symmetry: Symmetry, points: ContactPoints, offset: Array) -> bool:
+    """Return whether each point still has the law of its image, if there was one."""
+    if not symmetry.holds:
+        return True
+    laws, sizes = _laws(points, offset)
+    return np.allclose(laws, laws[:, symmetry.images], rtol=0.0, atol=CLOSE * sizes)
+
+
+def _mirrored(
+    points: ContactPoints, offset: Array, basis: Array, odd: NDArray[np.bool_]
+) -> tuple[NDArray[np.int64], Array] | None:
+    """Return partner and sign of each row; None if a point has no mirror image."""
     later = (basis * np.where(odd, -1.0, 1.0)).reshape(len(basis) // 3, 3, len(odd))
     faces = basis.reshape(later.shape)
     close = CLOSE * np.abs(basis).max(initial=0.0)
@@ -65,30 +94,23 @@ def symmetry(
         alike = np.isclose(laws, laws[:, [point]], rtol=0.0, atol=CLOSE * sizes)
         images = (away <= close) & alike.all(axis=0)
         if not images.any():
-            return none
+            return None
         image = point if images[point] else int(images.argmax())
         rows = slice(3 * point, 3 * point + 3)
         partners[rows], signs[rows] = 3 * image + np.arange(3), sign[image]
+    return partners, signs
+
+
+def _turned(
+    entries: NDArray[np.int64], partners: NDArray[np.int64]
+) -> NDArray[np.int64] | None:
+    """Return the partner of each tangent; None if one has none."""
     places = {tuple(entry): place for place, entry in enumerate(entries.tolist())}
     turned = [
         places.get((int(partners[row]), int(partners[column]), kind), -1)
         for row, column, kind in entries.tolist()
     ]
-    if -1 in turned:
-        return none
-    return Symmetry(
-        partners,
-        signs,
-        np.array(turned, dtype=int),
-        signs[entries[:, 0]] * signs[entries[:, 1]],
-    )
-
-
-def holds(symmetry: Symmetry, points: ContactPoints, offset: Array) -> bool:
-    """Return whether each point still has the law of its mirror image."""
-    laws, sizes = _laws(points, offset)
-    images = symmetry.partners[::3] // 3
-    return np.allclose(laws, laws[:, images], rtol=0.0, atol=CLOSE * sizes)
+    return None if -1 in turned else np.array(turned, dtype=int)
 
 
 def _laws(points: ContactPoints, offset: Array) -> tuple[Array, Array]:

@@ -25,6 +25,8 @@ class Traces:
         rows, rank = basis.shape
         samples = fourier.samples
         self._basis, self._fourier, self._signs = basis, fourier, signs
+        self.calls = 0
+        """number of motions so far: the buffers have what the last one made"""
         self._direct = rows == rank and np.array_equal(basis, np.eye(rows))
         self._half = samples // 2 if signs.size else samples
         self._orders = np.arange(1, fourier.harmonics + 1)[:, None]
@@ -59,6 +61,7 @@ class Traces:
         A motion that dies away at the rate ``decay`` is slower by as much of what moves
         about the mean.
         """
+        self.calls += 1
         rank, series = self._basis.shape[1], self._series
         turning = frequency * self._orders
         series[:, :rank] = coefficients

@@ -100,7 +100,7 @@ def _stuck(problem: RelativeProblem, frequency: float) -> float:
     stiffness = problem.condensed.dynamic_stiffness(variable)
     contact = problem.contact(PROBE)
     contact(np.vstack([problem.rest, np.zeros((10, problem.rank))]), frequency)
-    elastic, viscous = (part[:, :, 0] for part in contact.tangents.spectra(0))
+    elastic, viscous = contact.tangents.means()
     matrix = stiffness[0] + elastic + variable[0] * viscous
     moved = np.linalg.lstsq(matrix, _load(problem, frequency), rcond=None)[0]
     return max(largest(moved), 1e-12)

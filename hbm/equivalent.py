@@ -118,11 +118,4 @@ def _evaluated(
     fourier = FourierBasis(1, samples)
     contact = AlternatingFrequencyTime(points, np.eye(motion.shape[1]), fourier)
     force = contact(motion, frequency)
-    stiffness, damping = (
-        np.diagonal(each[..., 0]) for each in contact.tangents.spectra(0)
-    )
-    count = motion.shape[1]
-    cosines, remembered = np.full((3, count), -1), np.zeros((count, count))
-    cosines[1] = np.arange(count)
-    contact.add_remembered(cosines, remembered)
-    return force, EquivalentContact(stiffness + np.diag(remembered), damping)
+    return force, EquivalentContact(*map(np.diagonal, contact.small_tangents()))

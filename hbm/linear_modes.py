@@ -74,11 +74,7 @@ def _about_rest(problem: Problem, relative: RelativeProblem) -> tuple[Array, Arr
     """Return stiffness and damping of the structure with its contacts at rest."""
     contact = relative.contact(FourierBasis(1, 8))
     contact(np.vstack([relative.rest, np.zeros((2, relative.rank))]), 1.0)
-    elastic, viscous = (part[:, :, 0].copy() for part in contact.tangents.spectra(0))
-    # what contacts remember is a spring for so small a motion about a mean
-    cosines = np.full((3, relative.rank), -1)
-    cosines[1] = np.arange(relative.rank)
-    contact.add_remembered(cosines, elastic)
+    elastic, viscous = contact.small_tangents()
     select, structure = relative.selection, problem.structure
     return (
         structure.stiffness + select.T @ elastic @ select,

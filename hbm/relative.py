@@ -175,7 +175,7 @@ def held_mean_positions(problem: RelativeProblem) -> Array:
         FourierBasis(1, 8)
     )
     contact(np.vstack([problem.rest, np.zeros((2, rank))]), 1.0)
-    held = problem.condensed.stiffness + contact.tangents.spectra(0)[0][:, :, 0]
+    held = problem.condensed.stiffness + contact.tangents.means()[0]
     sizes, directions = np.linalg.eigh((held + held.T) / 2.0)
     largest = max(float(sizes[-1]), np.finfo(float).tiny)
     loose = directions[:, np.abs(sizes) <= 1e-11 * largest]

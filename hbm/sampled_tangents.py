@@ -70,6 +70,11 @@ class SampledTangents:
         elastic, viscous = series.reshape(shape)
         return elastic, viscous
 
+    def means(self) -> tuple[Array, Array]:
+        """Return the means of ∂force/∂y and ∂force/∂ẏ, shape (rank, rank) each."""
+        elastic, viscous = self.spectra(0)
+        return elastic[:, :, 0], viscous[:, :, 0]
+
     def product(self) -> TangentProduct:
         """Return what multiplies motions by the tangents."""
         rank, signs = self._rank, self._signs

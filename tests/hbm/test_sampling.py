@@ -161,7 +161,7 @@ def test_the_mean_tangent_is_the_share_of_the_period_in_contact(mean: float) -> 
     shares = []
     for phase in PHASES:
         contact(motion(phase, mean=mean, across=across), FREQUENCY)
-        shares.append(contact.tangents.spectra(0)[0][0, 0, 0] / stiffness)
+        shares.append(contact.tangents.means()[0][0, 0] / stiffness)
 
     # A place between two samples is off by an eighth of the cell's curvature: 2e-4.
     exact = np.arccos(-mean / across) / np.pi
@@ -179,7 +179,7 @@ def test_the_mean_damping_is_the_share_of_the_period_that_sticks(ratio: float) -
     for phase in PHASES:
         contact(motion(phase), FREQUENCY)
         damper = FRICTION * LOAD / (ratio * SPEED)
-        shares.append(contact.tangents.spectra(0)[1][1, 1, 0] / damper)
+        shares.append(contact.tangents.means()[1][1, 1] / damper)
 
     # The velocity is linear within a cell: its slope is off by (h / 2)² / 6, 4e-4.
     exact = 2.0 * np.arcsin(ratio) / np.pi

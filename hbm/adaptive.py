@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -85,6 +87,15 @@ class AdaptiveBalance:
         """Return residual and derivative at the present resolution."""
         self._effort.spend(self.fourier.harmonics)
         return self._resolution.at(self.fourier)(point)
+
+    @contextlib.contextmanager
+    def resolved(self, fourier: FourierBasis) -> Iterator[None]:
+        """Take another resolution for a while."""
+        own, self.fourier = self.fourier, fourier
+        try:
+            yield
+        finally:
+            self.fourier = own
 
     def restart(self, harmonics: int) -> None:
         """Begin anew with so many harmonics, or the most, unless they are fixed."""

@@ -31,7 +31,7 @@ def fold_error(
     Parameters
     ----------
     system
-        At the resolution of the segment; is left at that of the fold.
+        Of the curve, which settled the fold last.
     segment
         The step in which the fold was found.
     fold
@@ -40,14 +40,15 @@ def fold_error(
         Change of :func:`~hbm.segment.folds` along the segment.
     """
     error = system.report.aside
-    point, system.fourier, _ = system.report.kept(fold.point)
+    point, fourier, _ = system.report.kept(fold.point)
     step, near = segment.length * fold.along, PRECISION * segment.length
     if segment.after.turns:
         return error + abs(folds(fold) * segment.length)
-    doubt = _turns(segment, point, step, near)
-    if doubt is None:
-        return None
-    at = segment.across(point, near)
+    with system.resolved(fourier):
+        doubt = _turns(segment, point, step, near)
+        if doubt is None:
+            return None
+        at = segment.across(point, near)
     return error + doubt + folds(at) ** 2 / bend if at else math.inf
 
 

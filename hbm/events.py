@@ -55,23 +55,19 @@ class Events:
         self, before: Settled, after: Settled, metric: Metric
     ) -> Iterator[Event]:
         """Yield the events between two neighbouring points, in their order."""
-        fourier = self.system.fourier
-        self.system.fourier = self.system.settled
         segment = self._segment(before.correction, after.correction, metric)
-        found = [
-            *self._folded(segment),
-            *self._peaks(before, after, metric),
-            *self._changes(segment, before, after),
-        ]
-        for each in in_order(found, segment, owed=before.owes):
-            self.system.fourier = each.fourier
-            settled = self._settled(each, segment, metric)
-            if settled is None:
-                continue
-            told = self._told(each, settled, segment, metric)
-            if told is not None:
-                yield told
-        self.system.fourier = fourier
+        with self.system.resolved(self.system.settled):
+            some = self._fold(segment), self._peak(before, after, metric)
+            found = [each for each in some if each is not None]
+            found += self._changes(segment, before, after)
+            for each in in_order(found, segment, owed=before.owes):
+                self.system.fourier = each.fourier
+                settled = self._settled(each, segment, metric)
+                if settled is None:
+                    continue
+                told = self._told(each, settled, segment, metric)
+                if told is not None:
+                    yield told
 
     def directed(self, settled: Settled, metric: Metric) -> Settled:
         """Return a settled point with how its largest amplitude grows.
@@ -83,11 +79,10 @@ class Events:
         reported, fourier = self.system.report.reported(correction, scale)
         growth, solved = self.growth(reported), self.growth(correction)
         if growth * solved < 0.0:
-            back, self.system.fourier = self.system.fourier, fourier
-            about = self._segment(reported, reported, metric)
-            reported = about.across(reported.point, PRECISION) or reported
+            with self.system.resolved(fourier):
+                about = self._segment(reported, reported, metric)
+                reported = about.across(reported.point, PRECISION) or reported
             growth = self.growth(reported)
-            self.system.fourier = back
         return settled._replace(reported=reported, fourier=fourier, growth=growth)
 
     def _segment(
@@ -125,10 +120,8 @@ class Events:
 
         return placed_fold(self.system, self.growth, segment, settled, settle)
 
-    def _peaks(
-        self, before: Settled, after: Settled, metric: Metric
-    ) -> Iterator[Found]:
-        """Yield where the amplitude is largest.
+    def _peak(self, before: Settled, after: Settled, metric: Metric) -> Found | None:
+        """Return where the amplitude is largest.
 
         With the resolution of the points as they are reported, unless that of the curve
         has it at the same place: what hardly changes an amplitude may well move the
@@ -136,34 +129,32 @@ class Events:
         """
         growth = before.growth, after.growth
         if not growth[0] > 0.0 > growth[1]:
-            return
-        ends, solved = (before.reported, after.reported), self.system.fourier
+            return None
+        ends = before.reported, after.reported
+        fourier = max(before.fourier, after.fourier, key=by_harmonics)
         settled = before.correction, after.correction
         coarse = self.growth(settled[0]), self.growth(settled[1])
         if coarse[0] > 0.0 > coarse[1] and abs(_zero(coarse) - _zero(growth)) < ASIDE:
-            ends, growth = settled, coarse
-        else:
-            self.system.fourier = max(before.fourier, after.fourier, key=by_harmonics)
+            ends, growth, fourier = settled, coarse, self.system.fourier
         segment = self._segment(*ends, metric)
-        located = segment.locate(self.growth, growth)
+        with self.system.resolved(fourier):
+            located = segment.locate(self.growth, growth)
         sizes = self.growth.largest(*(each.point for each in ends))
-        nearer, fourier = ends[int(sizes.argmax())], self.system.fourier
-        yield from found_between("peak", segment, located, nearer, growth, fourier)
-        self.system.fourier = solved
+        nearer = ends[int(sizes.argmax())]
+        return found_between("peak", segment, located, nearer, growth, fourier)
 
-    def _folded(self, segment: Segment) -> Iterator[Found]:
-        """Yield where the curve folds, at a corner too."""
+    def _fold(self, segment: Segment) -> Found | None:
+        """Return where the curve folds, at a corner too."""
+        fourier = self.system.fourier
         if segment.after.turns:
-            yield Found(0.0, "fold", segment.before, self.system.fourier)
-            return
+            return Found(0.0, "fold", segment.before, fourier)
         slopes = folds(segment.before), folds(segment.after)
         if not slopes[0] * slopes[1] < 0.0:
-            return
+            return None
         located = segment.locate(folds, leaps=True)
         ends = segment.before, segment.after
         nearer = max(ends, key=lambda each: slopes[0] * each.point[-1])
-        fourier = self.system.fourier
-        yield from found_between("fold", segment, located, nearer, slopes, fourier)
+        return found_between("fold", segment, located, nearer, slopes, fourier)
 
     def _told(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric

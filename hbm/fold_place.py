@@ -125,7 +125,6 @@ def _slope(
     point, fourier, _ = system.report.kept(settled.point)
     if fourier == system.settled or fourier.harmonics > MARKED:
         return None
-    back, system.fourier = system.fourier, fourier
-    at = segment.across(point, PRECISION * segment.length)
-    system.fourier = back
+    with system.resolved(fourier):
+        at = segment.across(point, PRECISION * segment.length)
     return folds(at) if at else None

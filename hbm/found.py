@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from hbm.correction import Correction
@@ -41,20 +41,20 @@ def found_between(
     nearer: Correction,
     values: tuple[float, float],
     fourier: FourierBasis,
-) -> Iterator[Found]:
-    """Yield a peak or a fold of a segment, at the ``nearer`` end if it is not located.
+) -> Found | None:
+    """Return a peak or a fold of a segment, at the ``nearer`` end if it is not located.
 
+    None if the segment does not go on along the tangent at its first point.
     ``values``, at both ends, are those of what is zero there; ``fourier`` is the
     resolution with which it was located.
     """
     length = segment.length
     if length <= 0.0:
-        return
+        return None
     bend = abs(values[1] - values[0]) / length
     if located is None:
-        yield _unlocated(name, segment, nearer, fourier, bend)
-    else:
-        yield Found(segment.place(located.point), name, located, fourier, bend)
+        return _unlocated(name, segment, nearer, fourier, bend)
+    return Found(segment.place(located.point), name, located, fourier, bend)
 
 
 def in_order(found: Sequence[Found], segment: Segment, *, owed: bool) -> list[Found]:

@@ -1,5 +1,6 @@
 """Peaks and folds lie no farther from their true places than their errors say."""
 
+import contextlib
 import functools
 from collections.abc import Callable
 from typing import Any
@@ -159,9 +160,9 @@ def test_other_points_have_no_such_error() -> None:
 class Graph:
     """The curve p = f(x) of points (x, p), each of which is as it is reported."""
 
-    fourier = None
     aside = 1e-3
     """error of the parameter by resolution"""
+    resolved = contextlib.nullcontext
 
     def __init__(
         self, height: Callable[[float], float], slope: Callable[[float], float]
@@ -220,8 +221,9 @@ def test_what_is_not_located_is_aside_by_no_more_than_is_told(
     segment = graph.segment(before, graph.at(after))
 
     ends, fourier = (folds(segment.before), folds(segment.after)), FourierBasis(1, 8)
-    (found,) = found_between("fold", segment, None, segment.after, ends, fourier)
+    found = found_between("fold", segment, None, segment.after, ends, fourier)
 
+    assert found is not None
     # the fold lies at p = 1, that far beyond the point
     assert after**2 <= found.aside < 0.15
     assert found.place == pytest.approx(segment.length)

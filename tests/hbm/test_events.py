@@ -1,5 +1,6 @@
 """What multipliers that are known in closed form do between two points of a curve."""
 
+import contextlib
 from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
@@ -27,6 +28,7 @@ class Line:
     """The curve x = a + 2 p, with what an adaptive balance has besides a residual."""
 
     fourier = settled = FOURIER
+    resolved = contextlib.nullcontext
     component = -1
     """that runs from 0 to 1"""
     aside = 0.0

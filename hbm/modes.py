@@ -13,12 +13,13 @@ from hbm.adaptive import AdaptiveBalance
 from hbm.condensation import condense
 from hbm.correction import Correction
 from hbm.errors import ContinuationError, placed
-from hbm.fourier import FourierBasis, derivative
+from hbm.fourier import derivative
 from hbm.free_motion import free_motion
 from hbm.leaps import Leaping
 from hbm.linear_modes import FreeDecay, LinearMode, linear_modes
 from hbm.modal_parts import Reference
 from hbm.modal_resolution import ModalResolution
+from hbm.mode_options import ModeOptions
 from hbm.one_thread import one_thread
 from hbm.relative import relative_problem
 from hbm.step_control import StepControl
@@ -32,46 +33,6 @@ SHORTEST = 1e-5
 """arc length below which a gap is passed"""
 SHARPEST = 0.9
 """cosine of the sharpest turn in a step: strands of a narrow fold are told apart"""
-
-
-@dataclass(frozen=True, slots=True)
-class ModeOptions:
-    """Amplitudes, resolution and accuracy of a nonlinear mode."""
-
-    smallest: float
-    """first amplitude [m], of the linear mode's share in the motion"""
-    largest: float
-    """last amplitude [m], likewise: where the shape changes, probes have another one"""
-    error: float = 1e-2
-    """of the damping ratio at each point, relative, of the frequency a hundredth of it:
-    harmonics follow from it"""
-    harmonics: int | None = None
-    """fixed number instead"""
-    tolerance: float = 1e-7
-    """largest unbalanced force over modal stiffness times amplitude"""
-
-    def __post_init__(self) -> None:
-        """Check the range."""
-        if not 0.0 < self.smallest < self.largest < math.inf:
-            raise ValueError(
-                f"amplitudes from {self.smallest:g} to {self.largest:g} m: "
-                "give two positive ones, the smaller first"
-            )
-        for name in ("error", "tolerance"):
-            value = getattr(self, name)
-            if not 0.0 < value < math.inf:
-                raise ValueError(f"{name} {value:g}: give a positive number")
-        if self.harmonics is not None and self.harmonics < 1:
-            raise ValueError(
-                f"harmonics {self.harmonics}: give at least 1, or None for as many as "
-                "the error asks for"
-            )
-
-    @property
-    def first(self) -> FourierBasis:
-        """Resolution of the first point."""
-        harmonics = self.harmonics or 3
-        return FourierBasis(harmonics, 64 * (harmonics + 1))
 
 
 @dataclass(frozen=True, slots=True)

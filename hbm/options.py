@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hbm.adaptive import HARMONICS
+from hbm.checks import check_harmonics, check_positive
 from hbm.fourier import FourierBasis
 from hbm.step_control import StepControl
 
@@ -64,13 +65,9 @@ class CurveOptions:
             )
         for name in POSITIVE:
             value = getattr(self, name)
-            if value is not None and not 0.0 < value < np.inf:
-                raise ValueError(f"{name} {value:g}: give a positive number")
-        if self.harmonics is not None and self.harmonics < 1:
-            raise ValueError(
-                f"harmonics {self.harmonics}: give at least 1, or None for as many as "
-                "the error asks for"
-            )
+            if value is not None:
+                check_positive(name, value)
+        check_harmonics(self.harmonics)
         if self.samples is not None and self.harmonics is None:
             raise ValueError("samples without harmonics: give both, or harmonics alone")
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.branches import Branching
+from hbm.checks import check_positive
 from hbm.condensation import CondensedStructure
 from hbm.dense_problem import dense_problem, resolved_up_to
 from hbm.detached import Search, Sought
@@ -133,8 +134,7 @@ def detached(
     ValueError
         If the effort is not positive.
     """
-    if not 0.0 < effort < np.inf:
-        raise ValueError(f"effort {effort:g}: give a positive number")
+    check_positive("effort", effort)
     small, still, shapes = dense_problem(problem, rest, resolved_up_to(options))
     path = along_frequency(small, still, options.start, options.end)
     shares = (np.arange(frequencies) + 0.5) / frequencies

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import scipy.integrate
 
-from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
+from hbm.mode_options import ModeOptions
+from hbm.modes import NonlinearMode, modes_in_range, nonlinear_mode
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
-from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
+from hbm.mode_options import ModeOptions
+from hbm.modes import modes_in_range, nonlinear_mode
 from hbm.one_harmonic import one_harmonic_response
 from hbm.poles import poles
 from memory_problems import JENKINS, LIMIT, STIFFNESS

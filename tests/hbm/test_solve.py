@@ -8,7 +8,7 @@ import pytest
 from contact_tables import contact_points
 from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis, to_complex
-from hbm.modes import ModeOptions
+from hbm.mode_options import ModeOptions
 from hbm.options import CurveOptions
 from hbm.periodic_response import periodic_response, settled_response
 from hbm.relative import relative_problem

@@ -10,7 +10,8 @@ from typing import Any, TypeAlias
 import numpy as np
 import pytest
 
-from hbm.modes import ModeOptions, modes_in_range, nonlinear_mode
+from hbm.mode_options import ModeOptions
+from hbm.modes import modes_in_range, nonlinear_mode
 from microslip.commands.decay_tables import cycles
 from microslip.experiments import March
 from microslip.quantity import SceneError

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from hbm.errors import ContinuationError
-from hbm.modes import ModeOptions, NonlinearMode, nonlinear_mode
+from hbm.mode_options import ModeOptions
+from hbm.modes import NonlinearMode, nonlinear_mode
 from microslip.cli import main
 from microslip.mode_lines import mode_lines
 from microslip.studies.modes import followed

@@ -13,7 +13,8 @@ from microslip.commands.written import written
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from hbm.modes import ModeOptions, NonlinearMode
+    from hbm.mode_options import ModeOptions
+    from hbm.modes import NonlinearMode
     from microslip.progress import Watch
     from microslip.studies.modes import FollowedMode
     from microslip_mechanics.problem import Problem
@@ -147,7 +148,7 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
     SceneError
         If they make no sense.
     """
-    from hbm.modes import ModeOptions
+    from hbm.mode_options import ModeOptions
     from microslip.quantity import SceneError
 
     if options.range and not options.range[0] < options.range[1]:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from hbm.errors import ContinuationError
 from hbm.linear_modes import LinearMode
-from hbm.modes import ModeOptions, NonlinearMode, modes_in_range, nonlinear_mode
+from hbm.mode_options import ModeOptions
+from hbm.modes import NonlinearMode, modes_in_range, nonlinear_mode
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.quantity import SceneError

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.continuation import trace
-from hbm.corner import round_corner
+from hbm.cornered import Cornered
 from hbm.correction import Correction
 from hbm.effort import Effort
 from hbm.errors import PLACE, ContinuationError
@@ -21,12 +20,6 @@ from microslip_mechanics.arrays import Array
 
 RESTARTS = 6
 """that a curve may take before it is given up"""
-REMEMBERED = 60
-"""points behind the last one, by which the way to a corner is known"""
-CORNERS = 30
-"""that a piece may turn round before it is given up"""
-AHEAD = (0.0, 1e-3, 1e-2)
-"""arc lengths beyond the point behind a corner at which the curve is taken up again"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,59 +149,14 @@ class Pieces:
 
     def _cornered(self, guess: Array, heading: float) -> Iterator[Correction]:
         """Yield corrections of one piece, round its corners."""
-        direction: Array | None = None
-        turns = False
-        way: deque[Correction] = deque(maxlen=REMEMBERED)
-        for corner in range(CORNERS + 1):
-            try:
-                for correction in self._taken_up(guess, heading, direction):
-                    joined = correction.joined or direction is not None
-                    way.append(replace(correction, joined=joined, turns=turns))
-                    yield way[-1]
-                    turns = False
-            except ContinuationError:
-                if not way or corner == CORNERS:
-                    raise
-                turned = round_corner(
-                    self.system, way, self.metric, self.control.tolerance
-                )
-                if turned is None:
-                    raise
-                guess, direction, turns = turned
-            else:
-                return
-
-    def _taken_up(
-        self, guess: Array, heading: float, direction: Array | None
-    ) -> Iterator[Correction]:
-        """Yield the corrections from a guess, behind a corner in a ``direction``.
-
-        With more harmonics the corner may lie a little further on: what is before it
-        has a tangent along which the parameter goes back, and is passed over.
-        """
-        if direction is None:
-            yield from self._traced(guess, heading, None)
-            return
-        for ahead in AHEAD:
-            traced = self._traced(guess + ahead * direction, heading, direction)
-            first = next(traced)
-            if first.along[-1] * direction[-1] >= 0.0:
-                break
-        yield first
-        yield from traced
-
-    def _traced(
-        self, guess: Array, heading: float, direction: Array | None
-    ) -> Iterator[Correction]:
-        return trace(
+        yield from Cornered(
             self.system,
             guess,
             heading,
-            metric=self.metric,
-            control=self.control,
-            settler=self.system,
-            begin=self.start if heading == self.end else self.end,
-            direction=direction,
+            self.start if heading == self.end else self.end,
+            self.metric,
+            self.control,
+            self.system,
         )
 
     def _onwards(self, last: Correction | None, heading: float) -> float:

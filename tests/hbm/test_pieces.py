@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-import hbm.pieces
+import hbm.cornered
 from hbm.along_parameter import AlongParameter
+from hbm.corner import Turned
+from hbm.cornered import Cornered
 from hbm.correction import Correction, Outcome
 from hbm.effort import Effort
 from hbm.errors import ContinuationError
@@ -64,8 +66,8 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
         if reached != end:
             raise ContinuationError(f"the curve does not go on at {place:g}")
 
-    monkeypatch.setattr("hbm.pieces.trace", trace)
-    monkeypatch.setattr("hbm.pieces.round_corner", lambda *_: None)
+    monkeypatch.setattr("hbm.cornered.trace", trace)
+    monkeypatch.setattr("hbm.cornered.round_corner", lambda *_: None)
     monkeypatch.setattr(
         "hbm.restart.approaches", lambda *_, **__: (np.array([[y]]) for y in (0.0, 0.9))
     )
@@ -149,7 +151,7 @@ def test_a_curve_that_stops_is_followed_from_the_other_end(
 def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.pieces)["trace"]
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.cornered)["trace"]
 
     def trace(
         system: Any, start: Array, end: float, **options: Any
@@ -157,7 +159,7 @@ def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
         back = 1.0 if start[-1] == 1.0 else end
         return traced(system, start, back, **options)
 
-    monkeypatch.setattr("hbm.pieces.trace", trace)
+    monkeypatch.setattr("hbm.cornered.trace", trace)
     monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
@@ -197,7 +199,7 @@ def returned(
                 point, residual, linearised, Outcome.CONVERGED, (0.0,), along
             )
 
-    monkeypatch.setattr("hbm.pieces.trace", trace)
+    monkeypatch.setattr("hbm.cornered.trace", trace)
     return begun
 
 
@@ -224,7 +226,7 @@ def test_what_lies_between_curves_that_turn_back_and_is_not_found_is_told(
 def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.pieces)["trace"]
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.cornered)["trace"]
 
     def trace(
         system: Any, start: Array, end: float, **options: Any
@@ -233,7 +235,7 @@ def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
             raise ContinuationError("no response is found at 0")
         return traced(system, start, end, **options)
 
-    monkeypatch.setattr("hbm.pieces.trace", trace)
+    monkeypatch.setattr("hbm.cornered.trace", trace)
     monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
 
     points = [each.point for each in pieces(0.0, 1.0)]
@@ -329,10 +331,15 @@ def test_behind_a_corner_a_piece_does_not_lead_back(
         residual, linearised = system(start)
         along = np.array([0.0, 1.0 if start[-1] > corner else -1.0])
         yield Correction(start, residual, linearised, Outcome.CONVERGED, (0.0,), along)
+        if start[-1] == 0.0:
+            raise ContinuationError("the curve does not go on")
 
-    monkeypatch.setattr("hbm.pieces.trace", trace)
-    begin, along = np.array([1.0, 0.3]), np.array([0.0, 1.0])
+    turned = Turned(np.array([1.0, 0.3]), np.array([0.0, 1.0]), folds=True)
+    monkeypatch.setattr("hbm.cornered.trace", trace)
+    monkeypatch.setattr("hbm.cornered.round_corner", lambda *_: turned)
+    square, start = Square(), np.array([1.0, 0.0])
 
-    (found,) = pieces(0.0, 1.0)._taken_up(begin, 1.0, along)
+    _, found = Cornered(square, start, 1.0, 0.0, np.ones_like, StepControl(), square)
 
+    assert found.turns
     assert found.point[-1] == pytest.approx(0.3 + ahead)

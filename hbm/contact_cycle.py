@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.refinement import node
-from hbm.transitions import steepness
+from hbm.steep_edge import steepness
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import (
     contact_force,

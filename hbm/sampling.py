@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from hbm.cell import Samples, Work
 from hbm.refinement import refine
 from hbm.release import lets_go, released
+from hbm.steep_edge import graded, steepness
 from hbm.symmetry import Symmetry
-from hbm.transitions import EVENTS, faded, graded, locate, passes, steepness
+from hbm.transitions import EVENTS, faded, locate, passes
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, edge, regularised
 from microslip_mechanics.contact.points import ContactPoints

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from hbm.cell import Work, write_motion
 from hbm.refinement import node
-from hbm.transitions import EVENTS, locate, steepness
+from hbm.steep_edge import steepness
+from hbm.transitions import EVENTS, locate
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, edge
 from microslip_mechanics.contact.points import ONE_SIDED, ContactPoints

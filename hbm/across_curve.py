@@ -11,7 +11,7 @@ from hbm.correction import Outcome
 from hbm.curve import response
 from hbm.dense_problem import RESOLVED, dense_problem
 from hbm.errors import ContinuationError, hertz, placed
-from hbm.fourier import FourierBasis
+from hbm.fourier import FourierBasis, usual_samples
 from hbm.linearised import SingularError
 from hbm.newton import correct
 from hbm.one_thread import one_thread
@@ -60,7 +60,7 @@ def responses_across(
     with one_thread(), placed(hertz):
         normal = _normal(path, balance, point)
         for harmonics in orders:
-            balance = path.balance(FourierBasis(harmonics, 16 * (harmonics + 1)))
+            balance = path.balance(FourierBasis(harmonics, usual_samples(harmonics)))
             point, normal = _longer(balance, point), _longer(balance, normal)
             found = correct(
                 *(balance, point, normal),

@@ -75,7 +75,7 @@ class AdaptiveBalance:
         self._pushed = pushed
         self._wait, self._effort = 0, effort or Effort()
         self._superharmonics = Superharmonics()
-        self._smoothest, self._sharpest = start.threshold, 0.0
+        self._sharpest = 0.0
         self._choice = ResolutionChoice(tolerance, most, start.threshold)
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
@@ -100,10 +100,8 @@ class AdaptiveBalance:
     def restart(self, harmonics: int) -> None:
         """Begin anew with so many harmonics, or the most, unless they are fixed."""
         if self._tolerance is not None:
-            harmonics = min(harmonics, self._most)
-            samples = max(128, 8 * (harmonics + 1))
-            self.fourier = FourierBasis(harmonics, samples, self._smoothest)
-            self._kept, self._sharpest = self.fourier, 0.0
+            self.fourier = self._kept = self._choice.anew(harmonics)
+            self._sharpest = 0.0
 
     @property
     def changed(self) -> bool:

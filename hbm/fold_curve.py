@@ -14,7 +14,7 @@ from hbm.continuation import trace
 from hbm.correction import Correction
 from hbm.curve import response
 from hbm.fold_balance import FoldBalance, Inner, beyond
-from hbm.fourier import FourierBasis
+from hbm.fourier import FourierBasis, usual_samples
 from hbm.linearised import SingularError
 from hbm.options import CurveOptions
 from hbm.parametric import mirrored
@@ -226,4 +226,4 @@ def _resolution(options: CurveOptions, known: PeriodicResponse) -> FourierBasis:
     if options.harmonics is not None:
         return options.first
     harmonics = min(known.harmonics, HARMONICS)
-    return FourierBasis(harmonics, max(known.samples, 16 * (harmonics + 1)))
+    return FourierBasis(harmonics, max(known.samples, usual_samples(harmonics)))

@@ -51,6 +51,11 @@ class FourierBasis:
         return replace(self, harmonics=orders, samples=samples)
 
 
+def usual_samples(harmonics: int) -> int:
+    """Return the number of samples per period that so many fixed harmonics have."""
+    return 16 * (harmonics + 1)
+
+
 class Transform:
     """Transforms of a fixed number of signals: products by a matrix, or FFTW's.
 

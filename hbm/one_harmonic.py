@@ -11,6 +11,7 @@ import numpy as np
 from hbm.across_curve import responses_across
 from hbm.equivalent import SAMPLES
 from hbm.errors import ContinuationError, hertz
+from hbm.fourier import usual_samples
 from hbm.options import CurveOptions
 from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
@@ -136,7 +137,7 @@ def _at_frequency(
             response = periodic_response(
                 *(problem, rest, response),
                 harmonics=harmonics,
-                samples=16 * (harmonics + 1),
+                samples=usual_samples(harmonics),
             )
             yield response
     except ContinuationError:

@@ -8,7 +8,7 @@ import numpy as np
 
 from hbm.adaptive import HARMONICS
 from hbm.checks import check_harmonics, check_positive
-from hbm.fourier import FourierBasis
+from hbm.fourier import FourierBasis, usual_samples
 from hbm.step_control import StepControl
 
 POSITIVE = (
@@ -75,7 +75,7 @@ class CurveOptions:
     def first(self) -> FourierBasis:
         """Resolution of the first point."""
         harmonics = self.harmonics or 1
-        return FourierBasis(harmonics, self.samples or 16 * (harmonics + 1))
+        return FourierBasis(harmonics, self.samples or usual_samples(harmonics))
 
     def control(self, force_scale: float, drive: float = 0.0) -> StepControl:
         """Return the steps; ``force_scale`` [N] is what forces are compared with.

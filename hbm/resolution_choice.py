@@ -8,8 +8,13 @@ from hbm.fourier import FourierBasis
 from hbm.resolution import Estimate
 
 FEWEST_SAMPLES, MOST_SAMPLES = 32, 16384
+PER_ORDER, ANEW = 8, 128
+"""samples per order at the least, the mean counted: twice what a Jacobian needs; and
+with which a curve begins anew at the least"""
 SPARE = 6.0
 """times that the error may be below its tolerance before less is taken"""
+LITTLE = 1e-3
+"""part of such an error, from which on an eighth of the harmonics is taken, not half"""
 SHARPER = 4.0
 """times that a threshold velocity falls where friction is to be resolved better"""
 MARKED = 127
@@ -39,13 +44,23 @@ class ResolutionChoice:
             share = 1.0
         if self.tolerance is None or estimate.error <= share * self.tolerance:
             return fourier
-        enough = share * self.tolerance / (3.0 if self.smoothest else 2.0)
+        parts = 3.0 if self.smoothest else 2.0  # of an error; all may be as large
+        enough = share * self.tolerance / parts
         finer = self.doubled(
             fourier, estimate.truncation > enough, estimate.sampling > enough
         )
         if estimate.smoothing > enough and finer.threshold > sharpest:
             finer = replace(finer, threshold=finer.threshold / SHARPER)
         return finer
+
+    def anew(self, harmonics: int) -> FourierBasis:
+        """Return the resolution with which a curve begins anew, with so many harmonics.
+
+        Or with the most; friction is as smooth as it may be.
+        """
+        harmonics = min(harmonics, self.most)
+        samples = max(ANEW, PER_ORDER * (harmonics + 1))
+        return FourierBasis(harmonics, samples, self.smoothest)
 
     def doubled(
         self, fourier: FourierBasis, harmonics: bool, samples: bool
@@ -56,7 +71,7 @@ class ResolutionChoice:
             orders = min(2 * orders + 1, self.most)
         if samples:
             count = min(2 * count, MOST_SAMPLES)
-        count = max(count, 8 * (orders + 1))
+        count = max(count, PER_ORDER * (orders + 1))
         return FourierBasis(orders, count, fourier.threshold)
 
     def coarser(self, fourier: FourierBasis, estimate: Estimate) -> FourierBasis:
@@ -67,12 +82,12 @@ class ResolutionChoice:
         enough = self.tolerance / SPARE
         if estimate.truncation < enough:
             harmonics = max(harmonics // 2, 1)
-        if estimate.truncation < 1e-3 * enough:
+        if estimate.truncation < LITTLE * enough:
             harmonics = max(harmonics // 4, 1)
         if estimate.sampling < enough:
             samples //= 2
         threshold = fourier.threshold
         if estimate.smoothing < enough / SHARPER:
             threshold = min(SHARPER * threshold, self.smoothest)
-        samples = max(samples, FEWEST_SAMPLES, 8 * (harmonics + 1))
+        samples = max(samples, FEWEST_SAMPLES, PER_ORDER * (harmonics + 1))
         return FourierBasis(harmonics, samples, threshold)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hbm.fourier import FourierBasis
+from hbm.fourier import FourierBasis, usual_samples
 from hbm.memory import marched
 from hbm.path import AlongFrequency
 from microslip.scene_tables import Scene
@@ -41,7 +41,7 @@ def balance(
     why = "relative motions that move; the structure is condensed exactly"
     yield part("coordinates of harmonic balance", path.rank, whole.rank, why)
     harmonics = scene.curve.harmonics or HARMONICS
-    samples = scene.curve.samples or 16 * (harmonics + 1)
+    samples = scene.curve.samples or usual_samples(harmonics)
     one, every = (each.mask(harmonics) for each in (path, whole))
     why = "symmetry keeps the others at zero"
     name = f"orders of {harmonics} harmonics and the mean"

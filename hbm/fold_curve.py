@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -13,9 +12,9 @@ from hbm.balance import Balance
 from hbm.continuation import trace
 from hbm.correction import Correction
 from hbm.curve import response
+from hbm.finer_fold import FinerFold
 from hbm.fold_balance import FoldBalance, Inner, beyond
 from hbm.fourier import FourierBasis, usual_samples
-from hbm.linearised import SingularError
 from hbm.options import CurveOptions
 from hbm.parametric import mirrored
 from hbm.residual import HarmonicBalance
@@ -26,10 +25,6 @@ from microslip_mechanics.response import MARGIN, PeriodicResponse
 
 HARMONICS = 63
 """most that are solved for, if their number is left open"""
-LITTLE, ROUNDING = 1e-2, 1e-9
-"""part of a change that leaves its size known; units of arc that do not matter"""
-SOON = 10
-"""evaluations in which Newton must find the fold with twice the harmonics"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +64,9 @@ class FoldCurve:
         self._control = options.control(problem.force_scale)
         finer = self._fourier.doubled
         self._system, self._balance = self._planned(self._fourier)
-        self._finer, _ = self._planned(finer)
-        self._missing = (finer.coefficients - self._fourier.coefficients) * path.rank
+        missing = (finer.coefficients - self._fourier.coefficients) * path.rank
+        planned, _ = self._planned(finer)
+        self._finer = FinerFold(planned, missing, self._control.tolerance)
         inner, _ = self._inner(self._balance, options.start)
         relative = known.seen(path.at(options.start)[0].selection)
         start = inner.pushed(inner.point(relative, known.frequency))
@@ -111,7 +107,9 @@ class FoldCurve:
         point = correction.point
         parameter = float(point[-1])
         inner, _ = self._inner(self._balance, parameter)
-        frequency_error, parameter_error = self._errors(correction)
+        frequency_error, parameter_error = self._finer.errors(
+            correction, self._metric(point)
+        )
         made = response(self._problem, inner, replace(correction, point=point[:-1]))
         multipliers, others = self._multipliers(inner, parameter, float(point[-2]))
         return FoldPoint(
@@ -137,33 +135,6 @@ class FoldCurve:
         others = np.delete(multipliers, np.abs(multipliers - 1.0).argmin())
         return multipliers, int((np.abs(others) > 1.0 + MARGIN).sum())
 
-    def _errors(self, correction: Correction) -> tuple[float, float]:
-        """Return the errors of frequency (relative) and parameter.
-
-        They are twice the change by twice the harmonics and samples, in the plane
-        across the curve: where the series converges like 1/H, as much is still missing.
-        They are infinite where Newton does not find that point soon: its residual
-        vanishes, or its steps do, beside what they have changed.
-        """
-        scale, little = self._metric(correction.point), False
-        point = guess = self._widened(correction.point)
-        normal = self._widened(correction.along / scale**2)
-        self._finer.begin(correction)
-        for _ in range(SOON):
-            residual, linearised = self._finer(point)
-            if not np.all(np.isfinite(residual)):
-                break
-            if little or np.abs(residual).max() <= self._control.tolerance:
-                frequency, parameter = 2.0 * np.abs(point - guess)[-2:]
-                return float(frequency / guess[-2]), float(parameter)
-            try:
-                step = linearised.solve(normal, np.append(residual, 0.0))
-            except SingularError:
-                break
-            point = point - step
-            little = _little(step, point - guess, scale)
-        return math.inf, math.inf
-
     def _planned(self, fourier: FourierBasis) -> tuple[FoldBalance, Balance]:
         """Return the extended system at one resolution, and what it extends."""
         balance = self._path.balance(fourier)
@@ -184,10 +155,6 @@ class FoldCurve:
     def _inner(balance: Balance, parameter: float) -> tuple[HarmonicBalance, Array]:
         return balance.at_frequency(np.array([parameter]))
 
-    def _widened(self, point: Array) -> Array:
-        """Return a point, or a row, with room for the harmonics of the finer system."""
-        return np.concatenate([point[:-2], np.zeros(self._missing), point[-2:]])
-
     def _metric(self, point: Array) -> Array:
         """Return the change of each component that counts as one unit of arc.
 
@@ -199,15 +166,6 @@ class FoldCurve:
         scale[:rank] = max(float(np.linalg.norm(point[:rank])), vibration)
         scale[-2:] = 0.1 * point[-2], self._path.unit(float(point[-1]))
         return scale
-
-
-def _little(step: Array, change: Array, scale: Array) -> bool:
-    """Return whether a step moves a fold by rounding, or little beside a change.
-
-    Frequency and parameter tell: the motion at a fold is badly conditioned.
-    """
-    most = LITTLE * np.abs(change[-2:]) + ROUNDING * scale[-2:]
-    return bool(np.all(np.abs(step[-2:]) <= most))
 
 
 def meeting(before: Correction, after: Correction) -> str:

@@ -67,8 +67,8 @@ class Linearisation:
             self._made = self._make()
         return self._made
 
-    def along(self, slope: Array) -> Linearisation:
-        """Return the same, ``slope`` being the derivative by the last component."""
+    def with_slope(self, slope: Array) -> Linearisation:
+        """Return the same with another derivative by the last component."""
         places, last, parts = self._places[:-1], int(self._places[-1]), self.parts
         inner = slope[places]
         return Linearisation(

@@ -77,7 +77,7 @@ class ParametricBalance:
         later = self._residual(ahead)
         balance, inner = self.at_frequency(point)
         residual, linearised = balance(inner)
-        return residual, linearised.along((later - residual) / difference)
+        return residual, linearised.with_slope((later - residual) / difference)
 
     def _residual(self, point: Array) -> Array:
         balance, inner = self.at_frequency(point)

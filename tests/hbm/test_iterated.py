@@ -211,7 +211,7 @@ def test_another_last_component_has_its_own_slope() -> None:
     unit = np.zeros(point.size)
     unit[-1] = 1.0
 
-    found = linearised.along(slope).solve(unit, unit)
+    found = linearised.with_slope(slope).solve(unit, unit)
 
     expected = -np.linalg.solve(linearised.jacobian, slope[unknowns])
     away = np.linalg.norm(found[unknowns] - expected)

@@ -82,7 +82,7 @@ def step_tangents(
     edges = _edges(np.unique(cuts), contact.samples / fewest)
     shortest = contact.samples * SHORTEST
     return StepTangents(
-        *_integrated(contact.points, path, basis, inertia, edges, shortest, CHANGE)
+        *_integrated(contact.points, path, basis, inertia, edges, shortest)
     )
 
 
@@ -106,7 +106,6 @@ def _integrated(
     inertia: Array,
     edges: Array,
     shortest: float,
-    allowed: float,
 ) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
     """Return what :class:`StepTangents` has."""
     rank, count = basis.shape[1], int(0.0)  # kernels are compiled anew for a literal
@@ -127,7 +126,7 @@ def _integrated(
             length = ends[waiting - 1] - begin
             write_moments(points, path, begin, length, moments)
             taken, begins = _taken(
-                moments, inertia, length, shortest, path.length, allowed, held
+                moments, inertia, length, shortest, path.length, held
             )
             if taken < length:
                 ends[waiting] = begin + taken
@@ -151,7 +150,6 @@ def _taken(
     length: float,
     shortest: float,
     sample: float,
-    allowed: float,
     held: NDArray[np.bool_],
 ) -> tuple[float, bool]:
     """Return how much of an interval is taken, and whether a point sticks in it.
@@ -159,7 +157,7 @@ def _taken(
     ``sample`` is the time between two samples; ``held`` is brought up to date if all is
     taken.
     """
-    changes = largest_change(moments, inertia, length * sample) > allowed
+    changes = largest_change(moments, inertia, length * sample) > CHANGE
     if changes and length > 2.0 * shortest:
         return 0.5 * length, False
     brief = BRIEF / SHORTEST * shortest

@@ -14,6 +14,13 @@ PROBE = FourierBasis(5, 64)
 BESIDE = (0.9, 1.0, 1.1)
 """frequencies over the given one, at each of which the drive must reach a coordinate:
 next to a resonance rounding stands out, but not at all of them"""
+SIZES, MEAN = (1e-2, 1.0, 1e2, 1e4), 1e-3
+"""of random motions, over the linear one, from tiny to sliding and lifting off; and of
+their means, over that: faces stay about where they are at rest"""
+STILL = 1e-12
+"""amplitude [m] that such a motion has at least, if no drive reaches the coordinates"""
+ROUNDING = 1e-10
+"""of the largest of several values, up to which one may be rounding"""
 FAINT = 1e-12
 """of the largest load of the drive, below which what reaches a coordinate is rounding:
 a drive in phase does not move the sectors of a disk against each other"""
@@ -42,9 +49,9 @@ def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
         grown[0] |= (coupling[0] & active[0]).any(axis=1)
         coupled = (coupling[1:] & active[1::2, None, :]).any(axis=2)
         grown[1:] |= coupled.repeat(2, axis=0)
-        for size in (1e-2, 1.0, 1e2, 1e4):
+        for size in SIZES:
             motion = size * amplitude * random.normal(size=active.shape) * active
-            motion[0] = problem.rest + 1e-3 * motion[0]
+            motion[0] = problem.rest + MEAN * motion[0]
             with np.errstate(over="ignore", invalid="ignore"):
                 force = contact(motion, frequency)
                 grown |= _large(np.nan_to_num(force - at_rest))
@@ -103,13 +110,13 @@ def _stuck(problem: RelativeProblem, frequency: float) -> float:
     elastic, viscous = contact.tangents.means()
     matrix = stiffness[0] + elastic + variable[0] * viscous
     moved = np.linalg.lstsq(matrix, _load(problem, frequency), rcond=None)[0]
-    return max(largest(moved), 1e-12)
+    return max(largest(moved), STILL)
 
 
 def _large(values: Array | ComplexArray, faint: float = 0.0) -> NDArray[np.bool_]:
     """Return what stands out from rounding, which may be as large as ``faint``."""
     size = np.abs(values)
-    large: NDArray[np.bool_] = size > max(faint, 1e-10 * size.max(initial=0.0))
+    large: NDArray[np.bool_] = size > max(faint, ROUNDING * size.max(initial=0.0))
     return large
 
 
@@ -126,7 +133,7 @@ def _coupling(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
     orders = np.arange(PROBE.harmonics + 1)
     stiffness = problem.condensed.dynamic_stiffness(1j * frequency * orders)
     size = np.abs(stiffness)
-    coupled: NDArray[np.bool_] = size > 1e-10 * size.max(
+    coupled: NDArray[np.bool_] = size > ROUNDING * size.max(
         (1, 2), keepdims=True, initial=0.0
     )
     return coupled

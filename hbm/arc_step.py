@@ -16,6 +16,10 @@ from hbm.settler import Settler
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 
+NEAR = 0.5
+"""of a step, by which a correction may leave the prediction"""
+SHORT = 0.1
+"""of the longest step: where a shorter one fails, earlier points mislead"""
 ASKEW = 0.7
 """cosine between the tangents of a step to a point with more harmonics, by which the
 curve turns where fewer have just begun to mislead; one that turns more is at a corner
@@ -61,7 +65,7 @@ def next_point(
         else:
             failures += 1
         settler.retreat(failures)
-        if step < 0.1 * control.largest:
+        if step < SHORT * control.largest:
             past.order = 1
         step = max(step * 0.5, control.smallest)
 
@@ -87,7 +91,7 @@ class _Across:
         if not close:
             return self._directed(candidate), False
         settled = self._kept(candidate)
-        far = max(0.5 * self.step, self.control.shift)
+        far = max(NEAR * self.step, self.control.shift)
         if distance(settled.point, predicted, self.past.scale) > far:
             again, close = self._found(predicted)
             settled = self._kept(again) if close else settled
@@ -120,7 +124,7 @@ class _Across:
         )
         slack = self.control.shift if self.settler.changed else self.control.slack
         away = distance(candidate.point, guess, self.past.scale)
-        near = away <= max(0.5 * self.step, slack)
+        near = away <= max(NEAR * self.step, slack)
         return candidate, near and candidate.outcome is Outcome.CONVERGED
 
     def _kept(self, candidate: Correction) -> Correction:

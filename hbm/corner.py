@@ -28,6 +28,8 @@ STEPS = (1e-3, 1e-4, 1e-2, 1e-5)
 """arc lengths along the other side, tried in turn"""
 ITERATIONS = 8
 """of Newton's for such a step, which is nearly straight"""
+ASIDE = 0.2
+"""of such a step, by which a correction may leave it"""
 STRAIGHT = 0.99
 """cosine of the angle between two ways, from which on they are one"""
 
@@ -110,7 +112,7 @@ def _stepped(
         found = correct(
             system, predicted, normal, tolerance=tolerance, max_iterations=ITERATIONS
         )
-        near = distance(found.point, predicted, scale) <= 0.2 * step
+        near = distance(found.point, predicted, scale) <= ASIDE * step
         if near and found.outcome is Outcome.CONVERGED:
             return found.point
     return None

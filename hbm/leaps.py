@@ -26,6 +26,9 @@ LEAPS = (1e-3, 1e-2, 3e-2, 0.1, 0.3)
 MOST = 20
 """leaps that a curve may take before it is given up"""
 
+BACK = -0.9
+"""cosine between two steps, below which the second leads back along the first"""
+
 
 @dataclass(frozen=True, slots=True)
 class Leaping:
@@ -88,7 +91,7 @@ class Leaping:
         scale = self.metric(last)
         before, after = (last - first) / scale, (new.point - last) / scale
         size = float(np.linalg.norm(before) * np.linalg.norm(after))
-        return float(before @ after) < -0.9 * size
+        return float(before @ after) < BACK * size
 
     def _leapt(self, kept: list[Correction]) -> tuple[Array, Array]:
         """Return a point of the curve past a gap, and where the curve goes on."""

@@ -12,6 +12,9 @@ from hbm.relative import RelativeProblem
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 
+SEEN = 1e-6
+"""part of a shape of unit length that the probes see at least"""
+
 
 @dataclass(frozen=True, slots=True)
 class FreeDecay:
@@ -65,7 +68,7 @@ def linear_modes(
         shape = shapes[:, place] / np.linalg.norm(shapes[:, place])
         seen = problem.probes.rows @ shape
         largest = seen[np.abs(seen).argmax()]
-        if abs(largest) > 1e-6:
+        if abs(largest) > SEEN:
             found.append(LinearMode(complex(poles[place]), shape / largest))
     return sorted(found, key=lambda mode: mode.frequency)
 

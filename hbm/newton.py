@@ -20,6 +20,8 @@ HALVINGS = 12
 STUCK = 10.0
 """times what does not matter: a step of that size that does not lower the residual is
 taken to meet a small jump of it, and is good enough where iterations run out"""
+LOWERS = 1e-4
+"""share of a residual by which a whole step lowers it at least"""
 CHORD = 0.1
 """contraction that shows that the Jacobian has hardly changed"""
 
@@ -124,7 +126,7 @@ def _lowered(
         trial = point - part * step
         tried, derivative = system(trial)
         share = _merit(tried) / merit
-        if share < 1.0 - 1e-4 * part:
+        if share < 1.0 - LOWERS * part:
             return Lowered(trial, tried, derivative, share, part)
     return None
 

@@ -15,8 +15,8 @@ POSITIVE = (
     "error", "tolerance", "largest_step", "most_harmonics", "effort", "highest",
 )  # fmt: skip
 """options that must be positive numbers"""
-SPARE = 1e-2
-"""change of the motion that Newton's iteration may neglect, over the error"""
+SPARE, MOST = 1e-2, 1e-3
+"""change of the motion that Newton's iteration may neglect, over the error, and most"""
 LOOSE = 1e-4
 """largest unbalanced force with which it may, over the drive"""
 
@@ -88,6 +88,6 @@ class CurveOptions:
             tolerance=self.tolerance * force_scale,
             initial=min(0.02, self.largest_step),
             largest=self.largest_step,
-            negligible=min(SPARE * self.error, 1e-3) if ends_early else 0.0,
+            negligible=min(SPARE * self.error, MOST) if ends_early else 0.0,
             loose=LOOSE * drive,
         )

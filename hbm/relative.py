@@ -18,6 +18,10 @@ from microslip_mechanics.contact.points import FRICTIONLESS, RIGID, ContactPoint
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
 
+LOOSE, GAUGE = 1e-11, 1e-6
+"""of the largest stiffness: up to which nothing holds a mean motion, and by which that
+is pinned then"""
+
 
 @dataclass(frozen=True, slots=True)
 class RelativeProblem:
@@ -178,10 +182,10 @@ def held_mean_positions(problem: RelativeProblem) -> Array:
     held = problem.condensed.stiffness + contact.tangents.means()[0]
     sizes, directions = np.linalg.eigh((held + held.T) / 2.0)
     largest = max(float(sizes[-1]), np.finfo(float).tiny)
-    loose = directions[:, np.abs(sizes) <= 1e-11 * largest]
+    loose = directions[:, np.abs(sizes) <= LOOSE * largest]
     if sizes[-1] <= 0.0:
         largest = float(np.abs(np.diag(problem.condensed.mass)).max())
-    gauge: Array = largest * 1e-6 * loose @ loose.T
+    gauge: Array = largest * GAUGE * loose @ loose.T
     return gauge
 
 

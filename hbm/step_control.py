@@ -5,6 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+LONGER, SHORTER = 2.0, 0.3
+"""factors between which a step changes"""
+HARD = 0.7
+"""factor at the most, where Newton's iteration was slow"""
+EXACT = 1e-9
+"""miss of an extrapolation that is none"""
+
 
 @dataclass(frozen=True, slots=True)
 class StepControl:
@@ -16,6 +23,7 @@ class StepControl:
     miss: float = 0.02
     """by which a predicted point may be wrong"""
     many_iterations: int = 12
+    """of Newton: with more the iteration was slow"""
     slack: float = 0.01
     """distance by which a correction may leave the prediction in any case"""
     shift: float = 0.03
@@ -30,7 +38,6 @@ class StepControl:
     """after which a curve is given up"""
     sharpest_turn: float = 0.5
     """a step turns the tangent by no more than what has this cosine"""
-
     narrowest: float = 4e-3
     """length of a step that overlooks nothing"""
 
@@ -64,7 +71,8 @@ class StepControl:
         iterations
             Of Newton.
         """
-        factor = math.pow(self.miss / max(missed, 1e-9), 1.0 / (order + 1))
+        factor = math.pow(self.miss / max(missed, EXACT), 1.0 / (order + 1))
         if iterations > self.many_iterations:
-            factor = min(factor, 0.7)
-        return min(max(step * min(max(factor, 0.3), 2.0), self.smallest), self.largest)
+            factor = min(factor, HARD)
+        changed = step * min(max(factor, SHORTER), LONGER)
+        return min(max(changed, self.smallest), self.largest)

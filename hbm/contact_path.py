@@ -24,7 +24,7 @@ TOUCHES, PUSHES, SLIDES = 1, 2, 4
 """bits of a point's regime"""
 
 
-class Path(NamedTuple):
+class ContactPath(NamedTuple):
     """The motion of the contact points at samples, for interpolation."""
 
     displacement: Array
@@ -37,7 +37,7 @@ class Path(NamedTuple):
 
 def last_path(
     contact: AlternatingFrequencyTime, frequency: float, *, half: bool
-) -> Path:
+) -> ContactPath:
     """Return the last motion of the contact points, over a period or half of it."""
     samples, middle = contact.samples, contact.samples // 2
     rows = []
@@ -50,11 +50,13 @@ def last_path(
             whole[:, middle:samples] += (motion[:, middle] - whole[:, middle])[:, None]
         whole[:, samples] = whole[:, 0]
         rows.append(np.ascontiguousarray(whole[:, : (middle if half else samples) + 1]))
-    return Path(rows[0], rows[1], 2.0 * np.pi / frequency / samples)
+    return ContactPath(rows[0], rows[1], 2.0 * np.pi / frequency / samples)
 
 
 @bare_kernel
-def place(path: Path, point: int, at: float, moved: Array, moving: Array) -> None:
+def place(
+    path: ContactPath, point: int, at: float, moved: Array, moving: Array
+) -> None:
     """Write displacement and velocity of a point ``at`` samples after the first."""
     cell = min(int(at), path.displacement.shape[1] - 2)
     share, length = at - cell, path.length
@@ -76,7 +78,7 @@ def place(path: Path, point: int, at: float, moved: Array, moving: Array) -> Non
 
 
 @kernel
-def events(points: ContactPoints, path: Path) -> Array:
+def events(points: ContactPoints, path: ContactPath) -> Array:
     """Return where a point changes its regime or turns, in samples."""
     cells = path.displacement.shape[1] - 1
     found = np.empty(7 * points.load.size * cells)
@@ -110,7 +112,7 @@ def events(points: ContactPoints, path: Path) -> Array:
 
 @inner_kernel
 def _regime(
-    points: ContactPoints, point: int, path: Path, at: float, work: Array
+    points: ContactPoints, point: int, path: ContactPath, at: float, work: Array
 ) -> int:
     """Return which branch of its law a point is on."""
     moved, moving = work[0], work[1]
@@ -128,7 +130,7 @@ def _regime(
 
 
 @inner_kernel
-def _slowest(path: Path, point: int, cell: int, work: Array) -> float:
+def _slowest(path: ContactPath, point: int, cell: int, work: Array) -> float:
     """Return the share of a cell at which sliding turns, 0 if it does not."""
     velocity, row = path.velocity, 3 * point
     one, two = velocity[row + 1, cell], velocity[row + 2, cell]
@@ -153,7 +155,7 @@ def _slowest(path: Path, point: int, cell: int, work: Array) -> float:
 def _changes(
     points: ContactPoints,
     point: int,
-    path: Path,
+    path: ContactPath,
     left: float,
     right: float,
     before: int,

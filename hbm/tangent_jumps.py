@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hbm.contact_path import Path, place
+from hbm.contact_path import ContactPath, place
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, edge
 from microslip_mechanics.contact.points import ContactPoints
@@ -19,7 +19,7 @@ BESIDE = 1e-5
 @kernel
 def add_jump(
     points: ContactPoints,
-    path: Path,
+    path: ContactPath,
     at: float,
     basis: Array,
     elastic: Array,
@@ -53,7 +53,12 @@ def add_jump(
 
 @kernel
 def _jump(
-    points: ContactPoints, point: int, path: Path, at: float, work: Array, jump: Array
+    points: ContactPoints,
+    point: int,
+    path: ContactPath,
+    at: float,
+    work: Array,
+    jump: Array,
 ) -> bool:
     """Write the jump of a point's force as it closes, over its normal speed [N s/m].
 

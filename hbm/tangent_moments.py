@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.contact_path import Path, place
+from hbm.contact_path import ContactPath, place
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import ContactPoints
@@ -30,7 +30,11 @@ BEND = MEAN * (6.0 * (PLACES - 0.5) ** 2 - 0.5)
 
 @kernel
 def write_moments(
-    points: ContactPoints, path: Path, begin: float, length: float, moments: Array
+    points: ContactPoints,
+    path: ContactPath,
+    begin: float,
+    length: float,
+    moments: Array,
 ) -> None:
     """Write mean, tilt and bend of the tangents of each point in an interval.
 

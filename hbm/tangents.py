@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.aft import AlternatingFrequencyTime
-from hbm.contact_path import Path, events, last_path
+from hbm.contact_path import ContactPath, events, last_path
 from hbm.tangent_jumps import add_jump
 from hbm.tangent_moments import add_steps, caught, largest_change, write_moments
 from microslip_mechanics.arrays import Array
@@ -101,7 +101,7 @@ def _edges(cuts: Array, longest: float) -> Array:
 @kernel
 def _integrated(
     points: ContactPoints,
-    path: Path,
+    path: ContactPath,
     basis: Array,
     inertia: Array,
     edges: Array,

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.carried_step import Step, Structure, step_of
+from hbm.carried_step import CarriedStructure, Step, step_of
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import inner_kernel, kernel
 
@@ -20,7 +20,7 @@ EQUAL = 1e-9
 
 
 def carried(
-    structure: Structure,
+    structure: CarriedStructure,
     elastic: Array,
     viscous: Array,
     lengths: Array,
@@ -54,7 +54,7 @@ def carried(
     return np.concatenate((inner[:rank], outer[:modes], inner[rank:], speeds))
 
 
-def _free(structure: Structure) -> Array:
+def _free(structure: CarriedStructure) -> Array:
     """Return the mass of y while the modes keep their momentum."""
     rank = len(structure.mass)
     free: Array = (
@@ -65,7 +65,7 @@ def _free(structure: Structure) -> Array:
 
 @kernel
 def _carry(
-    structure: Structure,
+    structure: CarriedStructure,
     free: Array,
     held: Array,
     elastic: Array,

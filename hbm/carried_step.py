@@ -20,7 +20,7 @@ STICKING_FACTOR = (3.0 + STICKING_ROOT) / (1j * STICKING_ROOT.imag)
 """poles ρ and residues a of the Padé approximations (2, 2) and (1, 2)"""
 
 
-class Structure(NamedTuple):
+class CarriedStructure(NamedTuple):
     """Coordinates y and modes of a structure; nothing elastic couples them."""
 
     mass: Array
@@ -60,7 +60,7 @@ class Step(NamedTuple):
 
 @kernel
 def step_of(
-    structure: Structure, length: float, sticks: bool, alone: Array, back: Array
+    structure: CarriedStructure, length: float, sticks: bool, alone: Array, back: Array
 ) -> Step:
     """Return what steps of a length share; ``alone`` and ``back`` are written.
 
@@ -87,7 +87,7 @@ def step_of(
 
 @inner_kernel
 def _dynamic(
-    structure: Structure, length: float, root: complex, dynamic: ComplexArray
+    structure: CarriedStructure, length: float, root: complex, dynamic: ComplexArray
 ) -> None:
     """Write h²K/ρ + hC + ρM."""
     rank, count = structure.mass.shape
@@ -109,7 +109,7 @@ def _dynamic(
 
 @inner_kernel
 def _write_alone(
-    structure: Structure,
+    structure: CarriedStructure,
     inverse: ComplexArray,
     share: complex,
     factors: tuple[complex, complex],
@@ -135,7 +135,7 @@ def _write_alone(
 
 @inner_kernel
 def _write_raised(
-    structure: Structure, raised: ComplexArray, share: complex, acting: Array
+    structure: CarriedStructure, raised: ComplexArray, share: complex, acting: Array
 ) -> None:
     """Write how (q, w) acts on s."""
     rank, modes = raised.shape

@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import connected_components
 
 from hbm.aft import AlternatingFrequencyTime
 from hbm.carried import carried
-from hbm.carried_step import Structure
+from hbm.carried_step import CarriedStructure
 from hbm.recalled import recalled_multipliers
 from hbm.stuck_motions import stuck_motions
 from hbm.tangents import StepTangents, step_tangents
@@ -88,7 +88,7 @@ class SmallMotions:
             for each in (steps.elastic, steps.viscous)
         )
         mass, stiffness, rank = self.mass[square], self.stiffness[square], inner.size
-        structure = Structure(
+        structure = CarriedStructure(
             np.ascontiguousarray(mass[:rank]),
             np.ascontiguousarray(mass[rank:, :rank]),
             np.ascontiguousarray(self.damping[square]),

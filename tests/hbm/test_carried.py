@@ -9,7 +9,7 @@ from hbm.carried_step import (
     ROOT,
     STICKING_FACTOR,
     STICKING_ROOT,
-    Structure,
+    CarriedStructure,
 )
 from microslip_mechanics.arrays import Array
 
@@ -38,7 +38,7 @@ def test_steps_are_those_of_the_whole_system(rank: int, modes: int) -> None:
     lengths = np.array([0.1, 0.1, 0.02, 0.02, 0.3])
     sticks = np.array([False, False, True, False, False])
     elastic, viscous = random.uniform(0.0, 50.0, (2, lengths.size, rank, rank))
-    structure = Structure(
+    structure = CarriedStructure(
         np.ascontiguousarray(mass[:rank]),
         np.ascontiguousarray(mass[rank:, :rank]),
         damping,

@@ -6,23 +6,18 @@ from typing import Protocol
 
 from hbm.fourier import FourierBasis
 from hbm.linearisation import Linearisation
+from hbm.refined import Resolved
 from hbm.residual import HarmonicBalance
 from microslip_mechanics.arrays import Array
 
 
-class Balance(Protocol):
+class Balance(Resolved, Protocol):
     """A system whose points are harmonic balances at some frequency."""
 
     fourier: FourierBasis
 
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
         """Return the residual [N], (size − 1,), and what solves with its Jacobian."""
-
-    def residual(self, point: Array) -> Array:
-        """Return the residual [N], (size − 1,)."""
-
-    def impulses(self, above: int, most: int) -> float:
-        """Return the norm of the contact impulses between two orders, last call."""
 
     def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
         """Return harmonic balance at the point's parameter, and the point for it."""

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 from hbm.adaptive import AdaptiveBalance
 from hbm.correction import Correction
-from hbm.fourier import FourierBasis
-from hbm.moving import Moving, outside
+from hbm.fourier import FourierBasis, by_harmonics
+from hbm.moving_multiplier import MovingMultiplier, outside
 from hbm.multipliers import Multipliers
 from hbm.segment import ROUGH, ROUGHER, Segment
-from hbm.settled import Settled, by_harmonics
+from hbm.settled import Settled
 from microslip_mechanics.arrays import ComplexArray
 
 LOCATING = FourierBasis(31, 256)
@@ -63,7 +63,7 @@ class Crossings:
         good, and nothing branches.
         """
         finer, precision = self._asked(before, after)
-        moving = Moving(which, before.multipliers, after.multipliers)
+        moving = MovingMultiplier(which, before.multipliers, after.multipliers)
 
         def growth(correction: Correction) -> float:
             return moving.growth(self._finest(correction, finer))
@@ -82,7 +82,7 @@ class Crossings:
     def _among(
         self,
         segment: Segment,
-        moving: Moving,
+        moving: MovingMultiplier,
         finer: FourierBasis,
         before: Settled,
         after: Settled,

@@ -11,7 +11,7 @@ from hbm.cyclic_structure import CyclicStructure
 from hbm.errors import hertz, placed
 from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
-from hbm.path import AlongFrequency, among
+from hbm.path import AlongFrequency, moving_path
 from hbm.relative import RelativeProblem, held_mean_positions
 from hbm.tracer import Tracer
 from microslip_mechanics.cyclic import CyclicProblem
@@ -59,7 +59,7 @@ def along_sector(
     standing = problem.standing()
     whole = cyclic_problem(problem, static_equilibrium(standing))
     relative = replace(whole, pruned=pruned)
-    return among(standing, relative, start, abs(end - start), symmetry=pruned)
+    return moving_path(standing, relative, start, abs(end - start), symmetry=pruned)
 
 
 def cyclic_problem(problem: CyclicProblem, rest: StaticState) -> RelativeProblem:

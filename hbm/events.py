@@ -18,9 +18,10 @@ from hbm.crossings import Crossings
 from hbm.event_error import fold_error, peak_error
 from hbm.fold_place import placed_fold
 from hbm.found import Found, found_between, in_order
+from hbm.fourier import by_harmonics
 from hbm.multipliers import Multipliers
 from hbm.segment import PRECISION, SURE, Segment, folds
-from hbm.settled import Settled, by_harmonics
+from hbm.settled import Settled
 from hbm.step_control import StepControl
 
 STRICT, SHARP = 0.1, ("fold", "peak")

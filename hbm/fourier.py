@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from operator import attrgetter
 
 import numpy as np
 import pyfftw
@@ -49,6 +50,10 @@ class FourierBasis:
         orders = 2 * self.harmonics + 1
         samples = max(2 * self.samples, 4 * orders + 4)
         return replace(self, harmonics=orders, samples=samples)
+
+
+by_harmonics = attrgetter("harmonics")
+"""what resolutions are compared by"""
 
 
 def usual_samples(harmonics: int) -> int:

@@ -121,10 +121,10 @@ def along_frequency(
     still = relative_problem(problem, rest)
     relative = with_pushes(replace(still, pruned=pruned), max(start, end))
     width = abs(end - start)
-    return among(problem, relative, start, width, symmetry=symmetry and pruned)
+    return moving_path(problem, relative, start, width, symmetry=symmetry and pruned)
 
 
-def among(
+def moving_path(
     whole: Problem,
     relative: RelativeProblem,
     start: float,

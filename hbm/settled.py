@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from operator import attrgetter
 from typing import NamedTuple
 
 from hbm.correction import Correction
 from hbm.fourier import FourierBasis
 from microslip_mechanics.arrays import ComplexArray
-
-by_harmonics = attrgetter("harmonics")
 
 
 class Settled(NamedTuple):

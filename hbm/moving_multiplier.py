@@ -12,7 +12,7 @@ ALIKE = 1e-9
 """relative distance of conjugates that rounding leaves"""
 
 
-class Moving:
+class MovingMultiplier:
     """The multiplier that crosses the unit circle somewhere between two orbits."""
 
     def __init__(self, which: int, before: ComplexArray, after: ComplexArray) -> None:

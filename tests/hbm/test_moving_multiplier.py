@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hbm.crossings import BRANCH, TORUS, crossed
-from hbm.moving import Moving, outside
+from hbm.moving_multiplier import MovingMultiplier, outside
 from microslip_mechanics.response import MARGIN
 
 NEUTRAL = 0.999996
@@ -20,7 +20,7 @@ def ordered(*values: complex) -> np.ndarray:
 def test_one_at_plus_one_does_not_stand_for_what_has_moved_below_it() -> None:
     out, inside = ordered(1.05, NEUTRAL, 0.9), ordered(NEUTRAL, 0.93, 0.9)
 
-    moving = Moving(0, out, inside)
+    moving = MovingMultiplier(0, out, inside)
 
     assert moving.ends == pytest.approx((0.05, -0.07), abs=AWAY)
     assert moving.growth(ordered(NEUTRAL, 0.99, 0.9)) == pytest.approx(-0.01, abs=AWAY)
@@ -32,7 +32,7 @@ def test_a_conjugate_pair_that_splits_leaves_one_outside() -> None:
     pair = ordered(1.03 + 0.02j, 1.03 - 0.02j, NEUTRAL, 0.7)
     split = ordered(1.2, NEUTRAL, 0.98, 0.7)
 
-    moving = Moving(1, pair, split)
+    moving = MovingMultiplier(1, pair, split)
 
     assert moving.ends[0] > 0.0
     assert moving.ends[1] == pytest.approx(-0.02, abs=AWAY)
@@ -49,7 +49,7 @@ def test_what_rounding_makes_of_a_double_multiplier_is_not_outside() -> None:
 
 
 def test_signs_are_those_of_the_number_outside() -> None:
-    moving = Moving(0, ordered(1.1, NEUTRAL), ordered(NEUTRAL, 0.8))
+    moving = MovingMultiplier(0, ordered(1.1, NEUTRAL), ordered(NEUTRAL, 0.8))
 
     assert moving.growth(ordered(1.3, 1.2)) > 0.0
     assert moving.growth(ordered(NEUTRAL, 0.2)) < 0.0

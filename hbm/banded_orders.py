@@ -43,6 +43,7 @@ class BandedOrders:
         ``wanted`` has shape ``(orders, rank)``.
         """
         self._first, self._wanted = first, wanted
+        self._both = wanted.repeat(2, axis=0)
         places = np.cumsum(wanted.ravel()).reshape(wanted.shape) - 1
         self._count = int(wanted.sum())
         most = min(WIDTH, len(wanted) - 1)
@@ -101,7 +102,7 @@ class BandedOrders:
         )
         if failed != 0:
             raise UnreachedError
-        return FactoredOrders(factors, pivots, self._reach, self._wanted)
+        return FactoredOrders(factors, pivots, self._reach, self._wanted, self._both)
 
 
 class FactoredOrders(NamedTuple):
@@ -112,15 +113,20 @@ class FactoredOrders(NamedTuple):
     reach: int
     """number of diagonals to each side"""
     wanted: NDArray[np.bool_]
+    """shape (orders, rank)"""
+    both: NDArray[np.bool_]
+    """the same of cosines and sines, shape (2 orders, rank)"""
 
-    def solve(self, amplitudes: ComplexArray) -> ComplexArray:
-        """Return the motion of forces, both of shape (orders, rank)."""
-        found = np.zeros_like(amplitudes)
-        right = amplitudes[self.wanted]
-        found[self.wanted], _ = lapack.zgbtrs(
+    def solve(self, forces: Array) -> Array:
+        """Return the motion of forces: wanted cosines and sines, (unknowns,) each."""
+        table = np.zeros(self.both.shape)
+        table[self.both] = forces
+        right = (table[::2] - 1j * table[1::2])[self.wanted]
+        found, _ = lapack.zgbtrs(
             self.factors, self.reach, self.reach, right, self.pivots
         )
-        return found
+        table[::2][self.wanted], table[1::2][self.wanted] = found.real, -found.imag
+        return table[self.both]
 
 
 def _pairs(

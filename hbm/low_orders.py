@@ -33,7 +33,6 @@ class LowOrders:
         self._unknowns = np.flatnonzero(active)
         self._places = np.where(active, 0, -1)
         self._high = BandedOrders(active[2 * low + 1 :: 2], low + 1)
-        self._outer = np.flatnonzero(active[2 * low + 1 :])
 
     @staticmethod
     def serve(active: NDArray[np.bool_], samples: int) -> bool:
@@ -85,15 +84,7 @@ class LowOrders:
             forces: Array = changed.ravel()[self._unknowns]
             return forces if touched is None else forces + touched.product(step)
 
-        def apart(right: Array) -> Array:
-            forces = np.zeros((2 * (len(stiffness) - low - 1), stiffness.shape[1]))
-            forces.ravel()[self._outer] = right
-            found = high.solve(forces[::2] - 1j * forces[1::2])
-            moved = np.empty_like(forces)
-            moved[::2], moved[1::2] = found.real, -found.imag
-            return moved.ravel()[self._outer]
-
-        return Parts(times, corner, apart, slope)
+        return Parts(times, corner, high.solve, slope)
 
 
 def _count(active: NDArray[np.bool_], harmonics: int) -> int:

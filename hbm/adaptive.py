@@ -24,7 +24,7 @@ from microslip_mechanics.arrays import Array
 HARMONICS = 255
 """most that are solved for"""
 STEEP = 0.05
-"""error at constant frequency from which a fold may be near"""
+"""error at constant parameter from which a fold may be near"""
 SHORT = 0.01
 """step from which on less is tried"""
 WAIT = 10
@@ -115,7 +115,7 @@ class AdaptiveBalance:
         reported, _ = self.report.reported(correction, scale)
         ways = correction.along / scale, reported.along / scale
         sizes = [float(np.linalg.norm(way)) for way in ways]
-        finer = self._choice.doubled(self.fourier, True, True)
+        finer = self._choice.doubled(self.fourier)
         straight = float(ways[0] @ ways[1]) >= STRAIGHT * sizes[0] * sizes[1]
         if straight or finer == self.fourier:
             return None
@@ -156,7 +156,7 @@ class AdaptiveBalance:
         if self._tolerance is not None:
             patience = PATIENCE if kept.harmonics < FEW else PATIENT
             for _ in range(min(times // patience, RAISES)):
-                self.fourier = self._choice.doubled(self.fourier, True, True)
+                self.fourier = self._choice.doubled(self.fourier)
                 self._wait = 0
 
     def settle(
@@ -177,8 +177,8 @@ class AdaptiveBalance:
         :data:`~hbm.resolution_choice.MARKED` harmonics. With less than the whole, a
         point of unknown error stays as it is; so does one that has the most harmonics
         and whose friction cannot be sharper. ``across`` says that the error is one in
-        that plane, not at constant frequency, as at a fold.
-        What is returned may have failed.
+        that plane, as at a fold, not at constant parameter. What is returned may have
+        failed.
         """
         while True:
             self.settled = self.fourier
@@ -242,7 +242,7 @@ class AdaptiveBalance:
     def _estimated(
         self, correction: Correction, normal: Array, across: bool
     ) -> Estimate:
-        """Return the error at constant frequency or, where that is steep, across."""
+        """Return the error at constant parameter or, where that is steep, across."""
         if across:
             return self._resolution.estimate(correction, self.fourier, normal)
         estimate = self._resolution.estimate(

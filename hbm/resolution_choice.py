@@ -47,7 +47,9 @@ class ResolutionChoice:
         parts = 3.0 if self.smoothest else 2.0  # of an error; all may be as large
         enough = share * self.tolerance / parts
         finer = self.doubled(
-            fourier, estimate.truncation > enough, estimate.sampling > enough
+            fourier,
+            harmonics=estimate.truncation > enough,
+            samples=estimate.sampling > enough,
         )
         if estimate.smoothing > enough and finer.threshold > sharpest:
             finer = replace(finer, threshold=finer.threshold / SHARPER)
@@ -63,9 +65,9 @@ class ResolutionChoice:
         return FourierBasis(harmonics, samples, self.smoothest)
 
     def doubled(
-        self, fourier: FourierBasis, harmonics: bool, samples: bool
+        self, fourier: FourierBasis, *, harmonics: bool = True, samples: bool = True
     ) -> FourierBasis:
-        """Return a resolution with twice the harmonics, or samples, or both."""
+        """Return a resolution with twice the harmonics, and twice the samples."""
         orders, count = fourier.harmonics, fourier.samples
         if harmonics:
             orders = min(2 * orders + 1, self.most)

@@ -26,12 +26,12 @@ def carried(
     lengths: Array,
     sticks: NDArray[np.bool_],
 ) -> Array:
-    """Return the map of (displacement, velocity) over all steps.
+    """Return the map of (displacement, velocity) over all steps, y before modes.
 
-    ``elastic`` and ``viscous`` are the tangents during each step, shape
-    ``(steps, rank, rank)``. The exponential of a step is its Padé approximation (2, 2),
-    x + 2 Re a (hA − ρ)⁻¹ x, or, where a contact begins to stick, (1, 2),
-    2 Re a (hA − ρ)⁻¹ x, which lets no speed through.
+    Its shape is ``(2 coordinates, 2 coordinates)``. ``elastic`` and ``viscous`` are the
+    tangents during each step, shape ``(steps, rank, rank)``. The exponential of a step
+    is its Padé approximation (2, 2), x + 2 Re a (hA − ρ)⁻¹ x, or, where a contact
+    begins to stick, (1, 2), 2 Re a (hA − ρ)⁻¹ x, which lets no speed through.
     """
     rank, count = structure.mass.shape
     modes, start = count - rank, np.eye(2 * count)

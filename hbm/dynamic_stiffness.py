@@ -23,7 +23,11 @@ def dynamic_stiffness(
     wanted: NDArray[np.bool_],
     gyroscopic: bool,
 ) -> ComplexArray:
-    """Return S(s) of the coordinates wanted (theory, eqs. 15–16)."""
+    """Return S(s) of the coordinates wanted, (orders, rank, rank) (theory, eqs. 15–16).
+
+    Arguments are those of a :class:`~hbm.condensation.CondensedStructure`, couplings by
+    rows of y, shape (rank, poles); ``variable`` is s, ``wanted`` (orders, rank).
+    """
     orders, (rank, count) = variable.size, viscous.shape
     value = np.zeros((orders, rank, rank), np.complex128)
     pole = np.empty(count, np.complex128)

@@ -44,14 +44,17 @@ class FirstOrder:
         return right[:, :, active]
 
     def bottom(self, active: NDArray[np.bool_]) -> Array:
-        """Return the imbalance by ``active`` coefficients of y."""
+        """Return the imbalance by ``active`` coefficients of y, as pairs.
+
+        Shape (2 (count + 1), coefficients).
+        """
         count, rank = self.forward.shape
         bottom = np.zeros((2 * count, *active.shape))
         bottom[:, 1:3] = _embedded(self.forward).reshape(2 * count, 2, rank)
         return bottom[:, active]
 
     def turning(self) -> Array:
-        """Return the imbalance by η and s, as pairs."""
+        """Return the imbalance by η and s, as pairs, (2 (count + 1), 2 (count + 1))."""
         return _embedded(self.corner)
 
 

@@ -113,7 +113,7 @@ class FreeMotion:
     def modal(
         self, pole: complex, relative: ComplexArray, motion: ComplexArray
     ) -> ComplexArray:
-        """Return η of a motion of the structure."""
+        """Return η, shape (count,), of a motion of the structure, shape (dofs,)."""
         nothing = np.zeros(self.count, complex)
         rest = motion - self.motion(pole, relative, nothing)
         found: ComplexArray = np.linalg.lstsq(self.near.modes, rest, rcond=None)[0]

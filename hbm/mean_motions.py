@@ -106,12 +106,18 @@ def free_steps(motions: MeanMotions, lengths: Array, frequency: float) -> FreeSt
 
 
 def stacked(matrix: ComplexArray) -> Array:
-    """Return what takes real parts above imaginary ones to the product's real part."""
+    """Return what takes real parts above imaginary ones to the product's real part.
+
+    ``matrix`` has shape (rows, columns), the result (rows, 2 columns).
+    """
     return np.hstack([matrix.real, -matrix.imag])
 
 
 def turned(turn: ComplexArray, above: Array, below: Array) -> Array:
-    """Return motions after a free step, real parts above imaginary ones."""
+    """Return motions after a free step, real parts above imaginary ones.
+
+    ``above`` and ``below`` are these parts before it, shape (motions, several) each.
+    """
     cosine, sine = turn.real[:, None], turn.imag[:, None]
     return np.concatenate(
         [cosine * above - sine * below, sine * above + cosine * below]

@@ -18,6 +18,8 @@ from hbm.restart import FIRST, LEAPS, Restart
 from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 
+POINTS = 1000
+"""of a curve from a point in its midst, which may never end, before it is given up"""
 RESTARTS = 6
 """that a curve may take before it is given up"""
 
@@ -126,7 +128,7 @@ class Pieces:
             guess,
             self.end,
             metric=self.metric,
-            control=replace(self.control, most_points=1000),
+            control=replace(self.control, most_points=POINTS),
             settler=self.system,
             begin=self.start,
             direction=direction,

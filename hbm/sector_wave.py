@@ -31,7 +31,10 @@ class Wave:
     def ways(
         self, s: complex
     ) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
-        """Return u from y, y's load from a load, K + sC + s²M and its derivative."""
+        """Return u from y, y's load from a load, K + sC + s²M and its derivative by s.
+
+        Shapes (dofs, seen), (seen, dofs) and twice (dofs, dofs).
+        """
         whole, slope = self._whole(s)
         back = self.free.conj().T
         inner = back @ whole @ self.free

@@ -11,7 +11,16 @@ from microslip_mechanics.undamped_modes import undamped_modes
 def stuck_poles(
     mass: Array, damping: Array, stiffness: Array
 ) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
-    """Return λ, V, W with (s²M + sC + K)⁻¹ = V diag(1/(s − λ)) W."""
+    """Return λ, V, W with (s²M + sC + K)⁻¹ = V diag(1/(s − λ)) W.
+
+    Shapes (poles,), (dofs, poles) and (poles, dofs), with twice as many poles as dofs;
+    λ is in rad/s.
+
+    Raises
+    ------
+    ValueError
+        If two poles coincide.
+    """
     squares, modes = undamped_modes(stiffness, mass)
     frequencies = np.diag(np.sqrt(squares))
     count = len(squares)

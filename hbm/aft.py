@@ -151,26 +151,6 @@ class AlternatingFrequencyTime:
         """
         return self._traces.changes() / self._frequency
 
-    def _evaluated(self, coefficients: Array, frequency: float, decay: float) -> Array:
-        """Return the force, and fill the buffers."""
-        traces = self._traces
-        displacement, velocity = traces.motion(coefficients, frequency, decay)
-        displacement += self._offset[:, None]
-        self._moved, self._frequency = (displacement, velocity), frequency
-        sample(
-            self._points,
-            *self._moved,
-            self._tangents.entries,
-            self._tangents.bounds,
-            self._symmetry,
-            traces.regular,
-            traces.extra,
-            self._tangents.samples,
-        )
-        if self._memory is not None:
-            self._memory.add(self._points, self._moved, frequency, *traces.regular)
-        return traces.forces()
-
     @property
     def calls(self) -> int:
         """Number of calls so far: of this one and of what shares its buffers."""
@@ -264,6 +244,26 @@ class AlternatingFrequencyTime:
         cycle = contact_cycle(self._points, self._moved, forces, self._telling, period)
         # in the other half a point does what its mirror image did in this one
         return cycle.joined(self._symmetry.images) if self._symmetry.holds else cycle
+
+    def _evaluated(self, coefficients: Array, frequency: float, decay: float) -> Array:
+        """Return the force, and fill the buffers."""
+        traces = self._traces
+        displacement, velocity = traces.motion(coefficients, frequency, decay)
+        displacement += self._offset[:, None]
+        self._moved, self._frequency = (displacement, velocity), frequency
+        sample(
+            self._points,
+            *self._moved,
+            self._tangents.entries,
+            self._tangents.bounds,
+            self._symmetry,
+            traces.regular,
+            traces.extra,
+            self._tangents.samples,
+        )
+        if self._memory is not None:
+            self._memory.add(self._points, self._moved, frequency, *traces.regular)
+        return traces.forces()
 
     @property
     def _telling(self) -> int:

@@ -82,7 +82,7 @@ class Search:
         """
         found = list(known)
         for frequency in frequencies:
-            candidates, sought = self.at_frequency(frequency)
+            candidates, sought = self._at_frequency(frequency)
             for candidate in candidates:
                 if self._lies_on(found, candidate):
                     continue
@@ -107,7 +107,7 @@ class Search:
         selection = self.path.problem.selection
         yield from tracer.from_response(candidate, selection, "detached")
 
-    def at_frequency(self, frequency: float) -> tuple[list[PeriodicResponse], Sought]:
+    def _at_frequency(self, frequency: float) -> tuple[list[PeriodicResponse], Sought]:
         """Return the responses at the wanted drive that lie on one curve of drives.
 
         And how far that curve was followed.

@@ -64,6 +64,37 @@ class Pieces:
         if max(there) < min(back):
             yield from self._between(max(there))
 
+    def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
+        """Yield corrections from a point in a direction, until the range ends.
+
+        Or until the curve closes.
+        """
+        yield from trace(
+            self.system,
+            guess,
+            self.end,
+            metric=self.metric,
+            control=replace(self.control, most_points=POINTS),
+            settler=self.system,
+            begin=self.start,
+            direction=direction,
+        )
+
+    @property
+    def restart(self) -> Restart:
+        """Where a new piece begins."""
+        return Restart(
+            self.path,
+            self.system,
+            self.control,
+            self.effort,
+            self.metric,
+        )
+
+    def metric(self, point: Array) -> Array:
+        """Return the change of each component that counts as one unit of arc."""
+        return path_metric(self.path, point)
+
     def _noted(
         self, corrections: Iterator[Correction], shares: list[float]
     ) -> Iterator[Correction]:
@@ -117,37 +148,6 @@ class Pieces:
                 guess = again
             else:
                 return
-
-    def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
-        """Yield corrections from a point in a direction, until the range ends.
-
-        Or until the curve closes.
-        """
-        yield from trace(
-            self.system,
-            guess,
-            self.end,
-            metric=self.metric,
-            control=replace(self.control, most_points=POINTS),
-            settler=self.system,
-            begin=self.start,
-            direction=direction,
-        )
-
-    @property
-    def restart(self) -> Restart:
-        """Where a new piece begins."""
-        return Restart(
-            self.path,
-            self.system,
-            self.control,
-            self.effort,
-            self.metric,
-        )
-
-    def metric(self, point: Array) -> Array:
-        """Return the change of each component that counts as one unit of arc."""
-        return path_metric(self.path, point)
 
     def _cornered(self, guess: Array, heading: float) -> Iterator[Correction]:
         """Yield corrections of one piece, round its corners."""

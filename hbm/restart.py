@@ -72,10 +72,6 @@ class Restart:
         way = self._way(begun, heading)
         return iter(LEAPS) if (reached - begun) / way > LEAPS[0] else left
 
-    def _way(self, place: float, heading: float) -> float:
-        """Return the range, or the share of it that counts like that at a place."""
-        return math.copysign(TENTHS * self.path.unit(place), heading - place)
-
     def settled(self, coefficients: Array, parameter: float) -> Array | None:
         """Return the point near a coarse response; None if it does not converge.
 
@@ -99,3 +95,7 @@ class Restart:
         point = np.zeros(self.system.size)
         point[: problem.rank], point[-1] = problem.rest, parameter
         return point
+
+    def _way(self, place: float, heading: float) -> float:
+        """Return the range, or the share of it that counts like that at a place."""
+        return math.copysign(TENTHS * self.path.unit(place), heading - place)

@@ -77,13 +77,12 @@ class Segment:
         sign, or if a point between does not converge: where it may leap, because the
         residual does so by a little, the nearest one does beside it.
         """
-        precision = precision or self.precision
+        length, precision = self.length, precision or self.precision
         first, last = ends or (test(self.before), test(self.after))
-        if not first * last < 0.0:
+        if not first * last < 0.0 or length <= 0.0:
             return None
-        length = self.length
-        if length <= 0.0:
-            return None
+        near, tested = precision * length, {0.0: first, length: last}
+        solved: dict[float, Correction] = {}
 
         def value(place: float) -> float:
             if place <= 0.0:
@@ -96,8 +95,6 @@ class Segment:
             tested[place] = test(solved[place])
             return tested[place]
 
-        near, tested = precision * length, {0.0: first, length: last}
-        solved: dict[float, Correction] = {}
         try:
             seek = bracketed if precision >= ROUGH else brentq
             root = seek(value, 0.0, length, xtol=near, rtol=1e-12)

@@ -10,12 +10,16 @@ from hbm.correction import Correction
 from hbm.fourier import FourierBasis, by_harmonics
 from hbm.moving_multiplier import MovingMultiplier, outside
 from hbm.multipliers import Multipliers
-from hbm.segment import ROUGH, ROUGHER, Segment
+from hbm.segment import PRECISION, ROUGH, ROUGHER, Segment, folds
 from hbm.settled import Settled
 from microslip_mechanics.arrays import ComplexArray
 
 LOCATING = FourierBasis(31, 256)
-"""most that is taken, if the curve has no more, to locate a change of stability"""
+"""most that is taken at first, if the curve has no more, to locate a change of
+stability"""
+ASTRAY = 0.01
+"""distance of a multiplier from the unit circle, at an orbit as it is reported, from
+which on its crossing is located again with all harmonics, then more precisely"""
 LEAP = 0.1
 """of the change of a multiplier between two points: what is left of its excess where it
 is located, from which on it leaps"""
@@ -62,22 +66,56 @@ class Crossings:
         over the circle does not cross it: a slider begins to slip there, or sticks for
         good, and nothing branches.
         """
-        finer, precision = self._asked(before, after)
+        told, finer, precision = self._asked(before, after)
         moving = MovingMultiplier(which, before.multipliers, after.multipliers)
-
-        def growth(correction: Correction) -> float:
-            return moving.growth(self._finest(correction, finer))
-
         located = None
         if finer is not None:
             located = self._among(segment, moving, finer, before, after, precision)
         if located is None:
-            located = segment.locate(growth, moving.ends, precision)
+            located = self._along(segment, moving, finer, precision)
+        for each in (precision, PRECISION):
+            if not self._astray(segment, located, moving, told):
+                break
+            moving = MovingMultiplier(which, before.multipliers, after.multipliers)
+            located = self._along(segment, moving, told, each)
         if self.recalls and located is not None:
             first, last = moving.ends
-            leaps = abs(growth(located)) > LEAP * abs(last - first)
-            located = None if leaps else located
+            growth = moving.growth(self._finest(located, finer))
+            located = None if abs(growth) > LEAP * abs(last - first) else located
         return located, moving.outside
+
+    def _along(
+        self,
+        segment: Segment,
+        moving: MovingMultiplier,
+        finer: FourierBasis | None,
+        precision: float,
+    ) -> Correction | None:
+        """Return where a multiplier crosses of the orbits at the frequencies of a step.
+
+        They have the finer resolution, if there is one.
+        """
+
+        def growth(correction: Correction) -> float:
+            return moving.growth(self._finest(correction, finer))
+
+        return segment.locate(growth, moving.ends, precision)
+
+    def _astray(
+        self,
+        segment: Segment,
+        located: Correction | None,
+        moving: MovingMultiplier,
+        told: FourierBasis | None,
+    ) -> bool:
+        """Return whether the multiplier of the orbit as it is reported is elsewhere.
+
+        Where the curve folds one crosses in any case, and is not asked for again.
+        """
+        folded = segment.after.turns or folds(segment.before) * folds(segment.after) < 0
+        if located is None or folded or self.recalls:
+            return False
+        return bool(abs(moving.growth(self._finest(located, told))) > ASTRAY)
 
     def _among(
         self,
@@ -112,19 +150,22 @@ class Crossings:
 
     def _asked(
         self, before: Settled, after: Settled
-    ) -> tuple[FourierBasis | None, float]:
-        """Return the resolution of multipliers between two points, and a precision.
+    ) -> tuple[FourierBasis | None, FourierBasis | None, float]:
+        """Return the resolution of multipliers at two points, what may do, a precision.
 
         It is that of the orbits that are reported, or what their multipliers ask for;
         none if it is that of the curve.
         """
         own = self.system.fourier
-        finer = max(before.finer, after.finer, key=by_harmonics)
+        told = max(before.finer, after.finer, key=by_harmonics)
         samples = max(LOCATING.samples, own.samples)
-        most = replace(LOCATING, samples=samples, threshold=finer.threshold)
-        finer = min(finer, max(own, most, key=by_harmonics), key=by_harmonics)
-        used = finer if finer.harmonics > own.harmonics else None
-        return used, ROUGHER if before.asks or after.asks else ROUGH
+        most = replace(LOCATING, samples=samples, threshold=told.threshold)
+        finer = min(told, max(own, most, key=by_harmonics), key=by_harmonics)
+        precision = ROUGHER if before.asks or after.asks else ROUGH
+        first, second = (
+            each if each.harmonics > own.harmonics else None for each in (told, finer)
+        )
+        return first, second, precision
 
     def _finest(
         self, correction: Correction, finer: FourierBasis | None

@@ -94,10 +94,13 @@ def _run(options: argparse.Namespace) -> int:
 
 def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     """Print the curve, its events, its errors, and what was sought."""
+    from microslip.rigs import sector_of
+
     print(frc_tables.table(traced))
     if traced.rest.normal_force.any():
         print(frc_tables.rest(traced.curve, traced.rest))
-    print(frc_tables.events(traced.curve))
+    sector = sector_of(scene) is not None and not options.unpruned
+    print(frc_tables.events(traced.curve, sector=sector))
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in frc_tables.barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")

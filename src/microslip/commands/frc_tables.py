@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from microslip_mechanics.response_curve import ResponseCurve
     from microslip_mechanics.static import StaticState
 
+SECTOR = (
+    "stability is not known: motions of one sector cannot break the symmetry of the "
+    "disk; --set solve=disk tells it"
+)
+"""of the curve of one sector"""
+
 
 def table(traced: Traced) -> str:
     """Return the curve at about a dozen points, among them its largest amplitude."""
@@ -68,8 +74,11 @@ def rest(curve: ResponseCurve, state: StaticState) -> str:
     return f"normal force at rest [N]: {forces}"
 
 
-def events(curve: ResponseCurve) -> str:
-    """Return what was located on the curve, where it is missing and unstable."""
+def events(curve: ResponseCurve, *, sector: bool = False) -> str:
+    """Return what was located on the curve, where it is missing and unstable.
+
+    ``sector`` says that it is that of one sector, which stands for a disk.
+    """
     from microslip.studies.gaps import lines as gap_lines
 
     lines = []
@@ -92,7 +101,7 @@ def events(curve: ResponseCurve) -> str:
     ]
     if not curve.peak.any():
         lines.append("nothing moves at any frequency: the scene has no drive")
-    lines.append(_stability(curve))
+    lines.append(SECTOR if sector else _stability(curve))
     return "\n".join(lines)
 
 

@@ -98,6 +98,15 @@ def driven(
         else:
             waves[name] = cmath.rect(1.0, phase) * amplitude
     total = loads(waves, names, sets, "drive")
+    if not isinstance(order, EngineOrder | None):
+        raise ValueError(  # noqa: TRY004  (as above)
+            f"engine_order = {order!r}: give microslip.EngineOrder(blades, order, "
+            "amplitude)"
+        )
+    if not isinstance(base, BaseMotion | None):
+        raise ValueError(  # noqa: TRY004  (as above)
+            f"base = {base!r}: give microslip.BaseMotion(direction, acceleration)"
+        )
     if order is not None:
         total += engine_order(names, order.blades, order.order, order.amplitude)
     if base is not None:
@@ -163,7 +172,7 @@ def loads(
 
 def _members(name: str, names: tuple[str, ...], sets: Sets) -> list[str]:
     """Return the degrees of freedom that a name stands for."""
-    group, _, direction = name.rpartition(".")
+    group, _, direction = str(name).rpartition(".")  # what is no text is refused later
     if name in names or group not in sets:
         return [name]
     return [f"{node}.{direction}" for node in sets[group]]

@@ -295,6 +295,16 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "NaN in the drive": ({"drive": {"x1": np.nan}}, ("drive of x1", "finite")),
     "NaN in the preload": ({"preload": {"x2": np.inf}}, ("preload of x2", "finite")),
     "drive on nothing": ({"drive": {"x9": 1.0}}, ("drive", "'x9'")),
+    "drive by number": ({"drive": {1: 1.0}}, ("drive", "no degree of freedom 1")),
+    "preload by number": ({"preload": {2: 1.0}}, ("preload", "no degree of freedom 2")),
+    "engine order of a table": (
+        {"engine_order": {"blades": ["x1"]}},
+        ("engine_order = {'blades'", "give microslip.EngineOrder"),
+    ),
+    "base of a table": (
+        {"base": {"direction": [0, 0, 1]}},
+        ("base = {'direction'", "give microslip.BaseMotion"),
+    ),
     "too many names": ({"names": ["a", "b", "c"]}, ("3 names", "(2, 2)")),
     "names alike": (
         {"names": ["a", "a"]},

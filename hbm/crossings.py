@@ -18,8 +18,8 @@ LOCATING = FourierBasis(31, 256)
 """most that is taken at first, if the curve has no more, to locate a change of
 stability"""
 ASTRAY = 0.01
-"""distance of a multiplier from the unit circle, at an orbit as it is reported, from
-which on its crossing is located again with all harmonics, then more precisely"""
+"""distance of a multiplier from +1 at which an orbit as it is reported is no branch
+point: the crossing is located again with all harmonics, then more precisely"""
 LEAP = 0.1
 """of the change of a multiplier between two points: what is left of its excess where it
 is located, from which on it leaps"""
@@ -108,10 +108,13 @@ class Crossings:
         moving: MovingMultiplier,
         told: FourierBasis | None,
     ) -> bool:
-        """Return whether the multiplier of the orbit as it is reported is elsewhere.
+        """Return whether no branch point is confirmed by the orbit as it is reported.
 
-        Where the curve folds one crosses in any case, and is not asked for again.
+        Where the curve folds a multiplier crosses in any case, and nothing is asked for
+        again.
         """
+        if crossed(moving.outside) != BRANCH:
+            return False
         folded = segment.after.turns or folds(segment.before) * folds(segment.after) < 0
         if located is None or folded or self.recalls:
             return False

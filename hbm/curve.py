@@ -10,7 +10,7 @@ import numpy as np
 from hbm.adaptive import AdaptiveBalance
 from hbm.arc import Metric
 from hbm.correction import Correction
-from hbm.crossings import BRANCH, TORUS, crossings
+from hbm.crossings import ASTRAY, BRANCH, TORUS, crossings
 from hbm.errors import ContinuationError
 from hbm.events import Events
 from hbm.fourier import FourierBasis
@@ -24,8 +24,6 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 
 TURN = 2.0 * np.pi
-ASTRAY = 0.01
-"""distance of a multiplier from +1 at which an orbit is no branch point"""
 ASIDE = 0.05
 """distance of complex multipliers from the unit circle at which there is no torus"""
 DRIFT = 1e-6

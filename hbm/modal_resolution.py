@@ -57,11 +57,11 @@ class ModalResolution(Resolution):
         return self._balances[fourier]
 
     def amplitudes(self, points: Sequence[Array]) -> Array:
-        """Return decay rate and frequency by what counts, of the first point one.
+        """Return the values by whose change errors of a mode are measured, (points, 3).
 
-        The values are the rate over that of the first point, or over the least that
-        counts, then one, and :data:`STRICTER` times the change of the frequency since
-        the first one; shape ``(points, 3)``.
+        They are the decay rate over that of the first point, or over the least that
+        counts; one, which the others are compared with; and :data:`STRICTER` times the
+        relative change of the frequency since the first point.
         """
         poles = np.array([self._coarsest.parts(point).pole for point in points])
         least = max(abs(poles[0].real), FAINTEST * abs(poles[0]))

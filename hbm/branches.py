@@ -18,6 +18,7 @@ from hbm.fourier import FourierBasis
 from hbm.newton import correct
 from hbm.options import CurveOptions
 from hbm.path import AlongFrequency
+from hbm.pieces import Pieces
 from hbm.tracer import Tracer
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
@@ -92,8 +93,8 @@ class Branching:
         if begun is None:
             return NOWHERE
         back: list[float] = []
-        corrections = tracer.pieces.from_point(begun, away)
-        parted = _parted(corrections, point, begun, aside, back)
+        corrections = _outward(tracer.pieces, point, begun, away, aside)
+        parted = _parted(corrections, point, aside, back)
         last: list[float] = []
         for each in tracer.curve.followed(parted, tracer.pieces.metric):
             if not last:
@@ -146,10 +147,32 @@ def _branches(response: PeriodicResponse) -> bool:
     return response.event == BRANCH and bool(nearest < NEAR)
 
 
+def _outward(
+    pieces: Pieces, point: Array, begun: Array, away: Array, aside: Array
+) -> Iterator[Correction]:
+    """Yield the corrections from ``begun`` beside a branch point on.
+
+    If the first step lands on the mirror image of the branch, as those of more
+    harmonics may, it goes on there.
+    """
+    corrections = pieces.from_point(begun, away)
+    first = next(corrections)
+    for second in corrections:
+        moved, image = (first.point - point) @ aside, (second.point - point) @ aside
+        if moved @ image < 0.0:
+            onwards = float((second.along @ aside) @ image)
+            along = second.along if onwards > 0.0 else -second.along
+            yield from pieces.from_point(second.point, along)
+            return
+        yield first
+        yield second
+        break
+    yield from corrections
+
+
 def _parted(
     corrections: Iterable[Correction],
     point: Array,
-    begun: Array,
     aside: Array,
     back: list[float],
 ) -> Iterator[Correction]:
@@ -158,10 +181,10 @@ def _parted(
     It does where what is ``aside`` of all motions along the curve vanishes, or changes
     its sign.
     """
-    before = (begun - point) @ aside
-    least = 0.5 * float(np.linalg.norm(before))
+    before, least = np.zeros(aside.shape[1]), 0.0
     for each in corrections:
         after = (each.point - point) @ aside
+        least = least or 0.5 * float(np.linalg.norm(after))
         near, passed = np.linalg.norm(after) <= least, before @ after < 0.0
         if near or passed:
             back.append(float(each.point[-1]))

@@ -53,8 +53,8 @@ def approaches(
     The drive grows from nothing, or the threshold velocity of friction falls from a
     large value, or friction grows from nothing, or faces that just touch are pressed
     together and then let go, at coarse resolutions in turn; at last, if ``folded``, the
-    drive grows along an arc, through folds. Some of what is found may exist at its
-    resolution alone, or be the same again. ``effort`` counts what it
+    drive grows along an arc, through folds and through zero. Some of what is found may
+    exist at its resolution alone, or be the same again. ``effort`` counts what it
     takes; ``metric`` measures steps of Newton's iteration.
     """
     ways = _ways(*path.at(parameter))
@@ -134,12 +134,12 @@ def _along_an_arc(
         return np.append(metric(point)[:-1], UNIT)
 
     mask = path.mask(fourier.harmonics)
-    balance = ParametricBalance(driven, fourier, mask, lambda _: UNIT, (0.0, 1.0))
+    balance = ParametricBalance(driven, fourier, mask, lambda _: UNIT, (-1.0, 1.0))
     still, _ = driven(LEAST)
     start = HarmonicBalance(still, fourier, mask).point(problem.rest[None, :], LEAST)
     counted = effort.counted(balance, fourier.harmonics)
     system = Effort(PATIENCE).counted(counted, 1)
-    for last in trace(system, start, 1.0, metric=scale, control=control):
+    for last in trace(system, start, 1.0, metric=scale, control=control, begin=-1.0):
         point = last.point
     if point[-1] < 1.0:
         raise ContinuationError(f"the drive falls again at {PLACE}", parameter)

@@ -13,12 +13,15 @@ from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
+from microslip_mechanics.element import Element
 from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.frame import Beam, Frame, Node
+from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structure import Structure
+from microslip_mechanics.system import system
 from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.start import Start
@@ -140,6 +143,21 @@ def cubic_oscillator(
     points = contact_points(2, friction=0, stiffness=cubic, exponent=3.0, damping=0.0)
     contact = Interface(points, facing, ("right", "left"))
     return _problem(_structure(1.0, damping, stiffness), contact, 0.0, drive)
+
+
+def between_stops() -> Problem:
+    """Return a mass between two stiff stops, driven hard."""
+    stop = UnilateralSpring(stiffness=20e3, gap=1e-3)
+    return system(
+        mass=[1.0],
+        stiffness=[1000.0],
+        damping_ratio=0.01,
+        elements=[
+            Element(stop, between=("x1", "ground"), name="above"),
+            Element(stop, between=("ground", "x1"), name="below"),
+        ],
+        drive={"x1": 3.0},
+    )
 
 
 def _structure(mass: float, damping: float, stiffness: float) -> Structure:

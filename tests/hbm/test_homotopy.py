@@ -16,6 +16,7 @@ from microslip_mechanics.element import Element
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
+from small_problems import between_stops
 
 
 @pytest.mark.parametrize(
@@ -52,6 +53,18 @@ def test_without_friction_the_drive_alone_makes_a_problem_easier(
     found.clear()
     list(approaches(path, 1.0, nothing, nothing, nothing, folded=False))
     assert found == tried * len(FOURIERS)
+
+
+def test_a_curve_begins_where_its_arc_of_drives_passes_zero() -> None:
+    # Above the resonance the response to more drive folds where it meets the stops, and
+    # comes back to hardly any drive, on the free motion of this frequency.
+    problem = between_stops()
+    options = CurveOptions(2.0 * np.pi * 5.5, 2.0 * np.pi * 5.7)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    assert (curve[0].frequency, curve[-1].frequency) == (options.start, options.end)
+    assert max(each.error for each in curve) <= options.error
 
 
 def test_a_curve_begins_at_a_stop_that_just_touches_at_rest() -> None:

@@ -6,29 +6,11 @@ import numpy as np
 import pytest
 
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response
-from microslip_mechanics.element import Element
-from microslip_mechanics.laws.unilateral import UnilateralSpring
-from microslip_mechanics.problem import Problem
+from hbm.solve import branches, frequency_response
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.system import system
+from small_problems import between_stops
 
 HERTZ = 2.0 * math.pi
-
-
-def between_stops() -> Problem:
-    """Return a mass between two stiff stops, driven hard below its resonance."""
-    stop = UnilateralSpring(stiffness=20e3, gap=1e-3)
-    return system(
-        mass=[1.0],
-        stiffness=[1000.0],
-        damping_ratio=0.01,
-        elements=[
-            Element(stop, between=("x1", "ground"), name="above"),
-            Element(stop, between=("ground", "x1"), name="below"),
-        ],
-        drive={"x1": 3.0},
-    )
 
 
 @pytest.mark.parametrize(("lowest", "highest"), [(1.64, 1.70), (2.25, 2.30)])
@@ -52,3 +34,18 @@ def test_a_mass_between_stops_has_a_branch_point_where_its_stability_changes(
     assert told.event == "branch point"
     assert np.abs(told.multipliers - 1.0).min() < 1e-3
     assert sorted([*below, *above]) == [0, 1]
+
+
+def test_a_branch_whose_first_step_lands_on_its_mirror_image_goes_on() -> None:
+    problem = between_stops()
+    rest = static_equilibrium(problem)
+    options = CurveOptions(6.0 * HERTZ, 7.5 * HERTZ)
+    curve = list(frequency_response(problem, rest, options))
+
+    branch = list(branches(problem, rest, options, curve))
+
+    assert [each.event for each in curve].count("branch point") == 1
+    assert branch[0].event == "branch"
+    assert branch[-1].frequency == options.start
+    means = [abs(float(each.coefficients[0, 0])) for each in branch]
+    assert means[-1] > 10.0 * means[1] > 0.0

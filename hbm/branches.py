@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 
 from hbm.correction import Correction, Outcome
 from hbm.crossings import BRANCH
+from hbm.errors import ContinuationError
 from hbm.fourier import FourierBasis
 from hbm.newton import correct
 from hbm.options import CurveOptions
@@ -157,16 +159,18 @@ def _outward(
     """
     corrections = pieces.from_point(begun, away)
     first = next(corrections)
-    for second in corrections:
-        moved, image = (first.point - point) @ aside, (second.point - point) @ aside
-        if moved @ image < 0.0:
-            onwards = float((second.along @ aside) @ image)
-            along = second.along if onwards > 0.0 else -second.along
-            yield from pieces.from_point(second.point, along)
-            return
+    try:
+        both = [first, *islice(corrections, 1)]
+    except ContinuationError:
         yield first
-        yield second
-        break
+        raise
+    before, after = ((each.point - point) @ aside for each in (first, both[-1]))
+    if before @ after < 0.0:
+        along = both[-1].along
+        outward = float((along @ aside) @ after) > 0.0
+        yield from pieces.from_point(both[-1].point, along if outward else -along)
+        return
+    yield from both
     yield from corrections
 
 

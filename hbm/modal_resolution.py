@@ -19,6 +19,8 @@ from hbm.relative import RelativeProblem
 from hbm.resolution import Estimate, Resolution
 from microslip_mechanics.arrays import Array
 
+DAMPING, FREQUENCY = 0, 2
+"""which of the values of a mode they are"""
 FAINTEST = 1e-4
 """damping ratio below which errors of damping are relative to this one"""
 STRICTER = 100.0
@@ -71,7 +73,7 @@ class ModalResolution(Resolution):
 
     def steepness(self, estimate: Estimate) -> float:
         """Return the error of the damping: that of the frequency counts too much."""
-        return estimate.of(0)[1]
+        return estimate.of(DAMPING)[1]
 
     def errors(self, estimate: Estimate, corrected: bool) -> tuple[float, float]:
         """Return those of frequency and damping ratio, relative.
@@ -80,7 +82,7 @@ class ModalResolution(Resolution):
         """
         damping, frequency = (
             error if corrected else change + error
-            for change, error in (estimate.of(0), estimate.of(2))
+            for change, error in map(estimate.of, (DAMPING, FREQUENCY))
         )
         return frequency / STRICTER, damping
 

@@ -1,4 +1,4 @@
-"""Branches of Duffing's oscillator, against time integration by a general solver."""
+"""Branches of curves; Duffing's against time integration by a general solver."""
 
 import functools
 
@@ -15,7 +15,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
-from small_problems import cubic_oscillator
+from small_problems import between_stops, cubic_oscillator
 
 DAMPING, DRIVE = 0.2, 6.0
 OPTIONS = CurveOptions(1.6, 0.8, error=1e-6)
@@ -160,3 +160,18 @@ def test_a_branch_on_which_alike_oscillators_move_differently_is_followed() -> N
     assert len(found) > 5
     for off, apart in found:
         assert off < 1e-2 * apart
+
+
+def test_a_branch_whose_first_step_lands_on_its_mirror_image_goes_on() -> None:
+    problem = between_stops()
+    rest = static_equilibrium(problem)
+    options = CurveOptions(2.0 * np.pi * 6.0, 2.0 * np.pi * 7.5)
+    curve = list(frequency_response(problem, rest, options))
+
+    branch = list(branches(problem, rest, options, curve))
+
+    assert [each.event for each in curve].count("branch point") == 1
+    assert branch[0].event == "branch"
+    assert branch[-1].frequency == options.start
+    means = [abs(float(each.coefficients[0, 0])) for each in branch]
+    assert means[-1] > 10.0 * means[1] > 0.0

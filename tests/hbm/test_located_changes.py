@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hbm.options import CurveOptions
-from hbm.solve import branches, frequency_response
+from hbm.solve import frequency_response
 from microslip_mechanics.static import static_equilibrium
 from small_problems import between_stops
 
@@ -34,18 +34,3 @@ def test_a_mass_between_stops_has_a_branch_point_where_its_stability_changes(
     assert told.event == "branch point"
     assert np.abs(told.multipliers - 1.0).min() < 1e-3
     assert sorted([*below, *above]) == [0, 1]
-
-
-def test_a_branch_whose_first_step_lands_on_its_mirror_image_goes_on() -> None:
-    problem = between_stops()
-    rest = static_equilibrium(problem)
-    options = CurveOptions(6.0 * HERTZ, 7.5 * HERTZ)
-    curve = list(frequency_response(problem, rest, options))
-
-    branch = list(branches(problem, rest, options, curve))
-
-    assert [each.event for each in curve].count("branch point") == 1
-    assert branch[0].event == "branch"
-    assert branch[-1].frequency == options.start
-    means = [abs(float(each.coefficients[0, 0])) for each in branch]
-    assert means[-1] > 10.0 * means[1] > 0.0

@@ -67,6 +67,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     resolution.add_argument(
         "--tolerance",
         type=_tolerance,
+        default=TOLERANCE,
         help="relative error of the damping ratio at each point, of the frequency a "
         "hundredth of it: harmonics and samples follow from it "
         f"(default: {TOLERANCE:g})",
@@ -162,7 +163,7 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
     amplitudes = 1e-3 * smallest, 1e-3 * largest
     return ModeOptions(
         *amplitudes,
-        error=options.tolerance or TOLERANCE,
+        error=options.tolerance,
         harmonics=options.harmonics,
     )
 

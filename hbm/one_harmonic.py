@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from hbm.across_curve import responses_across
-from hbm.equivalent import SAMPLES
+from hbm.curves.across_curve import responses_across
+from hbm.curves.periodic_response import periodic_response
 from hbm.errors import ContinuationError, hertz
-from hbm.fourier import usual_samples
+from hbm.forces.equivalent import SAMPLES
+from hbm.forces.fourier import usual_samples
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem

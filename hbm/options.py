@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.adaptive import HARMONICS
 from hbm.checks import check_harmonics, check_positive
-from hbm.fourier import FourierBasis, usual_samples
-from hbm.step_control import StepControl
+from hbm.continuation.step_control import StepControl
+from hbm.forces.fourier import FourierBasis, usual_samples
+from hbm.resolution.adaptive import HARMONICS
 
 POSITIVE = (
     "error", "tolerance", "largest_step", "most_harmonics", "effort", "highest",
@@ -52,7 +52,7 @@ class CurveOptions:
     """that an error tolerance may ask for; reported points have up to twice as many"""
     effort: float | None = None
     """evaluations of the residual after which a curve is given up, see
-    :class:`~hbm.effort.Effort`"""
+    :class:`~hbm.continuation.effort.Effort`"""
     highest: float | None = None
     """frequency up to which a sparse structure is resolved [rad/s], see
     :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger one if left out"""

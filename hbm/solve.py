@@ -7,17 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.branches import Branching
 from hbm.checks import check_positive
-from hbm.condensation import CondensedStructure
-from hbm.dense_problem import dense_problem, resolved_up_to
-from hbm.detached import Search, Sought
+from hbm.curves.branches import Branching
+from hbm.curves.dense_problem import dense_problem, resolved_up_to
+from hbm.curves.detached import Search, Sought
+from hbm.curves.tracer import Tracer
 from hbm.errors import PLACE, ContinuationError, hertz, placed
-from hbm.linear_curve import LinearCurve, linear_curve
 from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
-from hbm.path import along_frequency
-from hbm.tracer import Tracer
+from hbm.paths.path import along_frequency
+from hbm.structure.condensation import CondensedStructure
+from hbm.structure.linear_curve import LinearCurve, linear_curve
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState

@@ -15,7 +15,7 @@ from microslip.schema import Result
 from microslip_mechanics.envelope import Envelope
 from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
-from timedomain.record import FLOWS, STORES
+from timedomain.record.record import FLOWS, STORES
 
 PROBES = ("excited-blade", "follower-blade", "element", "element-to-excited")
 CONTACTS = ("B1", "B2", "A1")

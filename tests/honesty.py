@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_tables import contact_points
+from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene

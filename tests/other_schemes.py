@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from timedomain.schemes import MEAN_FORCE, TRAPEZOID, Scheme, runge_kutta
+from timedomain.fast.schemes import MEAN_FORCE, TRAPEZOID, Scheme, runge_kutta
 
 
 def _tr_bdf2() -> Scheme:

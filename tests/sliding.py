@@ -3,8 +3,8 @@
 import numpy as np
 
 from contact_tables import contact_points
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis, to_complex, to_real
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis, to_complex, to_real
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.points import ContactPoints
 

@@ -24,7 +24,7 @@ from microslip_mechanics.structure import Structure
 from microslip_mechanics.system import system
 from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 STILL = np.zeros((3, 1))
 ROWS = 20

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hbm.linearised import SingularError
+from hbm.continuation.linearised import SingularError
 from microslip_mechanics.arrays import Array
 
 

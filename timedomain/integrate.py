@@ -10,10 +10,10 @@ from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
-from timedomain.fast import FastMarch
+from timedomain.fast.fast import FastMarch
 from timedomain.options import IntegrationError, MarchOptions
-from timedomain.reference import ReferenceMarch
-from timedomain.start import Start, at_rest
+from timedomain.record.start import Start, at_rest
+from timedomain.reference.reference import ReferenceMarch
 from timedomain.step_doubling import StepDoubling, rows_between
 
 __all__ = ["IntegrationError", "MarchOptions", "integrate"]

@@ -10,11 +10,11 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
-from timedomain.energy_scale import settled
-from timedomain.fast import FastMarch
+from timedomain.fast.energy_scale import settled
+from timedomain.fast.fast import FastMarch
 from timedomain.options import MOST_DIVISIONS, MarchOptions
-from timedomain.reference import ReferenceMarch
-from timedomain.start import Start
+from timedomain.record.start import Start
+from timedomain.reference.reference import ReferenceMarch
 
 CAUTION = 1.5
 """estimate over difference: where friction turns over within a step errors are no

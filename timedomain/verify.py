@@ -13,7 +13,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import on_orbit
+from timedomain.record.start import on_orbit
 
 ROWS_PER_PERIOD = 60
 

@@ -71,7 +71,7 @@ def _compiled(function: Function, *, counted: bool, inline: str = "never") -> Fu
     choices["inline"] = inline
     choices["no_cfunc_wrapper"] = True  # nobody takes the address of a kernel
     dispatcher = numba.njit(**choices)(function)
-    folder = _cache_folder(Path(function.__code__.co_filename).parent)
+    folder = _cache_folder(_package(Path(function.__code__.co_filename)))
     if folder is None:
         return cast("Function", dispatcher)
     shared, options["CACHE_DIR"] = options["CACHE_DIR"], str(folder)
@@ -80,6 +80,14 @@ def _compiled(function: Function, *, counted: bool, inline: str = "never") -> Fu
     finally:
         options["CACHE_DIR"] = shared
     return cast("Function", dispatcher)
+
+
+def _package(source: Path) -> Path:
+    """Return the folder of the outermost package that a file belongs to."""
+    folder = source.parent
+    while (folder.parent / "__init__.py").exists():
+        folder = folder.parent
+    return folder
 
 
 @functools.cache
@@ -99,7 +107,7 @@ def _content(package: Path) -> str:
     ground = Path(__file__).parent
     sources = sorted(ground.rglob("*.py"))
     if not package.is_relative_to(ground):
-        sources += sorted(package.glob("*.py"))
+        sources += sorted(package.rglob("*.py"))
     content = hashlib.sha256()
     for source in sources:
         content.update(source.read_bytes())

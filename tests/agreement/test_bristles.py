@@ -16,8 +16,8 @@ from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from small_problems import marched
 from timedomain.integrate import MarchOptions
-from timedomain.shooting import periodic_orbit
-from timedomain.start import Start, on_orbit
+from timedomain.record.start import Start, on_orbit
+from timedomain.shooting.shooting import periodic_orbit
 
 HERTZ = 1.7
 

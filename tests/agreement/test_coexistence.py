@@ -11,13 +11,13 @@ import itertools
 import numpy as np
 import pytest
 
+from hbm.curves.parameter_curves import parameter_response
 from hbm.options import CurveOptions
-from hbm.parameter_curves import parameter_response
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from rigs import rig_problem
 from small_problems import dwelled, from_rest, last_harmonic
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 FREQUENCY = 2.0 * np.pi * 136.8
 LOUD, PERIODS, STEPS = 3.0, 1300, 400

@@ -12,7 +12,7 @@ from microslip_mechanics.system import system
 from small_problems import marched, oscillator
 from timedomain.integrate import MarchOptions
 from timedomain.options import Method
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 # 2 ü + 0.5 u̇ + 300 u = preload + 1.5 × drive
 SYSTEM = ([1.5], [2.0, 0.5, 300.0])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import scipy.integrate
 
-from hbm.mode_options import ModeOptions
-from hbm.modes import NonlinearMode, modes_in_range, nonlinear_mode
+from hbm.modes.mode_options import ModeOptions
+from hbm.modes.modes import NonlinearMode, modes_in_range, nonlinear_mode
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
@@ -15,7 +15,7 @@ from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_problems import marched
 from timedomain.integrate import MarchOptions
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 STEPS, ROWS = 1600, 80
 

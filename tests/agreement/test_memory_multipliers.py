@@ -9,8 +9,8 @@ from memory_problems import CONTACTS, masses
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import PointLaw
 from microslip_mechanics.static import static_equilibrium
-from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import on_orbit
+from timedomain.record.start import on_orbit
+from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
 
 @pytest.mark.parametrize(("law", "seen", "drive"), CONTACTS)

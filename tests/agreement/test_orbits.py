@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hbm.fourier import to_complex
+from hbm.curves.periodic_response import periodic_response
+from hbm.forces.fourier import to_complex
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
@@ -16,7 +16,7 @@ from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_problems import dwelled, last_harmonic
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 TURN = 2.0 * np.pi
 PERIODS, STEPS = 100, 600

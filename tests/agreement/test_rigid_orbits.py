@@ -13,9 +13,9 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
-from timedomain.comparison import compared
-from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import Start
+from timedomain.record.start import Start
+from timedomain.shooting.comparison import compared
+from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 from timedomain.verify import agreement, march_periods
 
 Laws = RigidCoulomb | RegularisedCoulomb

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from hbm.condensation import condense
-from hbm.fourier import to_complex
+from hbm.forces.fourier import to_complex
 from hbm.options import CurveOptions
-from hbm.poles import poles
 from hbm.solve import frequency_response
+from hbm.structure.condensation import condense
+from hbm.structure.poles import poles
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import TWO_SIDED, PointLaw, contact_table
@@ -19,7 +19,7 @@ from microslip_mechanics.rotation import Rotation
 from microslip_mechanics.static import static_equilibrium
 from small_motions.multipliers import floquet_multipliers
 from small_problems import dwelled, last_harmonic
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 SPEED = 60.0
 """of the shaft [rad/s]: three tenths of its first frequency at rest"""

@@ -5,17 +5,17 @@ import functools
 import numpy as np
 import pytest
 
+from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_motions.multipliers import floquet_multipliers
-from timedomain.comparison import MULTIPLIER_FLOOR, compared
-from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import Start
+from timedomain.record.start import Start
+from timedomain.shooting.comparison import MULTIPLIER_FLOOR, compared
+from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
 TURN = 2.0 * np.pi
 GKF: dict[str, object] = {"friction__law": "gkf"}

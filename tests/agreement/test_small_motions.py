@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
+from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
@@ -17,7 +17,7 @@ from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_motions.multipliers import floquet_multipliers, monodromy
 from small_problems import dwelled
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 TURN = 2.0 * np.pi
 

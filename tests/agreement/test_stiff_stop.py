@@ -14,8 +14,8 @@ from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
-from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import Start
+from timedomain.record.start import Start
+from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
 MASS, STIFFNESS, GAP, DRIVE = 1.0, 1e3, 5e-4, 0.05
 DAMPING = 2.0 * 0.03 * np.sqrt(MASS * STIFFNESS)

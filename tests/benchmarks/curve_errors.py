@@ -26,9 +26,9 @@ sys.path.append(str(Path(__file__).parents[1]))
 
 import numpy as np
 
+from hbm.curves.periodic_response import periodic_response
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
 from honesty import amplitudes
 from law_examples import CASES, driven

@@ -21,10 +21,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 
-from hbm.cyclic import cyclic_response
-from hbm.fourier import to_complex, to_real
+from hbm.curves.cyclic import cyclic_response
+from hbm.curves.periodic_response import periodic_response
+from hbm.forces.fourier import to_complex, to_real
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
 from microslip.scene_file import load_scene
 from microslip.scenes.bladed_disk.build import sector

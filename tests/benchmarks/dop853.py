@@ -13,8 +13,8 @@ from scipy.integrate._ivp import dop853_coefficients as published
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
-from timedomain.first_order_rate import flow
-from timedomain.first_order_system import System
+from timedomain.first_order.first_order_rate import flow
+from timedomain.first_order.first_order_system import System
 
 STAGES = 12
 SAFETY, SMALLEST, LARGEST = 0.9, 0.2, 10.0

@@ -22,13 +22,13 @@ sys.path.append(str(Path(__file__).parents[1]))
 
 import numpy as np
 
-import hbm.fourier
-import hbm.low_orders
-from hbm.active import extended, moving, symmetric
-from hbm.fourier import FourierBasis, Transform
+import hbm.balance.low_orders
+import hbm.forces.fourier
+from hbm.balance.active import extended, moving, symmetric
+from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.forces.fourier import FourierBasis, Transform
 from hbm.options import CurveOptions
-from hbm.relative import RelativeProblem, relative_problem
-from hbm.residual import HarmonicBalance
 from hbm.solve import frequency_response
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
@@ -131,13 +131,13 @@ def by_many_harmonics(problem: Problem) -> Sizes:
         ("Newton [ms]", "by factors [ms]"),
         (2.5, None),
     )
-    case, large = Case(problem, 134.9 * HERTZ), hbm.low_orders.LARGE
+    case, large = Case(problem, 134.9 * HERTZ), hbm.balance.low_orders.LARGE
     for harmonics in MANY:
         samples = 8 * (harmonics + 1)
         iterated, _, _ = case.costs(harmonics, samples)
-        hbm.low_orders.LARGE = sys.maxsize
+        hbm.balance.low_orders.LARGE = sys.maxsize
         factored, _, _ = case.costs(harmonics, samples)
-        hbm.low_orders.LARGE = large
+        hbm.balance.low_orders.LARGE = large
         table.add(harmonics, iterated, factored)
     return table
 
@@ -284,7 +284,7 @@ def transforms() -> None:
     """Compare FFTW with products by a matrix, there and back, and what is chosen."""
     print("\ntransforms of 6 signals, there and back [µs]; samples 8, 16, 512 (H + 1)")
     print("   harmonics     samples        FFTW      matrix  matrix/FFTW  chosen")
-    chosen = hbm.fourier.multiplies
+    chosen = hbm.forces.fourier.multiplies
     for harmonics in (1, 3, 7, 15, 31, 63):
         for share in (8, 16, 512):
             samples = share * (harmonics + 1)
@@ -295,13 +295,13 @@ def transforms() -> None:
                 f"{harmonics:12d}{samples:12d}{1e6 * fast:12.1f}{1e6 * plain:12.1f}"
                 f"{plain / fast:13.2f}  {'matrix' if small else 'FFTW'}"
             )
-    hbm.fourier.multiplies = chosen
+    hbm.forces.fourier.multiplies = chosen
 
 
 def transformed(harmonics: int, samples: int, *, by_product: bool) -> float:
     """Return the seconds there and back, by a product or by a fast transform."""
     signals = 6
-    hbm.fourier.multiplies = lambda *_: by_product
+    hbm.forces.fourier.multiplies = lambda *_: by_product
     coefficients = np.random.default_rng(0).normal(size=(2 * harmonics + 1, signals))
     transform = Transform(signals, samples)
     transform.synthesis(coefficients)

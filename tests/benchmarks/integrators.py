@@ -32,10 +32,10 @@ from microslip_mechanics.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import TimeHistory, joined
 from other_schemes import ESDIRK3, LINEAR_FORCE, TR_BDF2
-from timedomain.fast import FastMarch
+from timedomain.fast.fast import FastMarch
+from timedomain.fast.schemes import MEAN_FORCE, SDIRK2, TRAPEZOID, Scheme
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
-from timedomain.schemes import MEAN_FORCE, SDIRK2, TRAPEZOID, Scheme
-from timedomain.start import at_rest
+from timedomain.record.start import at_rest
 
 SCHEMES = (MEAN_FORCE, LINEAR_FORCE, TRAPEZOID, TR_BDF2, SDIRK2, ESDIRK3)
 ROW = 2.5e-4

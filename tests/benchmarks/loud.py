@@ -18,7 +18,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 TURN = 2.0 * np.pi
 SPREAD = 125.0 + 20.0 * (np.arange(15) + 0.5) / 15.0

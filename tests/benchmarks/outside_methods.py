@@ -21,9 +21,9 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import joined
-from timedomain.first_order import FirstOrder, Flow, Jacobian
+from timedomain.first_order.first_order import FirstOrder, Flow, Jacobian
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 MOST_STEPS = 10**8
 FIRST_STEP = 1e-7

@@ -42,8 +42,8 @@ from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.static import static_equilibrium
-from timedomain.first_order import first_order
-from timedomain.start import Start
+from timedomain.first_order.first_order import first_order
+from timedomain.record.start import Start
 
 HERTZ = 2.0 * np.pi
 CHECKS = 20

@@ -32,12 +32,12 @@ import numpy as np
 
 from benchmarks.pyharm_cases import Case, Evaluation, blisk, chain, contacts, duffing
 from benchmarks.pyharm_side import median
+from hbm.balance.relative import relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.curves.periodic_response import periodic_response
 from hbm.errors import ContinuationError
-from hbm.fourier import FourierBasis
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
-from hbm.relative import relative_problem
-from hbm.residual import HarmonicBalance
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import PeriodicResponse

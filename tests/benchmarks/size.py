@@ -25,9 +25,9 @@ sys.path.append(str(Path(__file__).parents[1]))
 import numpy as np
 import scipy.sparse
 
+from hbm.balance.relative import relative_problem
+from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
-from hbm.relative import relative_problem
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.beam import RectangularSection, beam_matrices

@@ -20,8 +20,8 @@ sys.path.append(str(Path(__file__).parents[1]))
 
 import numpy as np
 
+from hbm.curves.periodic_response import periodic_response, with_multipliers
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response, with_multipliers
 from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
@@ -33,7 +33,7 @@ from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import joined
 from small_motions.multipliers import floquet_multipliers, monodromy
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 MODELS = {
     "A": ["model=A"],

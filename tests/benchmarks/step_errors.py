@@ -41,7 +41,7 @@ from rigs import rig_problem
 from small_problems import cubic_oscillator, marched
 from timedomain.integrate import MarchOptions
 from timedomain.options import Method
-from timedomain.start import loaded
+from timedomain.record.start import loaded
 
 Way = Literal["fast", "reference", "tolerance"]
 """by which a march is made"""

@@ -32,7 +32,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 MODELS, LAWS = ("A", "B", "full"), ("coulomb", "gkf")
 TARGET = 100.0

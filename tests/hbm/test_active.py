@@ -7,13 +7,13 @@ import pytest
 from numpy.typing import NDArray
 
 from contact_tables import contact_points
-from hbm.active import extended, moving, symmetric
-from hbm.corrected import correct_at
-from hbm.fourier import FourierBasis
-from hbm.path import along_frequency
-from hbm.relative import RelativeProblem, relative_problem
-from hbm.residual import HarmonicBalance
-from hbm.step_control import StepControl
+from hbm.balance.active import extended, moving, symmetric
+from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.step_control import StepControl
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path import along_frequency
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

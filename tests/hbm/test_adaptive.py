@@ -5,14 +5,14 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from hbm.adaptive import PATIENT, SHORT, WAIT, AdaptiveBalance
-from hbm.corrected import correct_at
-from hbm.fourier import FourierBasis
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.step_control import StepControl
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.path import along_frequency
-from hbm.path_resolution import PathResolution
+from hbm.paths.path import along_frequency
+from hbm.paths.path_resolution import PathResolution
+from hbm.resolution.adaptive import PATIENT, SHORT, WAIT, AdaptiveBalance
 from hbm.solve import frequency_response
-from hbm.step_control import StepControl
 from honesty import VARIANTS, block, errors
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem

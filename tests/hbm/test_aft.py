@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from contact_tables import contact_points
-from hbm.aft import AlternatingFrequencyTime
-from hbm.contact_cycle import ContactCycle
-from hbm.fourier import FourierBasis
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.contact_cycle import ContactCycle
+from hbm.forces.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ContactPoints
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from hbm.bracket import bracketed
+from hbm.continuation.bracket import bracketed
 
 ZERO, LENGTH = 0.3712, 1.7
 SMOOTH: dict[str, Callable[[float], float]] = {

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hbm.carried import carried
-from hbm.carried_step import (
+from hbm.stability.carried import carried
+from hbm.stability.carried_step import (
     FACTOR,
     ROOT,
     STICKING_FACTOR,

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hbm.curves.periodic_response import periodic_response, with_multipliers
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response, with_multipliers
 from hbm.solve import frequency_response
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
-from timedomain.comparison import compared
+from timedomain.shooting.comparison import compared
 
 HERTZ = 2.0 * np.pi
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from contact_tables import contact_points
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis
 
 pytestmark = pytest.mark.kernels
 

@@ -7,15 +7,15 @@ import math
 import numpy as np
 import pytest
 
-from hbm.arc import tangent
-from hbm.continuation import trace
-from hbm.corrected import correct_at
-from hbm.correction import Correction, Outcome
+from hbm.continuation.arc import tangent
+from hbm.continuation.continuation import trace
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.linearised import System
+from hbm.continuation.newton import Small
+from hbm.continuation.settler import Unsettled
+from hbm.continuation.step_control import StepControl
 from hbm.errors import ContinuationError
-from hbm.linearised import System
-from hbm.newton import Small
-from hbm.settler import Unsettled
-from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from systems import Dense
 

@@ -5,13 +5,13 @@ import itertools
 import numpy as np
 import pytest
 
-from hbm.continuation import trace
-from hbm.corner import round_corner
-from hbm.correction import Correction, Outcome
+from hbm.continuation.continuation import trace
+from hbm.continuation.corner import round_corner
+from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.step_control import StepControl
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from hbm.step_control import StepControl
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array

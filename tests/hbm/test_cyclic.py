@@ -7,9 +7,9 @@ import pytest
 import scipy.linalg
 
 from benchmarks.cyclic import around
-from hbm.cyclic import cyclic_response
+from hbm.curves.cyclic import cyclic_response
+from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from memory_problems import JENKINS
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import (

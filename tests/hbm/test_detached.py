@@ -5,14 +5,14 @@ import functools
 import numpy as np
 import pytest
 
-from hbm.detached import MOST, Sought
+from hbm.curves.detached import MOST, Sought
 from hbm.options import CurveOptions
 from hbm.solve import detached, frequency_response
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from small_problems import dwelled, last_harmonic, oscillator, sliding_block
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 MASS, STIFFNESS, DAMPING, DRIVE, DYNAMIC = 2.0, 300.0, 2.0, 1.5, 0.3
 BLOCK = sliding_block(
@@ -144,7 +144,7 @@ def test_a_curve_that_takes_more_than_the_effort_is_followed_in_part(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     whole = curves()[1]
-    monkeypatch.setattr("hbm.detached.FOLLOWING", 5000.0)
+    monkeypatch.setattr("hbm.curves.detached.FOLLOWING", 5000.0)
 
     found, places = sought(BLOCK, known())
 

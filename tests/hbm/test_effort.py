@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from hbm.effort import UNIT, Effort
+from hbm.balance.linearisation import Linearisation
+from hbm.continuation.effort import UNIT, Effort
+from hbm.continuation.linearised import Linearised
 from hbm.errors import ContinuationError
-from hbm.linearisation import Linearisation
-from hbm.linearised import Linearised
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from honesty import block

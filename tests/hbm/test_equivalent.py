@@ -7,12 +7,16 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
 from hbm.errors import ContinuationError
-from hbm.one_harmonic import amplitudes, one_harmonic_error, one_harmonic_response
+from hbm.forces.equivalent import equivalent_contact, free_structure, stuck_structure
+from hbm.one_harmonic import (
+    amplitudes,
+    one_harmonic_error,
+    one_harmonic_response,
+)
 from hbm.options import CurveOptions
-from hbm.poles import damping_ratios, frequencies, poles
 from hbm.solve import frequency_response
+from hbm.structure.poles import damping_ratios, frequencies, poles
 from honesty import falling
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
@@ -23,7 +27,7 @@ from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_problems import dwelled, last_harmonic, sliding_block
 from sparse_problems import dense, net
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 TURN = 2.0 * np.pi
 RANGE = (TURN * 125.0, TURN * 145.0)

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hbm.correction import Correction, Outcome
-from hbm.event_error import fold_error
-from hbm.found import found_between
-from hbm.fourier import FourierBasis
+from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.segment import Segment, folds
+from hbm.events.event_error import fold_error
+from hbm.events.found import found_between
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.segment import Segment, folds
 from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
@@ -136,7 +136,7 @@ def test_what_lies_between_points_that_do_not_converge_is_told_as_roughly(
 ) -> None:
     finest = marked("gap", error=FINEST)
     monkeypatch.setattr(Segment, "locate", lambda *_, **__: None)
-    monkeypatch.setattr("hbm.events.placed_fold", lambda *seen: (seen[3], 0.0))
+    monkeypatch.setattr("hbm.events.events.placed_fold", lambda *seen: (seen[3], 0.0))
 
     rough = marked("gap", error=1e-3)
 

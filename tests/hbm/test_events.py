@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.polynomial import polynomial
 
-from hbm.amplitude_growth import AmplitudeGrowth
-from hbm.correction import Correction, Outcome
-from hbm.events import Events
-from hbm.fourier import FourierBasis
-from hbm.settled import Settled
-from hbm.step_control import StepControl
+from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.step_control import StepControl
+from hbm.events.amplitude_growth import AmplitudeGrowth
+from hbm.events.events import Events
+from hbm.events.settled import Settled
+from hbm.forces.fourier import FourierBasis
 from microslip_mechanics.arrays import Array, ComplexArray
 from systems import Dense
 

@@ -8,16 +8,16 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from hbm.continuation import trace
+from hbm.balance.linearisation import Linearisation
+from hbm.continuation.continuation import trace
+from hbm.continuation.segment import Segment, folds
+from hbm.continuation.step_control import StepControl
+from hbm.curves.fold_curve import FoldPoint, meeting
+from hbm.curves.parameter_curves import fold_curve
 from hbm.errors import ContinuationError
-from hbm.fold_balance import FoldBalance
-from hbm.fold_curve import FoldPoint, meeting
-from hbm.linearisation import Linearisation
+from hbm.events.fold_balance import FoldBalance
 from hbm.options import CurveOptions
-from hbm.parameter_curves import fold_curve
-from hbm.segment import Segment, folds
 from hbm.solve import frequency_response
-from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hbm.fourier import FourierBasis, Transform, derivative, to_complex, to_real
+from hbm.forces.fourier import FourierBasis, Transform, derivative, to_complex, to_real
 from microslip_mechanics.arrays import Array
 
 HARMONICS, SIGNALS = 5, 3
@@ -14,7 +14,7 @@ ROUNDING = 1e-14
 @pytest.fixture(params=[False, True], ids=["FFTW", "matrix"])
 def way(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Have transforms of all sizes here made in one way, and in the other."""
-    monkeypatch.setattr("hbm.fourier.multiplies", lambda *_: request.param)
+    monkeypatch.setattr("hbm.forces.fourier.multiplies", lambda *_: request.param)
 
 
 def random_coefficients() -> Array:

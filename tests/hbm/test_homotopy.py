@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-import hbm.homotopy
-from hbm.homotopy import FOURIERS, approaches
+import hbm.curves.homotopy
+from hbm.curves.homotopy import FOURIERS, approaches
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
@@ -36,9 +36,9 @@ def test_without_friction_the_drive_alone_makes_a_problem_easier(
         found.append("arc")
         return np.zeros((1, 1))
 
-    monkeypatch.setattr(hbm.homotopy, "_touches", lambda *_: False)
-    monkeypatch.setattr(hbm.homotopy, "_followed", followed)
-    monkeypatch.setattr(hbm.homotopy, "_along_an_arc", along)
+    monkeypatch.setattr(hbm.curves.homotopy, "_touches", lambda *_: False)
+    monkeypatch.setattr(hbm.curves.homotopy, "_followed", followed)
+    monkeypatch.setattr(hbm.curves.homotopy, "_along_an_arc", along)
     laws = np.array([friction])
     points = SimpleNamespace(dynamic=laws, static=laws)
     problem = SimpleNamespace(points=points, apart=lambda _: np.zeros(3))

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hbm import iterated, linearisation
-from hbm.bordered import Bordered
-from hbm.corrected import correct_at
-from hbm.effort import Effort
-from hbm.fourier import FourierBasis, to_complex, to_real
-from hbm.homotopy import approaches
-from hbm.linearisation import Linearisation
-from hbm.path import along_frequency
-from hbm.residual import HarmonicBalance
-from hbm.step_control import StepControl
+from hbm.balance import iterated, linearisation
+from hbm.balance.linearisation import Linearisation
+from hbm.balance.residual import HarmonicBalance
+from hbm.continuation.bordered import Bordered
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.effort import Effort
+from hbm.continuation.step_control import StepControl
+from hbm.curves.homotopy import approaches
+from hbm.forces.fourier import FourierBasis, to_complex, to_real
+from hbm.paths.path import along_frequency
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb

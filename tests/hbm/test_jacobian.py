@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from contact_tables import FRICTION_LAWS, contact_points, every_combination
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis, to_complex, to_real
-from hbm.jacobian import assemble, terms
+from hbm.balance.jacobian import assemble, terms
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis, to_complex, to_real
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, tangent_pattern
 from microslip_mechanics.contact.points import ContactPoints

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from hbm.continuation import trace
+from hbm.continuation.continuation import trace
+from hbm.continuation.leaps import Leaping
+from hbm.continuation.linearised import System
+from hbm.continuation.settler import UNSETTLED
+from hbm.continuation.step_control import StepControl
 from hbm.errors import ContinuationError
-from hbm.leaps import Leaping
-from hbm.linearised import System
-from hbm.settler import UNSETTLED
-from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from systems import Dense
 

@@ -11,7 +11,7 @@ import scipy.optimize
 
 from contact_tables import contact_points, linear_contact
 from hbm.errors import ContinuationError
-from hbm.fourier import to_complex
+from hbm.forces.fourier import to_complex
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import ComplexArray

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hbm.linearisation import Linearisation
-from hbm.linearised import SingularError
+from hbm.balance.linearisation import Linearisation
+from hbm.continuation.linearised import SingularError
 
 SIZE = 9
 PLACES = np.array([0, 2, 3, 6])

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hbm.correction import Outcome
-from hbm.fourier import FourierBasis
-from hbm.newton import correct
-from hbm.path import along_frequency
-from hbm.path_resolution import PathResolution
+from hbm.continuation.correction import Outcome
+from hbm.continuation.newton import correct
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path import along_frequency
+from hbm.paths.path_resolution import PathResolution
 from memory_problems import CONTACTS, masses
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import PointLaw

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis
-from hbm.newton import correct
-from hbm.path import along_frequency
-from hbm.path_resolution import PathResolution
+from hbm.continuation.newton import correct
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path import along_frequency
+from hbm.paths.path_resolution import PathResolution
 from memory_problems import JENKINS, LIMIT, SHOE, STIFFNESS, masses
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import BRISTLE, ELASTIC, PointLaw, contact_table

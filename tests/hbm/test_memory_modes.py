@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
-from hbm.mode_options import ModeOptions
-from hbm.modes import modes_in_range, nonlinear_mode
+from hbm.forces.equivalent import equivalent_contact, free_structure, stuck_structure
+from hbm.modes.mode_options import ModeOptions
+from hbm.modes.modes import modes_in_range, nonlinear_mode
 from hbm.one_harmonic import one_harmonic_response
-from hbm.poles import poles
+from hbm.structure.poles import poles
 from memory_problems import JENKINS, LIMIT, STIFFNESS
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ELASTIC, PointLaw, contact_table

@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 
-from hbm.condensation import condense
-from hbm.fourier import FourierBasis
-from hbm.free_motion import free_motion
-from hbm.linear_modes import linear_modes
-from hbm.modal import ModalBalance
-from hbm.modal_parts import ModalParts, Reference
-from hbm.relative import relative_problem
+from hbm.balance.relative import relative_problem
+from hbm.forces.fourier import FourierBasis
+from hbm.modes.free_motion import free_motion
+from hbm.modes.linear_modes import linear_modes
+from hbm.modes.modal import ModalBalance
+from hbm.modes.modal_parts import ModalParts, Reference
+from hbm.structure.condensation import condense
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 

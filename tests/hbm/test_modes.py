@@ -10,8 +10,8 @@ import scipy.optimize
 import scipy.special
 
 from contact_tables import contact_points
-from hbm.mode_options import ModeOptions
-from hbm.modes import NonlinearMode, modes_in_range, nonlinear_mode
+from hbm.modes.mode_options import ModeOptions
+from hbm.modes.modes import NonlinearMode, modes_in_range, nonlinear_mode
 from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from contact_tables import contact_points
+from hbm.curves.parameter_curves import parameter_response
 from hbm.options import CurveOptions
-from hbm.parameter_curves import parameter_response
 from hbm.solve import frequency_response
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hbm.crossings import BRANCH, TORUS, crossed
-from hbm.moving_multiplier import MovingMultiplier, outside
+from hbm.events.crossings import BRANCH, TORUS, crossed
+from hbm.events.moving_multiplier import MovingMultiplier, outside
 from microslip_mechanics.response import MARGIN
 
 NEUTRAL = 0.999996

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from hbm.correction import Correction, Outcome
-from hbm.linearised import System
-from hbm.newton import Small, correct
+from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.linearised import System
+from hbm.continuation.newton import Small, correct
 from microslip_mechanics.arrays import Array
 from systems import Dense
 

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from hbm.along_parameter import AlongParameter
-from hbm.continuation import trace
-from hbm.fourier import FourierBasis
+from hbm.continuation.continuation import trace
+from hbm.continuation.step_control import StepControl
+from hbm.curves.parameter_curves import parameter_response
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.parameter_curves import parameter_response
-from hbm.step_control import StepControl
+from hbm.paths.along_parameter import AlongParameter
 from microslip.quantity import SceneError
 from microslip.studies.curve import gathered
 from microslip.studies.parameter import parameter

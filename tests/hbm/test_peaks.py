@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import scipy.optimize
 
+from hbm.curves.periodic_response import settled_response
 from hbm.options import CurveOptions
-from hbm.periodic_response import settled_response
 from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene

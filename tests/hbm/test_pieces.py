@@ -8,21 +8,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-import hbm.cornered
-from hbm.along_parameter import AlongParameter
-from hbm.corner import Turned
-from hbm.cornered import Cornered
-from hbm.correction import Correction, Outcome
-from hbm.effort import Effort
+import hbm.continuation.cornered
+from hbm.continuation.corner import Turned
+from hbm.continuation.cornered import Cornered
+from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.effort import Effort
+from hbm.continuation.settler import Unsettled
+from hbm.continuation.step_control import StepControl
+from hbm.curves.pieces import Pieces
+from hbm.curves.restart import FIRST
+from hbm.curves.tracer import Tracer
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
-from hbm.path import along_frequency
-from hbm.pieces import Pieces
-from hbm.restart import FIRST
-from hbm.settler import Unsettled
+from hbm.paths.along_parameter import AlongParameter
+from hbm.paths.path import along_frequency
 from hbm.solve import frequency_response
-from hbm.step_control import StepControl
-from hbm.tracer import Tracer
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
@@ -66,10 +66,11 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
         if reached != end:
             raise ContinuationError(f"the curve does not go on at {place:g}")
 
-    monkeypatch.setattr("hbm.cornered.trace", trace)
-    monkeypatch.setattr("hbm.cornered.round_corner", lambda *_: None)
+    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.cornered.round_corner", lambda *_: None)
     monkeypatch.setattr(
-        "hbm.restart.approaches", lambda *_, **__: (np.array([[y]]) for y in (0.0, 0.9))
+        "hbm.curves.restart.approaches",
+        lambda *_, **__: (np.array([[y]]) for y in (0.0, 0.9)),
     )
     return found
 
@@ -100,7 +101,7 @@ def test_where_ratios_count_a_curve_begins_behind_a_small_ratio(
         tried.append(parameter)
         return iter(())
 
-    monkeypatch.setattr("hbm.restart.approaches", approaches)
+    monkeypatch.setattr("hbm.curves.restart.approaches", approaches)
     path: Any = SimpleNamespace(unit=lambda place: place * np.log(1e4) / 10.0)
     restart = replace(pieces(1e-6, 1e-2), path=path).restart
 
@@ -127,7 +128,7 @@ def test_folds_of_the_drive_are_followed_at_the_nearest_and_the_farthest_place(
         tried.append((parameter, folded))
         return iter(())
 
-    monkeypatch.setattr("hbm.restart.approaches", approaches)
+    monkeypatch.setattr("hbm.curves.restart.approaches", approaches)
 
     list(pieces(0.0, 1.0))
 
@@ -140,7 +141,7 @@ def test_folds_of_the_drive_are_followed_at_the_nearest_and_the_farthest_place(
 def test_a_curve_that_stops_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
 
     points = [each.point for each in pieces(0.0, 1.0)]
 
@@ -151,7 +152,9 @@ def test_a_curve_that_stops_is_followed_from_the_other_end(
 def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.cornered)["trace"]
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+        "trace"
+    ]
 
     def trace(
         system: Any, start: Array, end: float, **options: Any
@@ -159,8 +162,8 @@ def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
         back = 1.0 if start[-1] == 1.0 else end
         return traced(system, start, back, **options)
 
-    monkeypatch.setattr("hbm.cornered.trace", trace)
-    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
         list(pieces(0.0, 1.0))
@@ -171,7 +174,7 @@ def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
 def test_a_curve_that_stops_from_both_ends_says_where_it_did_first(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
     kept: list[Correction] = []
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
@@ -199,7 +202,7 @@ def returned(
                 point, residual, linearised, Outcome.CONVERGED, (0.0,), along
             )
 
-    monkeypatch.setattr("hbm.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
     return begun
 
 
@@ -215,7 +218,7 @@ def test_what_lies_between_curves_that_turn_back_is_sought(
 def test_what_lies_between_curves_that_turn_back_and_is_not_found_is_told(
     returned: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
 
     with pytest.raises(ContinuationError, match=r"turns back at parameter 0\.4,"):
         list(pieces(0.0, 1.0))
@@ -226,7 +229,9 @@ def test_what_lies_between_curves_that_turn_back_and_is_not_found_is_told(
 def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.cornered)["trace"]
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+        "trace"
+    ]
 
     def trace(
         system: Any, start: Array, end: float, **options: Any
@@ -235,8 +240,8 @@ def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
             raise ContinuationError("no response is found at 0")
         return traced(system, start, end, **options)
 
-    monkeypatch.setattr("hbm.cornered.trace", trace)
-    monkeypatch.setattr("hbm.restart.approaches", lambda *_, **__: iter(()))
+    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
 
     points = [each.point for each in pieces(0.0, 1.0)]
 
@@ -335,8 +340,8 @@ def test_behind_a_corner_a_piece_does_not_lead_back(
             raise ContinuationError("the curve does not go on")
 
     turned = Turned(np.array([1.0, 0.3]), np.array([0.0, 1.0]), folds=True)
-    monkeypatch.setattr("hbm.cornered.trace", trace)
-    monkeypatch.setattr("hbm.cornered.round_corner", lambda *_: turned)
+    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.cornered.round_corner", lambda *_: turned)
     square, start = Square(), np.array([1.0, 0.0])
 
     _, found = Cornered(square, start, 1.0, 0.0, np.ones_like, StepControl(), square)

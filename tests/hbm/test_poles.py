@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import microslip
-from hbm.linear_modes import linear_modes
-from hbm.poles import damping_ratios, followed, frequencies, poles
-from hbm.relative import relative_problem
+from hbm.balance.relative import relative_problem
+from hbm.modes.linear_modes import linear_modes
+from hbm.structure.poles import damping_ratios, followed, frequencies, poles
 from microslip_mechanics.static import StaticState
 from microslip_mechanics.structure import Structure
 from rigs import rig_problem

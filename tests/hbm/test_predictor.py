@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hbm.predictor import MOST, STEEPEST, Predictor
+from hbm.continuation.predictor import MOST, STEEPEST, Predictor
 from microslip_mechanics.arrays import Array
 
 ONES = np.ones(3)

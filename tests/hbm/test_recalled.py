@@ -5,11 +5,11 @@ import pytest
 import scipy.linalg
 import scipy.optimize
 
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.recalled import recalled_multipliers
 from hbm.solve import frequency_response
+from hbm.stability.recalled import recalled_multipliers
 from memory_problems import JENKINS, LIMIT, STIFFNESS
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.contact.interface import Interface

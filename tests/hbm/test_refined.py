@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from hbm.linearised import Linearised
-from hbm.refined import MOST, SAFE, WARY, Refined, refined
+from hbm.balance.refined import MOST, SAFE, WARY, Refined, refined
+from hbm.continuation.linearised import Linearised
 from microslip_mechanics.arrays import Array
 
 UPRIGHT = np.array([0.0, 1.0])

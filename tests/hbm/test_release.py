@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from contact_tables import linear_contact
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis
-from hbm.release import released
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis
+from hbm.forces.release import released
 from microslip_mechanics.contact.points import ContactPoints
 
 pytestmark = pytest.mark.kernels

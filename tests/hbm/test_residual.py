@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from convergence import observed_order
-from hbm.corrected import correct_at
-from hbm.fourier import FourierBasis, Transform, derivative, to_complex
-from hbm.relative import relative_problem
-from hbm.residual import HarmonicBalance
-from hbm.step_control import StepControl
+from hbm.balance.relative import relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.step_control import StepControl
+from hbm.forces.fourier import FourierBasis, Transform, derivative, to_complex
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

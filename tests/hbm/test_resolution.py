@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-import hbm.resolution
-from hbm.fourier import FourierBasis
-from hbm.newton import correct
-from hbm.path import along_frequency
-from hbm.path_resolution import PathResolution
-from hbm.refined import Refined
+import hbm.resolution.resolution
+from hbm.balance.refined import Refined
+from hbm.continuation.newton import correct
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path import along_frequency
+from hbm.paths.path_resolution import PathResolution
 from microslip_mechanics.static import static_equilibrium
 from small_problems import oscillator
 
@@ -28,12 +28,12 @@ def test_an_error_is_infinite_where_steps_lead_to_no_point_though_no_probe_moves
     upright = np.append(np.zeros(point.size - 1), 1.0)
     found = correct(resolution.at(fourier), point, upright, tolerance=1e-12)
 
-    refined = vars(hbm.resolution)["refined"]
+    refined = vars(hbm.resolution.resolution)["refined"]
 
     def lost(*given: object) -> Refined:
         made: Refined = refined(*given)
         return made._replace(left=math.inf)
 
     assert resolution.estimate(found, fourier, upright).error < 1e-9
-    monkeypatch.setattr("hbm.resolution.refined", lost)
+    monkeypatch.setattr("hbm.resolution.resolution.refined", lost)
     assert resolution.estimate(found, fourier, upright).error == math.inf

@@ -6,16 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hbm.correction import Outcome
-from hbm.equivalent import equivalent_contact
-from hbm.fourier import FourierBasis
-from hbm.newton import correct
+from hbm.balance.relative import relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.balance.rigid import with_pushes
+from hbm.continuation.correction import Outcome
+from hbm.continuation.newton import correct
+from hbm.curves.parameter_curves import fold_curve
+from hbm.curves.periodic_response import periodic_response
+from hbm.forces.equivalent import equivalent_contact
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.parameter_curves import fold_curve
-from hbm.periodic_response import periodic_response
-from hbm.relative import relative_problem
-from hbm.residual import HarmonicBalance
-from hbm.rigid import with_pushes
 from hbm.solve import frequency_response
 from law_examples import NAMES, PRESSED, SLIDING, driven
 from microslip_mechanics.arrays import Array

@@ -7,9 +7,9 @@ import pytest
 
 from contact_tables import contact_points
 from convergence import observed_order
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis, derivative, to_complex
-from hbm.refinement import (
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis, derivative, to_complex
+from hbm.forces.refinement import (
     GAUSS_PLACES,
     GAUSS_WEIGHTS,
     GRADED_PLACES,

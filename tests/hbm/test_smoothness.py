@@ -8,20 +8,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hbm.adaptive import WAIT, AdaptiveBalance
-from hbm.corrected import correct_at
-from hbm.correction import Correction, Outcome
+from hbm.balance.refined import Refined
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.step_control import StepControl
 from hbm.errors import ContinuationError
-from hbm.fourier import FourierBasis
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.path import along_frequency
-from hbm.path_resolution import PathResolution
-from hbm.refined import Refined
-from hbm.resolution import Estimate, Resolution
-from hbm.resolution_choice import SHARPER
-from hbm.smoothness import FALL, smoothest
+from hbm.paths.path import along_frequency
+from hbm.paths.path_resolution import PathResolution
+from hbm.paths.smoothness import FALL, smoothest
+from hbm.resolution.adaptive import WAIT, AdaptiveBalance
+from hbm.resolution.resolution import Estimate, Resolution
+from hbm.resolution.resolution_choice import SHARPER
 from hbm.solve import frequency_response
-from hbm.step_control import StepControl
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from contact_tables import contact_points
+from hbm.balance.relative import relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.curves.periodic_response import periodic_response, settled_response
 from hbm.errors import ContinuationError
-from hbm.fourier import FourierBasis, to_complex
-from hbm.mode_options import ModeOptions
+from hbm.forces.fourier import FourierBasis, to_complex
+from hbm.modes.mode_options import ModeOptions
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response, settled_response
-from hbm.relative import relative_problem
-from hbm.residual import HarmonicBalance
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import scipy.sparse.linalg
 
-from hbm.condensation import condense
-from hbm.fourier import to_complex
+from hbm.curves.periodic_response import periodic_response
+from hbm.forces.fourier import to_complex
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
-from hbm.stability import small_motions
+from hbm.stability.stability import small_motions
+from hbm.structure.condensation import condense
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from hbm.fourier import FourierBasis
+from hbm.balance.relative import relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.curves.periodic_response import periodic_response
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
-from hbm.relative import relative_problem
-from hbm.residual import HarmonicBalance
 from hbm.solve import frequency_response
-from hbm.stability import small_motions
+from hbm.stability.stability import small_motions
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from hbm.step_control import StepControl
+from hbm.continuation.step_control import StepControl
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])

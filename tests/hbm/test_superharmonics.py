@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hbm.fourier import to_complex
+from hbm.forces.fourier import to_complex
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from hbm.superharmonics import FAINT, Superharmonics
+from hbm.structure.superharmonics import FAINT, Superharmonics
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.curve import curve_options

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from contact_tables import FRICTION_LAWS
-from hbm.fourier import FourierBasis
-from hbm.multipliers import Multipliers
-from hbm.path import along_frequency
-from hbm.path_resolution import PathResolution
-from hbm.stability import small_motions
-from hbm.step_control import StepControl
+from hbm.continuation.step_control import StepControl
+from hbm.events.multipliers import Multipliers
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path import along_frequency
+from hbm.paths.path_resolution import PathResolution
+from hbm.stability.stability import small_motions
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

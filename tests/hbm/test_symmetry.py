@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hbm.active import extended, moving, symmetric
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis
-from hbm.relative import RelativeProblem, relative_problem
+from hbm.balance.active import extended, moving, symmetric
+from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.laws.unilateral import UnilateralSpring

@@ -8,8 +8,8 @@ from scipy.integrate import quad
 
 from contact_tables import contact_points
 from convergence import observed_order
-from hbm.aft import AlternatingFrequencyTime
-from hbm.fourier import FourierBasis, derivative, to_complex
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.fourier import FourierBasis, derivative, to_complex
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import (

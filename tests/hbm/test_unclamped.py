@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from free_structures import DRIVE, MASSES, SPRINGS, chain, row
+from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
-from hbm.periodic_response import periodic_response
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
-from timedomain.comparison import compared
+from timedomain.shooting.comparison import compared
 
 HERTZ = (4.0, 9.0)
 

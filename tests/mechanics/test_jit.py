@@ -34,7 +34,7 @@ def lent(number: float) -> float:
     return 2.0 * number
 """
 BORROWER = """
-from lending.lender import lent
+from lending.owned.lender import lent
 from microslip_mechanics.jit import kernel
 
 
@@ -43,7 +43,7 @@ def borrowed(number: float) -> float:
     return lent(number)
 """
 BORROWED = """
-from lending.borrower import borrowed
+from lending.owing.borrower import borrowed
 print(borrowed(3.0), sum(borrowed.stats.cache_hits.values()))
 """
 PLAIN = """
@@ -107,11 +107,13 @@ def test_edit_of_a_callee_in_another_file_reaches_its_caller(tmp_path: Path) -> 
 def test_edit_of_a_neighbour_in_another_package_reaches_its_caller(
     tmp_path: Path,
 ) -> None:
-    folder = tmp_path / "lending"
-    folder.mkdir()
-    lender = folder / "lender.py"
+    package = tmp_path / "lending"
+    for folder in (package, package / "owned", package / "owing"):
+        folder.mkdir()
+        (folder / "__init__.py").touch()
+    lender = package / "owned" / "lender.py"
     lender.write_text(LENDER, encoding="utf-8")
-    (folder / "borrower.py").write_text(BORROWER, encoding="utf-8")
+    (package / "owing" / "borrower.py").write_text(BORROWER, encoding="utf-8")
     places: dict[str, Path | str] = {
         "PYTHONPATH": f"{tmp_path}{os.pathsep}{PACKAGE.parent}",
         "XDG_CACHE_HOME": tmp_path / "cache",

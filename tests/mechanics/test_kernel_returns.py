@@ -23,7 +23,7 @@ import signal, time
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.excitation import Dwell
-from timedomain.start import Start, first_state
+from timedomain.record.start import Start, first_state
 import numpy as np
 
 problem = problem_of(load_scene("two-blades", ["model=A"]))

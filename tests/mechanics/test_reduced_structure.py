@@ -9,7 +9,7 @@ import scipy.linalg
 import scipy.sparse
 from numpy.typing import NDArray
 
-from hbm.poles import poles
+from hbm.structure.poles import poles
 from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node
 from microslip_mechanics.reduced_structure import (

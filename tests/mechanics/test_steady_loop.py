@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hbm.fourier import derivative, waves
+from hbm.forces.fourier import derivative, waves
 from law_examples import driven
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ContactPoints

@@ -10,8 +10,8 @@ from typing import Any, TypeAlias
 import numpy as np
 import pytest
 
-from hbm.mode_options import ModeOptions
-from hbm.modes import modes_in_range, nonlinear_mode
+from hbm.modes.mode_options import ModeOptions
+from hbm.modes.modes import modes_in_range, nonlinear_mode
 from microslip.commands.decay_tables import cycles
 from microslip.experiments import March
 from microslip.quantity import SceneError
@@ -34,9 +34,9 @@ from microslip_mechanics.system import system
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from rigs import rig_problem
 from small_problems import cubic_oscillator, oscillator, sliding_block
-from timedomain.checkpoint import at_end
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.checkpoint import at_end
+from timedomain.record.start import Start
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 

@@ -55,6 +55,19 @@ def test_example_in_toml_is_that_in_python(tmp_path: Path) -> None:
         np.testing.assert_array_equal(mine, other)
 
 
+@pytest.mark.parametrize("package", ["hbm", "timedomain"])
+def test_page_of_the_code_names_what_is_there(package: str) -> None:
+    root = DOCS.parent / package
+    page = (DOCS / "code.md").read_text(encoding="utf-8")
+    part = page.split(f"## `{package}`")[1].split("\n## ")[0]
+    named = set(re.findall(r"`(?:\w+/)?(\w+(?:\.py)?)`", part))
+    files = {path.name for path in root.rglob("*.py")}
+    parts = {path.name for path in root.iterdir()} - {"__init__.py", "py.typed"}
+
+    assert parts - {"__pycache__"} <= named
+    assert {name for name in named if name.endswith(".py")} <= files
+
+
 def test_page_of_laws_is_that_of_the_catalogue() -> None:
     assert (DOCS / "laws.md").read_text(encoding="utf-8") == laws_page()
 

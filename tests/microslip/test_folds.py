@@ -9,8 +9,8 @@ from typing import TypeAlias
 
 import pytest
 
-from hbm.fold_curve import FoldPoint
-from hbm.parameter_curves import fold_curve
+from hbm.curves.fold_curve import FoldPoint
+from hbm.curves.parameter_curves import fold_curve
 from microslip.studies.folds import followed_folds
 from microslip.studies.parameter import parameter
 

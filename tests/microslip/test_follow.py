@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hbm.detached import Sought
+from hbm.curves.detached import Sought
 from hbm.errors import PLACE, ContinuationError
 from microslip.cli import main
 from microslip.quantity import SceneError

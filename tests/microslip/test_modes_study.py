@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from hbm.errors import ContinuationError
-from hbm.mode_options import ModeOptions
-from hbm.modes import NonlinearMode, nonlinear_mode
+from hbm.modes.mode_options import ModeOptions
+from hbm.modes.modes import NonlinearMode, nonlinear_mode
 from microslip.cli import main
 from microslip.mode_lines import mode_lines
 from microslip.studies.modes import followed

@@ -24,7 +24,7 @@ from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError, limited
 from microslip.studies.stress_finding import Finding, Outcome, Tried
 from microslip.studies.worker import Ended
 from microslip_mechanics.response import PeriodicResponse
-from timedomain.closed_march import ShootingError
+from timedomain.shooting.closed_march import ShootingError
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 ENDS = {

@@ -17,8 +17,8 @@ from microslip.studies.stress_curve import Drawn
 from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.response import PeriodicResponse
 from small_problems import prescribed
-from timedomain.closed_march import ShootingError
-from timedomain.comparison import Comparison
+from timedomain.shooting.closed_march import ShootingError
+from timedomain.shooting.comparison import Comparison
 
 
 def comparison(difference: float, estimated: float, multiplier: float) -> Comparison:

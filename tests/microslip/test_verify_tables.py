@@ -21,7 +21,7 @@ from microslip.studies.verify import SweepAgreement
 from microslip_mechanics.response_curve import ResponseCurve
 from microslip_mechanics.static import StaticState
 from small_problems import prescribed
-from timedomain.comparison import Comparison
+from timedomain.shooting.comparison import Comparison
 from timedomain.verify import Agreement
 
 UNMOVED = prescribed(4.0 * math.tau)

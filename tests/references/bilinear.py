@@ -11,8 +11,8 @@ import scipy.linalg
 from scipy.optimize import fsolve
 
 import microslip
-from hbm.mode_options import ModeOptions
-from hbm.modes import modes_in_range, nonlinear_mode
+from hbm.modes.mode_options import ModeOptions
+from hbm.modes.modes import modes_in_range, nonlinear_mode
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium

@@ -10,8 +10,8 @@ import scipy.special
 from scipy.optimize import brentq
 
 import microslip
-from hbm.mode_options import ModeOptions
-from hbm.modes import modes_in_range, nonlinear_mode
+from hbm.modes.mode_options import ModeOptions
+from hbm.modes.modes import modes_in_range, nonlinear_mode
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium

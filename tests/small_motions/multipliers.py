@@ -10,8 +10,8 @@ from microslip_mechanics.response import PeriodicResponse
 from small_motions.pieces import Pieces, pieces
 from small_motions.propagator import propagate, propagator
 from small_motions.relative_orbit import RelativeOrbit
-from timedomain.floquet import Multipliers, extrapolated_multipliers
-from timedomain.modal_structure import ModalStructure
+from timedomain.fast.modal_structure import ModalStructure
+from timedomain.shooting.floquet import Multipliers, extrapolated_multipliers
 
 
 def monodromy(problem: Problem, response: PeriodicResponse, *, steps: int) -> Array:

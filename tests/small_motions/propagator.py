@@ -21,7 +21,7 @@ import scipy.linalg
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
-from timedomain.modal_structure import ModalStructure
+from timedomain.fast.modal_structure import ModalStructure
 
 
 class Propagator(NamedTuple):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from small_problems import prescribed
-from timedomain.comparison import FLOOR, MULTIPLIER_FLOOR, Comparison
+from timedomain.shooting.comparison import FLOOR, MULTIPLIER_FLOOR, Comparison
 
 
 def comparison(

@@ -9,7 +9,7 @@ from microslip_mechanics.element import Element
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
-from timedomain.comparison import compared
+from timedomain.shooting.comparison import compared
 
 
 @pytest.mark.long

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from timedomain.dense import eliminate
+from timedomain.contact.dense import eliminate
 
 pytestmark = pytest.mark.kernels
 

@@ -13,9 +13,9 @@ from microslip_mechanics.sine_test import SineTest, Tone
 from microslip_mechanics.time_history import joined
 from rigs import rig_problem
 from small_problems import marched
-from timedomain.driftless import driftless
 from timedomain.integrate import MarchOptions
-from timedomain.start import loaded
+from timedomain.record.driftless import driftless
+from timedomain.record.start import loaded
 
 PUSH, WHOLE = sum(DRIVE.values()), sum(MASSES)
 HERTZ = 6.0

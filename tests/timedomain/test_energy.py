@@ -8,7 +8,7 @@ from microslip_mechanics.excitation import Dwell, SweptSine
 from rigs import rig_problem
 from small_problems import dwelled, from_rest, marched, sliding_block
 from timedomain.integrate import MarchOptions
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from small_problems import (
 )
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.options import Method
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 STEPS = (64, 128, 256, 512, 1024, 2048)
 SHORT = SweptSine(

@@ -17,10 +17,10 @@ from microslip_mechanics.system import system
 from microslip_mechanics.time_history import TimeHistory, joined
 from rigs import rig_problem
 from small_problems import marched
-from timedomain.fast import FastMarch
+from timedomain.fast.fast import FastMarch
+from timedomain.fast.motion import STEPS
 from timedomain.integrate import MarchOptions, integrate, whole_steps
-from timedomain.motion import STEPS
-from timedomain.start import Start, at_rest
+from timedomain.record.start import Start, at_rest
 
 
 def pressed(preload: float, ramp: float = 0.0) -> TimeHistory:

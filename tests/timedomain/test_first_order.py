@@ -15,9 +15,9 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import factors_over
 from rigs import rig_problem
 from small_problems import from_rest, marched, mass_on_contact, oscillator
-from timedomain.first_order import FirstOrder, first_order, flow, jacobian
+from timedomain.first_order.first_order import FirstOrder, first_order, flow, jacobian
 from timedomain.integrate import MarchOptions
-from timedomain.start import Start, first_state
+from timedomain.record.start import Start, first_state
 
 SWEEP = SweptSine(0.001, 0.002, 0.018, 0.02, 130.0, 140.0)
 SMOOTH = SweptSine(0.0, 0.0, 0.02, 0.02, 130.0, 140.0)

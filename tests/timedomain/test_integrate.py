@@ -17,7 +17,7 @@ from microslip_mechanics.time_history import TimeHistory, joined
 from rigs import rig_problem
 from small_problems import NORMAL, from_rest, marched, mass_on_contact, oscillator
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 
 @pytest.mark.parametrize("law", ["coulomb", "gkf"])

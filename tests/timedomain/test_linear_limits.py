@@ -17,8 +17,8 @@ from small_problems import (
     mass_on_contact,
     oscillator,
 )
-from timedomain.coordinates import modal_coordinates
-from timedomain.start import Start
+from timedomain.fast.coordinates import modal_coordinates
+from timedomain.record.start import Start
 
 
 def transfer(problem: Problem, frequency: float) -> ComplexArray:

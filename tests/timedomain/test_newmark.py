@@ -16,7 +16,7 @@ from microslip_mechanics.problem import Problem
 from small_problems import NORMAL, mass_on_contact, oscillator, sliding_block
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.options import METHODS, Method
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 pytestmark = pytest.mark.kernels
 
@@ -27,7 +27,7 @@ ONE_ITERATION = """
 from contact_tables import contact_points
 from microslip_mechanics.excitation import Dwell
 from small_problems import NORMAL, from_rest, marched, mass_on_contact
-from timedomain import newmark
+from timedomain.reference import newmark
 from timedomain.integrate import MarchOptions
 newmark.NEWTON_LIMIT = 1
 points = contact_points(stiffness=300.0, exponent=1.0, damping=0.0, friction=0)

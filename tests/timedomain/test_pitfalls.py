@@ -13,13 +13,13 @@ from microslip_mechanics.time_history import TimeHistory
 from other_schemes import LINEAR_FORCE
 from rigs import rig_problem
 from small_problems import cantilever, from_rest, marched, oscillator, sliding_block
-from timedomain.closure import closes
-from timedomain.coordinates import modal_coordinates
-from timedomain.fast import FastMarch
+from timedomain.fast.coordinates import modal_coordinates
+from timedomain.fast.fast import FastMarch
+from timedomain.fast.schemes import MEAN_FORCE, SDIRK2, Scheme
+from timedomain.fast.tables import empty_tables, fill
 from timedomain.integrate import IntegrationError, MarchOptions
-from timedomain.schemes import MEAN_FORCE, SDIRK2, Scheme
-from timedomain.start import Start, at_rest
-from timedomain.tables import empty_tables, fill
+from timedomain.record.closure import closes
+from timedomain.record.start import Start, at_rest
 
 LIGHT = 0.002
 """damping ratio"""

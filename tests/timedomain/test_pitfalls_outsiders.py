@@ -18,8 +18,8 @@ from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
-from timedomain.first_order import FirstOrder, first_order, flow, jacobian
-from timedomain.start import Start
+from timedomain.first_order.first_order import FirstOrder, first_order, flow, jacobian
+from timedomain.record.start import Start
 
 HERTZ = 2.0 * np.pi
 LOWEST, RATE, WINDOW = 134.5, np.log(145.0 / 125.0) / 6.0, 0.05

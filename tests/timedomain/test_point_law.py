@@ -7,7 +7,7 @@ from contact_tables import FRICTION_LAWS, contact_points
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import ContactPoints
-from timedomain.point_law import linearise
+from timedomain.contact.point_law import linearise
 
 pytestmark = pytest.mark.kernels
 

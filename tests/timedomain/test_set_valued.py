@@ -17,9 +17,9 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from microslip_mechanics.time_history import TimeHistory, joined
-from timedomain.first_order import first_order
+from timedomain.first_order.first_order import first_order
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.start import Start
 
 LIMIT = 0.4
 

@@ -22,12 +22,12 @@ from small_problems import (
     oscillator,
     rubbing,
 )
-from timedomain.closed_march import ShootingError, closed
-from timedomain.period_map import BLOCK, PeriodMap
-from timedomain.period_sensitivity import sensitivity_of
-from timedomain.periodic_orbit import PeriodicOrbit
-from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import Start
+from timedomain.record.start import Start
+from timedomain.shooting.closed_march import ShootingError, closed
+from timedomain.shooting.period_map import BLOCK, PeriodMap
+from timedomain.shooting.period_sensitivity import sensitivity_of
+from timedomain.shooting.periodic_orbit import PeriodicOrbit
+from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
 TURN = 2.0 * np.pi
 MASS, DAMPING, STIFFNESS, DRIVE, FREQUENCY = 2.0, 4.0, 300.0, 1.5, 9.0

@@ -14,12 +14,12 @@ from microslip_mechanics.contact.slides import slides_of
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from small_problems import dwelled
-from timedomain.closed_march import ClosedMarch, closed
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.period_map import BLOCK, PeriodMap
-from timedomain.period_sensitivity import sensitivity_of
-from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import Start, at_rest
+from timedomain.record.start import Start, at_rest
+from timedomain.shooting.closed_march import ClosedMarch, closed
+from timedomain.shooting.period_map import BLOCK, PeriodMap
+from timedomain.shooting.period_sensitivity import sensitivity_of
+from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
 TURN = 2.0 * np.pi
 ALONG, ACROSS, EVERY = np.eye(3)[:, 1:2], np.eye(3)[:, [1, 0]], np.eye(3)[:, [1, 2, 0]]

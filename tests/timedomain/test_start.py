@@ -11,7 +11,7 @@ from microslip_mechanics.system import system
 from rigs import rig_problem
 from small_problems import marched
 from timedomain.integrate import MarchOptions
-from timedomain.start import loaded
+from timedomain.record.start import loaded
 
 QUIET = {"start": 1.0, "end": 2.0, "duration": 2.0, "lowest": 3.0, "highest": 4.0}
 

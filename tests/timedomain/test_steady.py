@@ -10,10 +10,10 @@ from convergence import observed_order
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from small_problems import oscillator
-from timedomain.checkpoint import at_end
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start, at_rest
-from timedomain.steady import Coordinates, Slope, slope_of, steady
+from timedomain.record.checkpoint import at_end
+from timedomain.record.start import Start, at_rest
+from timedomain.shooting.steady import Coordinates, Slope, slope_of, steady
 
 FREQUENCY = 380.0
 PERIOD = 2.0 * np.pi / FREQUENCY

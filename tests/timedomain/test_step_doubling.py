@@ -16,9 +16,9 @@ from microslip_mechanics.system import system
 from microslip_mechanics.time_history import joined
 from rigs import rig_problem
 from small_problems import marched, oscillator
-from timedomain.checkpoint import at_end
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.checkpoint import at_end
+from timedomain.record.start import Start
 from timedomain.step_doubling import CAUTION
 
 SWEEP = SweptSine(0.0, 0.0, 2.0, 2.0, 3.0, 8.0)

@@ -5,7 +5,7 @@ import pytest
 
 from contact_tables import contact_points
 from convergence import observed_order
-from hbm.periodic_response import periodic_response
+from hbm.curves.periodic_response import periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import TWO_SIDED
 from microslip_mechanics.problem import Problem
@@ -19,14 +19,14 @@ from small_problems import (
     prescribed,
     rubbing,
 )
-from timedomain.closed_march import ShootingError, closed
-from timedomain.comparison import compared
-from timedomain.cyclic_system import cyclic_solution
-from timedomain.period_map import PeriodMap
-from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import on_orbit
-from timedomain.whole_change import whole_change
-from timedomain.whole_orbit import whole_orbit
+from timedomain.record.start import on_orbit
+from timedomain.shooting.closed_march import ShootingError, closed
+from timedomain.shooting.comparison import compared
+from timedomain.shooting.cyclic_system import cyclic_solution
+from timedomain.shooting.period_map import PeriodMap
+from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
+from timedomain.shooting.whole_change import whole_change
+from timedomain.shooting.whole_orbit import whole_orbit
 
 MASS, DAMPING, DRIVE, FREQUENCY = 2.0, 4.0, 1.5, 9.0
 REPELLING = 2e4

@@ -68,7 +68,7 @@ def modes(
     MicroslipError
         If an argument is of no use, or if there is no mode in the range.
     """
-    from hbm.mode_options import ModeOptions
+    from hbm.modes.mode_options import ModeOptions
     from microslip.studies.modes import followed
 
     check_single(NAME, tolerance, harmonics)

@@ -72,8 +72,8 @@ def sweep(
     from microslip.studies.march_size import demand_end
     from microslip.studies.sweep import march_sweep
     from microslip_mechanics.excitation import SweptSine
-    from timedomain.closure import OPEN, closes
     from timedomain.options import MarchOptions
+    from timedomain.record.closure import OPEN, closes
 
     march: March = read(NAME, March, time_step=time_step, store_every=store_every)
     swept: Swept = read(

@@ -75,7 +75,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.store import save_figure
     from microslip_mechanics.extremes import extremes
-    from timedomain.closure import OPEN, closes
+    from timedomain.record.closure import OPEN, closes
 
     data, picture = arguments.outputs(options, "dwell")
     scene = load_scene(options.scene, options.overrides)

@@ -139,7 +139,7 @@ def watched(curve: Curve) -> Watch:
 
 def search_watched(curve: Curve) -> Watch:
     """Return what shows the progress of a search for detached curves."""
-    from hbm.detached import Sought
+    from hbm.curves.detached import Sought
     from microslip.progress import shown
     from microslip.studies.detached import FREQUENCIES
 

@@ -13,8 +13,8 @@ from microslip.commands.written import written
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from hbm.mode_options import ModeOptions
-    from hbm.modes import NonlinearMode
+    from hbm.modes.mode_options import ModeOptions
+    from hbm.modes.modes import NonlinearMode
     from microslip.progress import Watch
     from microslip.studies.modes import FollowedMode
     from microslip_mechanics.problem import Problem
@@ -149,7 +149,7 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
     SceneError
         If they make no sense.
     """
-    from hbm.mode_options import ModeOptions
+    from hbm.modes.mode_options import ModeOptions
     from microslip.quantity import SceneError
 
     if options.range and not options.range[0] < options.range[1]:

@@ -101,7 +101,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _line(question: Question, each: Linearised) -> str:
-    from hbm.poles import damping_ratios, frequencies, poles
+    from hbm.structure.poles import damping_ratios, frequencies, poles
     from microslip.studies.poles import limits_of, within
 
     linear = each.linear
@@ -177,7 +177,7 @@ def _write(path: Path, key: str, found: list[Linearised], lines: ComplexArray) -
 
 def _rows(each: Linearised, poles: ComplexArray) -> list[list[object]]:
     """Return what the table says of each pole of a value."""
-    from hbm.poles import damping_ratios, frequencies
+    from hbm.structure.poles import damping_ratios, frequencies
 
     if each.linear is None:
         return []

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from microslip.studies.precision import Run
     from microslip.studies.precision_reference import Reference
-    from timedomain.steady import Slope
+    from timedomain.shooting.steady import Slope
 
 RUNS = """\
 method                        setting                          CPU [s]  periods   peak    energy  distance"""  # noqa: E501

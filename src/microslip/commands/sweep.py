@@ -65,7 +65,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
-    from timedomain.closure import OPEN
+    from timedomain.record.closure import OPEN
 
     data, picture = _places(options)
     scene = load_scene(options.scene, options.overrides)
@@ -168,7 +168,7 @@ def _show(
     from microslip.store import save_figure
     from microslip_mechanics.contact.memory import beyond_motion
     from microslip_mechanics.extremes import extremes, of_all
-    from timedomain.closure import closes
+    from timedomain.record.closure import closes
 
     data, picture = paths
     result = cast("TimeHistory | Envelope", load(data, arguments.MOST_ROWS).result)

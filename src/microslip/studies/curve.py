@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hbm.cyclic import cyclic_response
+from hbm.curves.cyclic import cyclic_response
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import branches, frequency_response

@@ -18,10 +18,10 @@ from microslip_mechanics.ring_down import RingDown, ring_down
 from microslip_mechanics.sine_test import SineTest, Tone
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
-from timedomain.checkpoint import at_end
-from timedomain.driftless import undragged_motions
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.checkpoint import at_end
+from timedomain.record.driftless import undragged_motions
+from timedomain.record.start import Start
 from timedomain.step_doubling import CAUTION
 
 ROWS = 60

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from hbm.detached import LEAST, MOST, Sought
+from hbm.curves.detached import LEAST, MOST, Sought
 from hbm.options import CurveOptions
 from hbm.solve import detached
 from microslip.interruption import unmasked

@@ -15,9 +15,9 @@ from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.time_history import Checkpoint, TimeHistory
-from timedomain.driftless import driftless, undragged_motions
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.driftless import driftless, undragged_motions
+from timedomain.record.start import Start
 from timedomain.step_doubling import rows_between
 
 ROWS = 60

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hbm.curves.fold_curve import FoldPoint
+from hbm.curves.parameter_curves import fold_curve
 from hbm.errors import ContinuationError
-from hbm.fold_curve import FoldPoint
 from hbm.options import CurveOptions
-from hbm.parameter_curves import fold_curve
 from microslip.experiments import Curve
 from microslip.interruption import unmasked
 from microslip.progress import Watch

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from hbm.curves.parameter_curves import parameter_response
 from hbm.options import CurveOptions
-from hbm.parameter_curves import parameter_response
 from microslip.experiments import Resolution
 from microslip.progress import Watch
 from microslip.rigs import solvable

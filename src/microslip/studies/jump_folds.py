@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.detached import MARKS
+from hbm.curves.detached import MARKS
 from microslip.studies.curve import Traced
 from microslip.studies.verify import StudyError
 from microslip_mechanics.problem import Problem

@@ -14,7 +14,7 @@ from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.time_history import joined
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import on_orbit
+from timedomain.record.start import on_orbit
 
 STEPS, ROWS = 200, 20
 """taken and stored per period; another march takes half as many steps"""

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from hbm.errors import ContinuationError
-from hbm.linear_modes import LinearMode
-from hbm.mode_options import ModeOptions
-from hbm.modes import NonlinearMode, modes_in_range, nonlinear_mode
+from hbm.modes.linear_modes import LinearMode
+from hbm.modes.mode_options import ModeOptions
+from hbm.modes.modes import NonlinearMode, modes_in_range, nonlinear_mode
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.quantity import SceneError

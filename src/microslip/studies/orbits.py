@@ -11,8 +11,8 @@ from microslip.studies.curve import Traced
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
-from timedomain.closed_march import ShootingError
-from timedomain.comparison import COVERAGE, FLOOR, Comparison, compared
+from timedomain.shooting.closed_march import ShootingError
+from timedomain.shooting.comparison import COVERAGE, FLOOR, Comparison, compared
 
 CURVES = {"branch": "branch", "detached": "detached curve"}
 """events with which another curve begins, and what it is called"""

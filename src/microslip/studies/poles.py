@@ -8,15 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.dense_problem import RESOLVED
-from hbm.equivalent import equivalent_contact, free_structure, stuck_structure
+from hbm.curves.dense_problem import RESOLVED
+from hbm.forces.equivalent import equivalent_contact, free_structure, stuck_structure
 from hbm.one_harmonic import (
     OneHarmonicError,
     amplitudes,
     one_harmonic_error,
     one_harmonic_response,
 )
-from hbm.poles import NONE, followed, poles
+from hbm.structure.poles import NONE, followed, poles
 from microslip.rigs import problem_of
 from microslip.scene_tables import Scene
 from microslip.studies.pole_question import Question

@@ -24,8 +24,8 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
 from timedomain.integrate import MarchOptions
-from timedomain.start import Start, on_orbit
-from timedomain.steady import Coordinates, Slope, slope_of
+from timedomain.record.start import Start, on_orbit
+from timedomain.shooting.steady import Coordinates, Slope, slope_of
 
 SHARE = 0.99
 """of the highest peak's frequency: on the flank, where contacts slide"""

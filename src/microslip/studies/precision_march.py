@@ -12,9 +12,9 @@ from microslip.studies.orbit import PHASES, Orbit
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from timedomain.checkpoint import at_end
 from timedomain.integrate import MarchOptions, integrate
-from timedomain.start import Start
+from timedomain.record.checkpoint import at_end
+from timedomain.record.start import Start
 
 PERIODS = 2
 """that are marched at a time: of the second, what began anew is forgotten"""

@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from hbm.periodic_response import periodic_response, settled_response
+from hbm.curves.periodic_response import periodic_response, settled_response
 from microslip.studies.orbit import PHASES, Orbit, drive_work, orbit_of, samples
 from microslip.studies.precision_case import Case
 from microslip.studies.precision_march import fixed_step
@@ -20,8 +20,8 @@ from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.response import PeriodicResponse
 from timedomain.integrate import MarchOptions
-from timedomain.shooting import ShootingOptions, periodic_orbit
-from timedomain.start import on_orbit
+from timedomain.record.start import on_orbit
+from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
 
 @dataclass(frozen=True, slots=True)

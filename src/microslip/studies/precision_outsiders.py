@@ -18,8 +18,8 @@ from microslip.studies.precision_result import Result, steady_result
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.excitation import Dwell
-from timedomain.first_order import FirstOrder, Flow, Jacobian, first_order
-from timedomain.start import Start
+from timedomain.first_order.first_order import FirstOrder, Flow, Jacobian, first_order
+from timedomain.record.start import Start
 
 SHARE = 1e-3
 """absolute tolerance of a state of order one, over the relative one"""

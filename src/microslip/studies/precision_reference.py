@@ -6,13 +6,13 @@ import time
 from dataclasses import dataclass
 from functools import partial
 
-from hbm.periodic_response import periodic_response
+from hbm.curves.periodic_response import periodic_response
 from microslip.studies.orbit import Orbit, orbit_of
 from microslip.studies.precision_case import Case
 from microslip.studies.precision_march import PERIODS, fixed_step
 from microslip.studies.precision_methods import shot
 from microslip_mechanics.contact.memory import beyond_motion
-from timedomain.steady import steady
+from timedomain.shooting.steady import steady
 
 SETTLED = 1e-10
 """change of all quantities at which a reference is no longer refined"""

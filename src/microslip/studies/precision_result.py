@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from microslip.studies.orbit import Orbit
 from microslip.studies.precision_case import Case
 from microslip.studies.precision_march import PERIODS, Carried
-from timedomain.start import Start
-from timedomain.steady import steady
+from timedomain.record.start import Start
+from timedomain.shooting.steady import steady
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hbm.fourier import FourierBasis, usual_samples
-from hbm.memory import marched
-from hbm.path import AlongFrequency
+from hbm.forces.fourier import FourierBasis, usual_samples
+from hbm.forces.memory import marched
+from hbm.paths.path import AlongFrequency
 from microslip.scene_tables import Scene
 from microslip.studies.pruned import Pruned, part
 from microslip_mechanics.problem import Problem

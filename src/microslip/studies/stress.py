@@ -30,9 +30,9 @@ from microslip.studies.stress_finding import (
 from microslip.studies.stress_refusals import refusals
 from microslip.studies.stress_witness import from_rest, witnessed
 from microslip.studies.worker import Ended
-from timedomain.period_map import BLOCK, PeriodMap
+from timedomain.shooting.period_map import BLOCK, PeriodMap
+from timedomain.shooting.whole_orbit import whole_orbit
 from timedomain.verify import march_periods
-from timedomain.whole_orbit import whole_orbit
 
 TOLERANCE = "curve.tolerance=5e-3"
 """half of what is asked, unless the curve is told otherwise"""

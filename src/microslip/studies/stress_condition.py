@@ -7,8 +7,8 @@ import math
 import numpy as np
 from scipy.linalg import lapack
 
-from hbm.fourier import FourierBasis
-from hbm.path import along_frequency
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path import along_frequency
 from microslip.studies.curve import Traced
 from microslip_mechanics.problem import Problem
 

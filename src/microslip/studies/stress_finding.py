@@ -9,7 +9,7 @@ from enum import Enum
 
 from microslip.studies.stress_case import Case
 from microslip_mechanics.errors import MicroslipError
-from timedomain.comparison import COVERAGE, Comparison
+from timedomain.shooting.comparison import COVERAGE, Comparison
 
 AGREED = 0.01
 """relative difference of amplitudes up to which the solvers agree"""

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.periodic_response import with_multipliers
+from hbm.curves.periodic_response import with_multipliers
 from microslip.scene_tables import Scene
 from microslip.studies.dwell import dwelling
 from microslip.studies.stress_clock import Clock, OutOfTimeError
@@ -27,8 +27,8 @@ from microslip.studies.stress_finding import (
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.response import PeriodicResponse
-from timedomain.closed_march import ShootingError
-from timedomain.comparison import COVERAGE, compared
+from timedomain.shooting.closed_march import ShootingError
+from timedomain.shooting.comparison import COVERAGE, compared
 from timedomain.verify import agreement, march_periods
 
 ENDS = ((0.79, 0.84), (0.91, 0.95))

@@ -17,7 +17,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.segments import clock
 from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
-from timedomain.start import loaded
+from timedomain.record.start import loaded
 
 REMEDY = (
     "give a longer march.time_step, a larger march.store_every, a shorter sweep or "

@@ -10,11 +10,11 @@ from itertools import islice
 
 import numpy as np
 
-from hbm.cyclic import along_sector, cyclic_response
-from hbm.dense_problem import RESOLVED
+from hbm.curves.cyclic import along_sector, cyclic_response
+from hbm.curves.dense_problem import RESOLVED
+from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
-from hbm.path import AlongFrequency, along_frequency
-from hbm.periodic_response import periodic_response
+from hbm.paths.path import AlongFrequency, along_frequency
 from hbm.solve import frequency_response
 from microslip.progress import Watch
 from microslip.rigs import problem_of, sector_of, unpruned_of

@@ -1,0 +1,120 @@
+"""Newton steps at a finer resolution, and what they leave to be done (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from hbm.continuation.linearised import Linearised
+from hbm.continuation.newton import CHORD, ROUNDING
+from microslip_mechanics.arrays import Array
+
+SURE = 0.25
+"""share of a residual that a Newton step leaves, after which the next leaves less"""
+STEPS = 4
+"""that are taken at the most until one does"""
+LOST = 0.5
+"""share of a residual that is still there after steps that lead to no point"""
+FEW = 16
+"""harmonics below which a series may not have begun to fall as it will"""
+WARY, SAFE = 9.0, 4.5
+"""factors of the impulses beyond: with few harmonics, and with more"""
+MOST = 2.0
+"""what all harmonics beyond change at the most, over what the last octave did"""
+
+
+class Resolved(Protocol):
+    """A system at one resolution."""
+
+    def __call__(self, point: Array) -> tuple[Array, Linearised]:
+        """Return the residual, and what solves with its Jacobian."""
+
+    def residual(self, point: Array) -> Array:
+        """Return the residual alone."""
+
+    def impulses(self, above: int, most: int) -> float:
+        """Return the norm of the contact impulses between two orders, last call."""
+
+
+class Refined(NamedTuple):
+    """A point after some Newton steps, and what they leave."""
+
+    residual: Array
+    """of the finer resolution before them"""
+    before: Array
+    """the point before the last step"""
+    corrected: Array
+    """and after it"""
+    left: float
+    """what further steps would change, over what the last did"""
+    beyond: float
+    """what still more harmonics would change, over what all steps did"""
+    rest: Array
+    """the residual there"""
+    slope: Linearised
+    """the derivative that the last step had"""
+
+
+def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Refined:
+    """Return a point after Newton steps in the plane normal to ``normal``.
+
+    ``harmonics`` are those of ``system``, about twice those of the point. There are two
+    steps, and up to :data:`STEPS` until one leaves little, or one alone that is mere
+    rounding. A step has the factors of the one before if that left a tenth.
+
+    Raises
+    ------
+    SingularError
+        If the point lies on a fold.
+    """
+    residual, latest = system(point)
+    known = system.impulses(harmonics // 2, harmonics)
+    before, after, now, sizes = point, point, residual, [_size(residual)]
+    moves, slope = True, latest
+    while moves and (
+        len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS)
+    ):
+        slope = slope if _served(sizes) else latest
+        step = slope.solve(normal, np.append(-now, 0.0))
+        before, after = after, after + step
+        now, latest = system(after)
+        sizes.append(_size(now))
+        moves = _size(step) > ROUNDING * _size(point[:-1])
+    share = system.impulses(harmonics, 2 * harmonics + 1) / known if known else 0.0
+    left = _left(sizes) if moves else 1.0
+    beyond = _beyond(share, harmonics)
+    return Refined(residual, before, after, left, beyond, now, slope)
+
+
+def _size(values: Array) -> float:
+    return float(np.linalg.norm(values))
+
+
+def _served(sizes: list[float]) -> bool:
+    """Return whether there was a step that left little, from the residuals."""
+    return len(sizes) > 1 and sizes[-1] <= CHORD * sizes[-2]
+
+
+def _left(sizes: list[float]) -> float:
+    """Return what steps to come change, over the last, from the residuals.
+
+    Infinite where the steps lead to no point.
+    """
+    between, after = sizes[-2:]
+    if after <= SURE * between:
+        return after / (between - after) if between > 0.0 else 0.0
+    return math.inf if after > LOST * sizes[0] else 1.0
+
+
+def _beyond(share: float, harmonics: int) -> float:
+    """Return what still more harmonics change, over what the last octave did.
+
+    ``share`` is that of the contact impulses beyond, over those of the octave. Motions
+    of high order answer these impulses, and act on the low orders through tangents that
+    fall alike: what they change is like the square.
+    """
+    if harmonics < FEW:
+        return (WARY * share) ** 2
+    return min(MOST, (SAFE * share) ** 2)

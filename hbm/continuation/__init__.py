@@ -1,0 +1,1 @@
+"""Newton's iteration and arc-length continuation; knows no physics."""

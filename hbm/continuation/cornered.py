@@ -1,0 +1,99 @@
+"""A trace that goes round corners, where a curve may turn back sharply (theory §6)."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from hbm.continuation.arc import Metric
+from hbm.continuation.continuation import trace
+from hbm.continuation.corner import round_corner
+from hbm.continuation.correction import Correction
+from hbm.continuation.linearised import System
+from hbm.continuation.settler import Settler
+from hbm.continuation.step_control import StepControl
+from hbm.errors import ContinuationError
+from microslip_mechanics.arrays import Array
+
+REMEMBERED = 60
+"""points behind the last one, by which the way to a corner is known"""
+CORNERS = 30
+"""round which a curve may turn before it is given up"""
+AHEAD = (0.0, 1e-3, 1e-2)
+"""arc lengths beyond the point behind a corner at which the curve is taken up again"""
+
+
+@dataclass(frozen=True, slots=True)
+class Cornered:
+    """The corrections along a curve, in order; corners are gone round."""
+
+    system: System
+    start: Array
+    """first guess, shape (n + 1,)"""
+    end: float
+    """value of the parameter at which the curve ends"""
+    begin: float
+    """the other one, if it folds back"""
+    metric: Metric
+    control: StepControl
+    settler: Settler
+
+    def __iter__(self) -> Iterator[Correction]:
+        """Yield corrections; the first behind a corner is joined to the one before.
+
+        Raises
+        ------
+        ContinuationError
+            If the curve does not go on, and there is no corner.
+        """
+        guess: Array = self.start
+        direction: Array | None = None
+        turns = False
+        way: deque[Correction] = deque(maxlen=REMEMBERED)
+        for corner in range(CORNERS + 1):
+            try:
+                for correction in self._taken_up(guess, direction):
+                    joined = correction.joined or direction is not None
+                    way.append(replace(correction, joined=joined, turns=turns))
+                    yield way[-1]
+                    turns = False
+            except ContinuationError:
+                if not way or corner == CORNERS:
+                    raise
+                tolerance = self.control.tolerance
+                turned = round_corner(self.system, way, self.metric, tolerance)
+                if turned is None:
+                    raise
+                guess, direction, turns = turned
+            else:
+                return
+
+    def _taken_up(self, guess: Array, direction: Array | None) -> Iterator[Correction]:
+        """Yield the corrections from a guess, behind a corner in a ``direction``.
+
+        With more harmonics the corner may lie a little further on: what is before it
+        has a tangent along which the parameter goes back, and is passed over.
+        """
+        if direction is None:
+            yield from self._traced(guess, None)
+            return
+        for ahead in AHEAD:
+            traced = self._traced(guess + ahead * direction, direction)
+            first = next(traced)
+            if first.along[-1] * direction[-1] >= 0.0:
+                break
+        yield first
+        yield from traced
+
+    def _traced(self, guess: Array, direction: Array | None) -> Iterator[Correction]:
+        return trace(
+            self.system,
+            guess,
+            self.end,
+            metric=self.metric,
+            control=self.control,
+            settler=self.settler,
+            begin=self.begin,
+            direction=direction,
+        )

@@ -1,0 +1,1 @@
+"""Whole curves: first points, restarts, branches, detached curves, folds."""

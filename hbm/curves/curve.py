@@ -1,0 +1,164 @@
+"""A traced curve with what happens on it: responses in order, events among them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hbm.balance.residual import HarmonicBalance
+from hbm.continuation.arc import Metric
+from hbm.continuation.correction import Correction
+from hbm.errors import ContinuationError
+from hbm.events.crossings import ASTRAY, BRANCH, TORUS, crossings
+from hbm.events.events import Events
+from hbm.events.multipliers import Multipliers
+from hbm.events.settled import Settled
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path_resolution import PathResolution
+from hbm.resolution.adaptive import AdaptiveBalance
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.points import ONE_SIDED
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+
+TURN = 2.0 * np.pi
+ASIDE = 0.05
+"""distance of complex multipliers from the unit circle at which there is no torus"""
+DRIFT = 1e-6
+"""mean force on a free body over the force scale, from which it drifts"""
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """What turns the corrections of a trace into periodic responses."""
+
+    problem: Problem
+    system: AdaptiveBalance
+    resolution: PathResolution
+    multipliers: Multipliers
+    events: Events | None
+    """what finds them, if they are wanted"""
+
+    def followed(
+        self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
+    ) -> Iterator[PeriodicResponse]:
+        """Yield the response at each point, and at each event between two points.
+
+        ``beginning`` is what the first point is marked as.
+        """
+        before: Settled | None = None
+        for correction in corrections:
+            mark = beginning if before is None else "restart"
+            made, after = self.made(correction, "" if correction.joined else mark)
+            if self.events and correction.tangent is not None:
+                after = self.events.directed(after, metric)
+            if self.events and before is not None and correction.joined:
+                names = []
+                for event in self.events.between(before, after, metric):
+                    names.append(event.name)
+                    told, _ = self.made(event.correction, event.name)
+                    if _confirmed(event.name, told.multipliers):
+                        error = told.error + event.aside
+                        yield replace(told, error=error, parameter_error=event.error)
+                changed = crossings(before.multipliers, after.multipliers)
+                after = after._replace(owes="fold" in names and not changed)
+            yield made
+            before = after
+
+    def made(
+        self, correction: Correction, event: str
+    ) -> tuple[PeriodicResponse, Settled]:
+        """Return the response at a settled point, and what events beside it need."""
+        kept, fourier, error = self.system.report.kept(correction.point)
+        balance, point = self.resolution.at(fourier).at_frequency(kept)
+        made = replace(
+            response(self.problem, balance, replace(correction, point=point)),
+            error=error,
+            event=event,
+            parameter=float(kept[-1]),
+        )
+        settled = self.system.settled
+        coarser = (correction.point, settled) if settled != fourier else None
+        told, finer = self._examined(made, kept, fourier, coarser)
+        asks = finer != fourier
+        return told, Settled(
+            correction, told.multipliers, finer, asks, correction, settled
+        )
+
+    def examined(self, known: PeriodicResponse, point: Array) -> PeriodicResponse:
+        """Return a response with its multipliers; ``point`` is where it lies.
+
+        Friction that was smooth for the curve is what it is here, where that converges.
+        """
+        fourier = FourierBasis(known.harmonics, known.samples)
+        orbit = self.multipliers.finer(point, fourier)
+        return self._examined(known, point if orbit is None else orbit, fourier)[0]
+
+    def _examined(
+        self,
+        made: PeriodicResponse,
+        point: Array,
+        fourier: FourierBasis,
+        coarser: tuple[Array, FourierBasis] | None = None,
+    ) -> tuple[PeriodicResponse, FourierBasis]:
+        """Return a response with its multipliers, and the resolution they ask for.
+
+        ``coarser`` is the orbit with fewer harmonics, if it is known.
+        """
+        points = self.problem.interface.points
+        presses = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
+        multipliers, finer, confirmed = self.multipliers.sure(
+            point, fourier, made.normal_smallest[presses], coarser
+        )
+        error = made.error if confirmed else np.inf
+        return replace(made, error=error, multipliers=multipliers), finer
+
+
+def _confirmed(event: str, multipliers: ComplexArray) -> bool:
+    """Return whether the multipliers of an orbit as it is reported are its event's.
+
+    On the orbits of fewer harmonics by which it was located one is +1 at a branch
+    point: beside a fold, that may be nothing but the fold. A pair that has met on the
+    real axis outside the circle, from where one goes through the fold, is no torus.
+    """
+    if event == BRANCH:
+        return bool((np.abs(multipliers - 1.0) < ASTRAY).any())
+    if event == TORUS:
+        off = np.abs(np.abs(multipliers[multipliers.imag != 0.0]) - 1.0)
+        return bool((off < ASIDE).any())
+    return True
+
+
+def response(
+    problem: Problem, balance: HarmonicBalance, correction: Correction
+) -> PeriodicResponse:
+    """Return the periodic response at a corrected point.
+
+    Raises
+    ------
+    ContinuationError
+        If a body that nothing holds drifts.
+    """
+    point = correction.point
+    drift, frequency = balance.drift_force(point), float(point[-1])
+    if drift > DRIFT * problem.force_scale:
+        raise ContinuationError(
+            f"a body drifts at {frequency / TURN:.6g} Hz: friction has a mean of "
+            f"{drift:.2g} N and nothing holds the body; give it a rope"
+        )
+    cycle = balance.cycle(point)
+    return PeriodicResponse(
+        frequency,
+        balance.motion(point),
+        cycle.normal_smallest,
+        cycle.normal_largest,
+        cycle.friction,
+        cycle.normal_damping,
+        correction.residuals[-1],
+        correction.outcome.name.lower(),
+        correction.iterations,
+        balance.fourier.harmonics,
+        balance.fourier.samples,
+    )

@@ -1,0 +1,195 @@
+"""A first point where Newton's iteration resists: easier problems lead to it (§6)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import TypeAlias
+
+import numpy as np
+
+from hbm.balance.parametric import ParametricBalance
+from hbm.balance.relative import RelativeProblem
+from hbm.balance.residual import HarmonicBalance
+from hbm.continuation.arc import Metric
+from hbm.continuation.continuation import trace
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.effort import Effort
+from hbm.continuation.step_control import StepControl
+from hbm.errors import PLACE, ContinuationError
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path import Path
+from microslip_mechanics.arrays import Array, largest
+from microslip_mechanics.contact.points import ONE_SIDED
+
+SMALLEST_STEP = 1e-3
+LEAST, UNIT = 0.01, 0.1
+"""drive at which an arc begins and what counts as one unit of it, over the whole"""
+PATIENCE = 1000
+"""evaluations after which an arc is given up; those that arrive take some 300"""
+FOURIERS = (FourierBasis(3, 128), FourierBasis(7, 128), FourierBasis(15, 256))
+"""coarse resolutions that are tried in turn"""
+SMOOTH = 1e4
+"""times the threshold velocity with which a homotopy begins"""
+PRESSED = 1e4
+"""depth to which faces are pressed as one begins, over the motion without contacts"""
+TOUCHING = 1e-3
+"""depth at rest up to which faces just touch, over that motion"""
+Easier: TypeAlias = Callable[[RelativeProblem, float], RelativeProblem]
+"""problem, share of the way to it ↦ an easier one"""
+
+
+def approaches(
+    path: Path,
+    parameter: float,
+    control: StepControl,
+    effort: Effort,
+    metric: Metric,
+    *,
+    folded: bool = True,
+) -> Iterator[Array]:
+    """Yield coefficients of coarse responses at a parameter, (2H + 1, rank) each.
+
+    The drive grows from nothing, or the threshold velocity of friction falls from a
+    large value, or friction grows from nothing, or faces that just touch are pressed
+    together and then let go, at coarse resolutions in turn; at last, if ``folded``, the
+    drive grows along an arc, through folds and through zero. Some of what is found may
+    exist at its resolution alone, or be the same again. ``effort`` counts what it
+    takes; ``metric`` measures steps of Newton's iteration.
+    """
+    ways = _ways(*path.at(parameter))
+    for fourier in FOURIERS:
+        for easier in ways:
+            try:
+                yield _followed(
+                    path, parameter, easier, fourier, control, effort, metric
+                )
+            except ContinuationError:
+                continue
+    for fourier in FOURIERS if folded else ():
+        try:
+            yield _along_an_arc(path, parameter, fourier, control, effort, metric)
+        except ContinuationError:
+            continue
+
+
+def _followed(
+    path: Path,
+    parameter: float,
+    easier: Easier,
+    fourier: FourierBasis,
+    control: StepControl,
+    effort: Effort,
+    metric: Metric,
+) -> Array:
+    """Return the coefficients at the end of a homotopy, shape (2H + 1, rank).
+
+    Raises
+    ------
+    ContinuationError
+        If it does not arrive.
+    """
+    problem, frequency = path.at(parameter)
+    mask = path.mask(fourier.harmonics)
+    place, step = 0.0, 0.25
+    point = HarmonicBalance(problem, fourier, mask).point(
+        problem.rest[None, :], frequency
+    )
+    while place < 1.0:
+        target = min(1.0, place + step)
+        balance = HarmonicBalance(easier(problem, target), fourier, mask)
+        try:
+            counted = effort.counted(balance, fourier.harmonics)
+            found = correct_at(counted, point, control, metric=metric).point
+        except ContinuationError:
+            step *= 0.5
+            if step < SMALLEST_STEP:
+                raise
+            continue
+        point, place, step = found, target, 1.5 * step
+    return point[:-1].reshape(fourier.coefficients, problem.rank)
+
+
+def _along_an_arc(
+    path: Path,
+    parameter: float,
+    fourier: FourierBasis,
+    control: StepControl,
+    effort: Effort,
+    metric: Metric,
+) -> Array:
+    """Return the coefficients where a drive that grows through folds is whole.
+
+    Raises
+    ------
+    ContinuationError
+        If it does not arrive.
+    """
+    problem, frequency = path.at(parameter)
+
+    def driven(share: float) -> tuple[RelativeProblem, float]:
+        return _drive(problem, share), frequency
+
+    def scale(point: Array) -> Array:
+        return np.append(metric(point)[:-1], UNIT)
+
+    mask = path.mask(fourier.harmonics)
+    balance = ParametricBalance(driven, fourier, mask, lambda _: UNIT, (-1.0, 1.0))
+    still, _ = driven(LEAST)
+    start = HarmonicBalance(still, fourier, mask).point(problem.rest[None, :], LEAST)
+    counted = effort.counted(balance, fourier.harmonics)
+    system = Effort(PATIENCE).counted(counted, 1)
+    for last in trace(system, start, 1.0, metric=scale, control=control, begin=-1.0):
+        point = last.point
+    if point[-1] < 1.0:
+        raise ContinuationError(f"the drive falls again at {PLACE}", parameter)
+    return point[:-1].reshape(fourier.coefficients, problem.rank)
+
+
+def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
+    """Return the homotopies that may lead to a problem.
+
+    Where faces just touch at rest, each share of the drive is as hard as the whole:
+    there they begin pressed together, as springs.
+    """
+    points = problem.points
+    rubs = bool(points.dynamic.any() or points.static.any())
+    ways: list[Easier] = [_drive, *((_threshold, _friction) if rubs else ())]
+    motion = largest(problem.apart(frequency))
+    if not _touches(problem, motion):
+        return ways
+    return [*ways, lambda problem, share: _pressed(problem, motion, share)]
+
+
+def _drive(problem: RelativeProblem, share: float) -> RelativeProblem:
+    """Return the problem under a share of the drive."""
+    return replace(problem, force=problem.force * np.array([[1.0], [share]]))
+
+
+def _threshold(problem: RelativeProblem, share: float) -> RelativeProblem:
+    """Return the problem with friction that is smoother near rest."""
+    factor = SMOOTH ** (1.0 - share)
+    points = problem.points._replace(threshold=problem.points.threshold * factor)
+    return replace(problem, points=points)
+
+
+def _friction(problem: RelativeProblem, share: float) -> RelativeProblem:
+    """Return the problem with a share of its friction."""
+    points = problem.points._replace(
+        dynamic=problem.points.dynamic * share, static=problem.points.static * share
+    )
+    return replace(problem, points=points)
+
+
+def _pressed(problem: RelativeProblem, depth: float, share: float) -> RelativeProblem:
+    """Return the problem with faces that are pressed together, and then let go."""
+    gap = problem.points.gap - depth * (PRESSED ** (1.0 - share) - 1.0)
+    return replace(problem, points=problem.points._replace(gap=gap))
+
+
+def _touches(problem: RelativeProblem, motion: float) -> bool:
+    """Return whether faces just touch at rest, in comparison with a motion [m]."""
+    points = problem.points
+    opens = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
+    depth = (problem.basis @ problem.rest + problem.offset)[::3] - points.gap
+    return bool((opens & (np.abs(depth) <= TOUCHING * motion)).any())

@@ -1,0 +1,114 @@
+"""Single periodic responses: to another resolution, a stated error, or stability."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.step_control import StepControl
+from hbm.curves.curve import response
+from hbm.curves.dense_problem import RESOLVED, dense_problem, resolved_up_to
+from hbm.curves.tracer import Tracer
+from hbm.errors import hertz, placed
+from hbm.forces.fourier import FourierBasis
+from hbm.one_thread import one_thread
+from hbm.options import CurveOptions
+from hbm.paths.path import along_frequency
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.static import StaticState
+
+
+def periodic_response(
+    problem: Problem,
+    rest: StaticState,
+    guess: PeriodicResponse,
+    *,
+    harmonics: int,
+    samples: int,
+    tolerance: float = 1e-8,
+    highest: float | None = None,
+    pruned: bool = True,
+) -> PeriodicResponse:
+    """Return the response at the frequency of ``guess`` with another resolution.
+
+    A sparse structure is reduced anew, up to ``highest``; both that and ``pruned`` are
+    as in :class:`~hbm.options.CurveOptions`.
+
+    Raises
+    ------
+    ContinuationError
+        If the point does not converge.
+    """
+    control = StepControl(tolerance=tolerance * problem.force_scale)
+    highest = highest or RESOLVED * guess.frequency
+    small, still, shapes = dense_problem(problem, rest, highest)
+    path = along_frequency(
+        small, still, guess.frequency, guess.frequency, pruned=pruned
+    )
+    balance = path.balance(FourierBasis(harmonics, samples))
+    rows = path.problem.map_from(problem.interface.displacement)
+    start = balance.pushed(balance.point(guess.seen(rows), guess.frequency))
+    with one_thread(), placed(hertz):
+        correction = correct_at(balance, start, control)
+    return replace(response(small, balance, correction), shapes=shapes)
+
+
+def settled_response(
+    problem: Problem,
+    rest: StaticState,
+    guess: PeriodicResponse,
+    *,
+    error: float,
+) -> PeriodicResponse:
+    """Return the response at the frequency of ``guess`` to a stated error.
+
+    Harmonics and samples grow from one harmonic of the guess until the estimated
+    relative error of the amplitude is below ``error``, or until there are no more.
+
+    Raises
+    ------
+    ContinuationError
+        If the point does not converge.
+    """
+    frequency = guess.frequency
+    small, still, shapes = dense_problem(problem, rest, RESOLVED * frequency)
+    path = along_frequency(small, still, frequency, frequency)
+    around = CurveOptions(frequency, 2.0 * frequency, error=error, stability=False)
+    tracer = Tracer(small, path, around)
+    rows = path.problem.map_from(problem.interface.displacement)
+    first = guess.seen(rows)[:3].ravel()
+    start = np.zeros(tracer.system.size)
+    start[: first.size], start[-1] = first, frequency
+    with one_thread(), placed(hertz):
+        found = correct_at(tracer.system, start, tracer.control, tracer.system)
+        made = next(tracer.curve.followed([found], tracer.pieces.metric))
+    return replace(made, shapes=shapes)
+
+
+def with_multipliers(
+    problem: Problem,
+    rest: StaticState,
+    response: PeriodicResponse,
+    options: CurveOptions,
+) -> PeriodicResponse:
+    """Return a response with the multipliers that its curve left out.
+
+    Its error is infinite if more harmonics, where they ask for them, do not confirm the
+    orbit.
+
+    Parameters
+    ----------
+    problem, rest, options
+        As for :func:`hbm.solve.frequency_response`.
+    response
+        On the curve, which was traced without stability.
+    """
+    small, still, _ = dense_problem(problem, rest, resolved_up_to(options))
+    path = along_frequency(small, still, options.start, options.end)
+    tracer = Tracer(small, path, replace(options, stability=True))
+    point = tracer.guess(response, path.problem.selection)
+    with one_thread():
+        return tracer.curve.examined(response, point)

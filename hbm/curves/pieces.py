@@ -1,0 +1,169 @@
+"""A trace that begins by homotopy, and begins again, where Newton resists (§6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from hbm.continuation.continuation import trace
+from hbm.continuation.cornered import Cornered
+from hbm.continuation.correction import Correction
+from hbm.continuation.effort import Effort
+from hbm.continuation.step_control import StepControl
+from hbm.curves.restart import FIRST, LEAPS, Restart
+from hbm.errors import PLACE, ContinuationError
+from hbm.paths.path import Path
+from hbm.paths.path_metric import path_metric
+from hbm.resolution.adaptive import AdaptiveBalance
+from microslip_mechanics.arrays import Array
+
+POINTS = 1000
+"""of a curve from a point in its midst, which may never end, before it is given up"""
+RESTARTS = 6
+"""that a curve may take before it is given up"""
+
+
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """The corrections along a curve from ``start`` to ``end``, in order.
+
+    A curve that folds back and returns to ``start``, that stops, or that does not
+    begin, is followed from ``end`` as well; in the last case if Newton's iteration
+    from rest begins it there. If both return, what lies between is sought.
+    """
+
+    path: Path
+    system: AdaptiveBalance
+    start: float
+    """parameter at which the curve begins"""
+    end: float
+    control: StepControl
+    effort: Effort
+
+    def __iter__(self) -> Iterator[Correction]:
+        """Yield corrections; the first of a new piece has no tangent before it."""
+        there: list[float] = []
+        stopped: ContinuationError | None = None
+        try:
+            yield from self._noted(self._from(self.start, self.end), there)
+        except ContinuationError as error:
+            stopped = error
+        if stopped is None and there[-1:] in ([], [1.0]):
+            return
+        back: list[float] = []
+        again = FIRST if there else ()
+        try:
+            yield from self._noted(self._from(self.end, self.start, again), back)
+        except ContinuationError as error:
+            raise stopped or error from None
+        if back[-1:] in ([], [0.0]):
+            return
+        if stopped is not None:
+            raise stopped
+        if max(there) < min(back):
+            yield from self._between(max(there))
+
+    def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
+        """Yield corrections from a point in a direction, until the range ends.
+
+        Or until the curve closes.
+        """
+        yield from trace(
+            self.system,
+            guess,
+            self.end,
+            metric=self.metric,
+            control=replace(self.control, most_points=POINTS),
+            settler=self.system,
+            begin=self.start,
+            direction=direction,
+        )
+
+    @property
+    def restart(self) -> Restart:
+        """Where a new piece begins."""
+        return Restart(
+            self.path,
+            self.system,
+            self.control,
+            self.effort,
+            self.metric,
+        )
+
+    def metric(self, point: Array) -> Array:
+        """Return the change of each component that counts as one unit of arc."""
+        return path_metric(self.path, point)
+
+    def _noted(
+        self, corrections: Iterator[Correction], shares: list[float]
+    ) -> Iterator[Correction]:
+        """Yield corrections, and note the share of the range before each of them."""
+        for each in corrections:
+            shares.append(
+                (float(each.point[-1]) - self.start) / (self.end - self.start)
+            )
+            yield each
+
+    def _between(self, reached: float) -> Iterator[Correction]:
+        """Yield corrections from beyond where curves from both ends turn back.
+
+        ``reached`` is the share of the range up to where the first does.
+        """
+        where = self.start + reached * (self.end - self.start)
+        guess = self.restart.point(where, self.end, iter(LEAPS))
+        last: Correction | None = None
+        if guess is not None:
+            for last in self._cornered(guess, self.end):
+                yield last
+        if last is None or last.point[-1] != self.end:
+            raise ContinuationError(
+                f"the curve turns back at {PLACE}, and that from the other end of the "
+                "range before it comes there: what lies between was not found; a "
+                "smaller tolerance, or more harmonics, may lead round the corner",
+                where,
+            )
+
+    def _from(
+        self, begin: float, end: float, first: tuple[float, ...] = FIRST
+    ) -> Iterator[Correction]:
+        """Yield corrections from one end of the range, past what resists.
+
+        ``first`` are the leaps by which a first point is sought if there is none.
+        """
+        guess, heading, leaps = self.restart.still(begin), end, iter(first)
+        for attempt in range(RESTARTS + 1):
+            last: Correction | None = None
+            try:
+                for correction in self._cornered(guess, heading):
+                    last = correction
+                    yield correction
+            except ContinuationError:
+                heading = self._onwards(last, heading)
+                reached = float((guess if last is None else last.point)[-1])
+                leaps = self.restart.leaps(float(guess[-1]), reached, heading, leaps)
+                again = self.restart.point(reached, heading, leaps)
+                if again is None or attempt == RESTARTS:
+                    raise
+                guess = again
+            else:
+                return
+
+    def _cornered(self, guess: Array, heading: float) -> Iterator[Correction]:
+        """Yield corrections of one piece, round its corners."""
+        yield from Cornered(
+            self.system,
+            guess,
+            heading,
+            self.start if heading == self.end else self.end,
+            self.metric,
+            self.control,
+            self.system,
+        )
+
+    def _onwards(self, last: Correction | None, heading: float) -> float:
+        """Return the end of the range to which the curve was going."""
+        if last is None or last.along[-1] == 0.0:
+            return heading
+        onwards = math.copysign(1.0, last.along[-1])
+        return max(self.start, self.end, key=lambda each: onwards * each)

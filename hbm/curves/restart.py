@@ -1,0 +1,101 @@
+"""A point from which a curve goes on, or begins, where Newton resists (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hbm.continuation.arc import Metric
+from hbm.continuation.corrected import correct_at
+from hbm.continuation.effort import Effort
+from hbm.continuation.step_control import StepControl
+from hbm.curves.homotopy import approaches
+from hbm.errors import ContinuationError
+from hbm.paths.path import Path
+from hbm.resolution.adaptive import AdaptiveBalance
+from microslip_mechanics.arrays import Array
+
+LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
+"""shares of the range by which a restart passes what resists, tried in turn; from the
+first one again where the piece before has come nearer to the end"""
+TENTHS = 10
+"""units of a parameter in its range, or in the logarithm of that"""
+FIRST = (0.0, 1e-2)
+"""the same where there is no curve yet"""
+FOLDED = (0.0, LEAPS[0], LEAPS[-1])
+"""leaps behind which a first point is also sought through folds of the drive, which
+takes thousands of evaluations where there is none"""
+
+
+@dataclass(frozen=True, slots=True)
+class Restart:
+    """Where a curve along a path begins anew: behind a leap, by homotopy."""
+
+    path: Path
+    system: AdaptiveBalance
+    control: StepControl
+    effort: Effort
+    metric: Metric
+
+    def point(
+        self, reached: float, heading: float, leaps: Iterator[float]
+    ) -> Array | None:
+        """Return a point from which the curve can go on, past what resists.
+
+        ``leaps`` are what is left to try, in shares of the range.
+        """
+        way = self._way(reached, heading)
+        for leap in leaps:
+            parameter = reached + leap * way
+            if (heading - parameter) * way <= 0.0:
+                return None
+            for coefficients in approaches(
+                self.path,
+                parameter,
+                self.control,
+                self.effort,
+                self.metric,
+                folded=leap in FOLDED,
+            ):
+                settled = self.settled(coefficients, parameter)
+                if settled is not None:
+                    return settled
+        return None
+
+    def leaps(
+        self, begun: float, reached: float, heading: float, left: Iterator[float]
+    ) -> Iterator[float]:
+        """Return the leaps to try: all of them if the last piece came nearer."""
+        way = self._way(begun, heading)
+        return iter(LEAPS) if (reached - begun) / way > LEAPS[0] else left
+
+    def settled(self, coefficients: Array, parameter: float) -> Array | None:
+        """Return the point near a coarse response; None if it does not converge.
+
+        Harmonics for which a point has no room are left out.
+        """
+        guess = self.still(parameter)
+        kept = coefficients.ravel()[: guess.size - 1]
+        guess[: kept.size] = kept
+        self.system.restart(coefficients.shape[0] // 2)
+        try:
+            found = correct_at(
+                self.system, guess, self.control, self.system, self.metric
+            )
+        except ContinuationError:
+            return None
+        return found.point
+
+    def still(self, parameter: float) -> Array:
+        """Return the point at rest."""
+        problem, _ = self.path.at(parameter)
+        point = np.zeros(self.system.size)
+        point[: problem.rank], point[-1] = problem.rest, parameter
+        return point
+
+    def _way(self, place: float, heading: float) -> float:
+        """Return the range, or the share of it that counts like that at a place."""
+        return math.copysign(TENTHS * self.path.unit(place), heading - place)

@@ -1,0 +1,1 @@
+"""What happens along a curve: peaks, folds and changes of stability, located."""

@@ -1,0 +1,205 @@
+"""Where Floquet multipliers cross the unit circle between two points (theory §6)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from hbm.continuation.correction import Correction
+from hbm.continuation.segment import PRECISION, ROUGH, ROUGHER, Segment, folds
+from hbm.events.moving_multiplier import MovingMultiplier, outside
+from hbm.events.multipliers import Multipliers
+from hbm.events.settled import Settled
+from hbm.forces.fourier import FourierBasis, by_harmonics
+from hbm.resolution.adaptive import AdaptiveBalance
+from microslip_mechanics.arrays import ComplexArray
+
+LOCATING = FourierBasis(31, 256)
+"""most that is taken at first, if the curve has no more, to locate a change of
+stability"""
+ASTRAY = 0.01
+"""distance of a multiplier from +1 at which an orbit as it is reported is no branch
+point: the crossing is located again with all harmonics, then more precisely"""
+LEAP = 0.1
+"""of the change of a multiplier between two points: what is left of its excess where it
+is located, from which on it leaps"""
+REAL = 1e-6
+"""imaginary part of a multiplier, over its modulus, below which it is real"""
+BESIDE = 1e-3
+"""distance from +1 within which one that is real may pair with another: one of a free
+mean position that hardly decays is there all the time"""
+TORUS, BRANCH = "Neimark-Sacker", "branch point"
+
+
+@dataclass(frozen=True, slots=True)
+class Crossings:
+    """Finds them along a path."""
+
+    system: AdaptiveBalance
+    multipliers: Multipliers
+    recalls: bool
+    """whether a contact has a memory"""
+
+    def between(
+        self, segment: Segment, before: Settled, after: Settled
+    ) -> Iterator[tuple[str, Correction]]:
+        """Yield what happens where a multiplier crosses the circle, and the point."""
+        paired = False
+        if before.multipliers.size != after.multipliers.size:
+            return  # one of the two has none that are known
+        for which in crossings(before.multipliers, after.multipliers):
+            if paired:  # a conjugate crosses where the one before it does
+                paired = False
+                continue
+            located, multiplier = self._crossing(segment, which, before, after)
+            kind = crossed(multiplier)
+            paired = _turns(multiplier)
+            if located is not None:
+                yield kind, located
+
+    def _crossing(
+        self, segment: Segment, which: int, before: Settled, after: Settled
+    ) -> tuple[Correction | None, complex]:
+        """Return where a multiplier crosses the unit circle, if it does, and its value.
+
+        The value is the one next to it that is still outside. A multiplier that leaps
+        over the circle does not cross it: a slider begins to slip there, or sticks for
+        good, and nothing branches.
+        """
+        told, finer, precision = self._asked(before, after)
+        moving = MovingMultiplier(which, before.multipliers, after.multipliers)
+        located = None
+        if finer is not None:
+            located = self._among(segment, moving, finer, before, after, precision)
+        if located is None:
+            located = self._along(segment, moving, finer, precision)
+        for each in (precision, PRECISION):
+            if not self._astray(segment, located, moving, told):
+                break
+            moving = MovingMultiplier(which, before.multipliers, after.multipliers)
+            located = self._along(segment, moving, told, each)
+        if self.recalls and located is not None:
+            first, last = moving.ends
+            growth = moving.growth(self._finest(located, finer))
+            located = None if abs(growth) > LEAP * abs(last - first) else located
+        return located, moving.outside
+
+    def _along(
+        self,
+        segment: Segment,
+        moving: MovingMultiplier,
+        finer: FourierBasis | None,
+        precision: float,
+    ) -> Correction | None:
+        """Return where a multiplier crosses of the orbits at the frequencies of a step.
+
+        They have the finer resolution, if there is one.
+        """
+
+        def growth(correction: Correction) -> float:
+            return moving.growth(self._finest(correction, finer))
+
+        return segment.locate(growth, moving.ends, precision)
+
+    def _astray(
+        self,
+        segment: Segment,
+        located: Correction | None,
+        moving: MovingMultiplier,
+        told: FourierBasis | None,
+    ) -> bool:
+        """Return whether no branch point is confirmed by the orbit as it is reported.
+
+        Where the curve folds a multiplier crosses in any case, and nothing is asked for
+        again.
+        """
+        if crossed(moving.outside) != BRANCH:
+            return False
+        folded = segment.after.turns or folds(segment.before) * folds(segment.after) < 0
+        if located is None or folded or self.recalls:
+            return False
+        return bool(abs(moving.growth(self._finest(located, told))) > ASTRAY)
+
+    def _among(
+        self,
+        segment: Segment,
+        moving: MovingMultiplier,
+        finer: FourierBasis,
+        before: Settled,
+        after: Settled,
+        precision: float,
+    ) -> Correction | None:
+        """Return where a multiplier of orbits with a finer resolution crosses.
+
+        They are found between those that are reported; None if one is not.
+        """
+        system = self.multipliers.resolution.at(finer)
+        ends = before.reported, after.reported
+        orbits = replace(
+            segment, system=system, before=ends[0], after=ends[1], tangents=False
+        )
+        located = orbits.locate(
+            lambda each: moving.growth(self.multipliers.at(each.point, finer)),
+            moving.ends,
+            precision,
+        )
+        if located is None:
+            return None
+        guess = located.point.copy()
+        guess[
+            self.system.fourier.coefficients * self.multipliers.resolution.rank : -1
+        ] = 0.0
+        return segment.across(guess, precision * segment.length)
+
+    def _asked(
+        self, before: Settled, after: Settled
+    ) -> tuple[FourierBasis | None, FourierBasis | None, float]:
+        """Return the resolution of multipliers at two points, what may do, a precision.
+
+        It is that of the orbits that are reported, or what their multipliers ask for;
+        none if it is that of the curve.
+        """
+        own = self.system.fourier
+        told = max(before.finer, after.finer, key=by_harmonics)
+        samples = max(LOCATING.samples, own.samples)
+        most = replace(LOCATING, samples=samples, threshold=told.threshold)
+        finer = min(told, max(own, most, key=by_harmonics), key=by_harmonics)
+        precision = ROUGHER if before.asks or after.asks else ROUGH
+        first, second = (
+            each if each.harmonics > own.harmonics else None for each in (told, finer)
+        )
+        return first, second, precision
+
+    def _finest(
+        self, correction: Correction, finer: FourierBasis | None
+    ) -> ComplexArray:
+        """Return the multipliers at a point, of the orbit with a finer resolution."""
+        point, fourier = correction.point, self.system.fourier
+        if finer is not None:
+            found = self.multipliers.finer(point, finer)
+            point, fourier = (point, fourier) if found is None else (found, finer)
+        return self.multipliers.at(point, fourier)
+
+
+def crossings(before: ComplexArray, after: ComplexArray) -> range:
+    """Return which Floquet multipliers cross the unit circle between two points.
+
+    A multiplier is known by its place in the order of moduli, the largest first.
+    """
+    return range(*sorted((outside(before), outside(after))))
+
+
+def crossed(multiplier: complex) -> str:
+    """Return what happens where a multiplier is on the unit circle.
+
+    At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
+    elsewhere, together with its conjugate, a torus begins.
+    """
+    if _turns(multiplier) and abs(multiplier - 1.0) > BESIDE:
+        return TORUS
+    return BRANCH if multiplier.real > 0.0 else "period doubling"
+
+
+def _turns(multiplier: complex) -> bool:
+    """Return whether a multiplier has a conjugate beside it."""
+    return abs(multiplier.imag) > REAL * abs(multiplier)

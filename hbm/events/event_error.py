@@ -1,0 +1,116 @@
+"""How far from its true place on a curve a peak or a fold may lie (theory §6)."""
+
+from __future__ import annotations
+
+import math
+
+from hbm.continuation.arc import Metric
+from hbm.continuation.correction import Correction
+from hbm.continuation.segment import PRECISION, Segment, folds
+from hbm.events.amplitude_growth import AmplitudeGrowth
+from hbm.resolution.adaptive import AdaptiveBalance
+from microslip_mechanics.arrays import Array
+
+AROUND = (0.5, 1.5)
+"""distances from a fold, over the step, to whose sides its curve has slopes of both
+signs: the second if not the first, …"""
+FARTHER, WIDEST = 10.0, 1e-2
+"""… or so many times more each, up to this arc: steps are short at corners, which lie
+elsewhere where they are resolved more finely"""
+
+
+def fold_error(
+    system: AdaptiveBalance, segment: Segment, fold: Correction, bend: float
+) -> float | None:
+    """Return the error of a fold's parameter; None if the curve does not fold there.
+
+    That of the points makes folds of its own where its resolution is hardly enough or
+    changes: what counts is the one with which the fold is reported. To the error of
+    that point comes as much as the curve goes on to there, where it is not yet upright.
+
+    Parameters
+    ----------
+    system
+        Of the curve, which settled the fold last.
+    segment
+        The step in which the fold was found.
+    fold
+        As it was settled last.
+    bend
+        Change of :func:`~hbm.continuation.segment.folds` along the segment.
+    """
+    error = system.report.aside
+    point, fourier, _ = system.report.kept(fold.point)
+    step, near = segment.length * fold.along, PRECISION * segment.length
+    if segment.after.turns:
+        return error + abs(folds(fold) * segment.length)
+    with system.resolved(fourier):
+        doubt = _turns(segment, point, step, near)
+        if doubt is None:
+            return None
+        at = segment.across(point, near)
+    return error + doubt + folds(at) ** 2 / bend if at else math.inf
+
+
+def _turns(segment: Segment, point: Array, step: Array, near: float) -> float | None:
+    """Return what a fold may be aside if a curve has slopes of both signs about it.
+
+    None if it has not; nothing where the curve is lost.
+    """
+    slopes: list[float] = []
+    for distance in _distances(segment.length):
+        sides = [
+            segment.across(point + side * distance * step, near) for side in (-1.0, 1.0)
+        ]
+        if None in sides and not slopes:
+            return 0.0
+        slopes += [folds(each) for each in sides if each]
+        if min(slopes) <= 0.0 <= max(slopes):
+            steepest = max(-min(slopes), max(slopes))
+            return (
+                steepest * distance * segment.length if distance > AROUND[-1] else 0.0
+            )
+    return None
+
+
+def _distances(length: float) -> list[float]:
+    """Return how far from a fold its curve is looked at, over the step."""
+    found = list(AROUND)
+    while FARTHER * found[-1] * length <= WIDEST:
+        found.append(FARTHER * found[-1])
+    return found
+
+
+def peak_error(
+    system: AdaptiveBalance,
+    growth: AmplitudeGrowth,
+    peak: Correction,
+    bend: float,
+    metric: Metric,
+) -> tuple[float, float]:
+    """Return the error of a peak's parameter, and what its amplitude errs by for it.
+
+    The parameter errs as far as errors of amplitudes leave open which is the largest,
+    and as far as it lies elsewhere where it is resolved more finely. The latter costs
+    amplitude too, relative.
+
+    Parameters
+    ----------
+    system
+        Of the curve.
+    growth
+        Of the largest amplitude along the curve.
+    peak
+        As it was settled last.
+    bend
+        Change of the growth along the segment.
+    metric
+        Of the curve.
+    """
+    point, _, error = system.report.kept(peak.point)
+    largest = float(growth.largest(point)[0])
+    doubt = math.sqrt(4.0 * error * largest / bend)
+    finer, _ = system.report.reported(peak, metric(peak.point))
+    steep = abs(growth(finer))
+    aside = 0.5 * steep**2 / bend / largest
+    return (doubt + steep / bend) * abs(folds(peak)), aside

@@ -1,0 +1,1 @@
+"""Contact forces over one period, their tangents and their Fourier series."""

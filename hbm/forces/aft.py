@@ -1,0 +1,281 @@
+"""Alternating frequency/time: contact forces and their tangents (theory §6)."""
+
+from __future__ import annotations
+
+import copy
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.forces.contact_cycle import ContactCycle, contact_cycle
+from hbm.forces.fourier import FourierBasis
+from hbm.forces.memory import FrictionMemory, marched
+from hbm.forces.sampled_tangents import SampledTangents
+from hbm.forces.sampling import sample
+from hbm.forces.symmetry import Symmetry, still_holds, symmetry
+from hbm.forces.tangent_entries import kinds, tangent_entries
+from hbm.forces.touch_factors import Factors, touch_factors
+from hbm.forces.touches import touches
+from hbm.forces.traces import Traces
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.points import ONE_SIDED, RIGID, ContactPoints
+from microslip_mechanics.errors import MicroslipError
+
+
+class Call(NamedTuple):
+    """What was asked last, and the answer: its samples still lie in the buffers."""
+
+    number: int
+    motion: tuple[float, float]
+    """frequency and decay"""
+    coefficients: Array
+    force: Array
+
+    def answers(
+        self, number: int, motion: tuple[float, float], coefficients: Array
+    ) -> bool:
+        """Return whether the same is asked, and nothing else since."""
+        same = (self.number, self.motion) == (number, motion)
+        return same and np.array_equal(self.coefficients, coefficients)
+
+
+class AlternatingFrequencyTime:
+    """Contact points evaluated over the samples of one period.
+
+    Arrays that a call returns as samples are buffers, valid until the next call.
+    """
+
+    def __init__(
+        self,
+        points: ContactPoints,
+        basis: Array,
+        fourier: FourierBasis,
+        *,
+        offset: Array | None = None,
+        odd: NDArray[np.bool_] | None = None,
+        pruned: bool = True,
+    ) -> None:
+        """Plan the transforms.
+
+        Parameters
+        ----------
+        points
+            Contact table.
+        basis
+            Map from the coordinates y to the points, shape ``(3 points, rank)``.
+        fourier
+            Harmonics and samples.
+        offset
+            Constant displacement of the points besides y [m], ``(3 points,)``.
+        odd
+            Which coordinates have odd harmonics only, the others even ones only,
+            shape ``(rank,)``: half a period then says all. None without that symmetry.
+        pruned
+            Whether tangents that the laws do not have are left out.
+
+        Raises
+        ------
+        MicroslipError
+            If a contact is rigid: its traction does not follow from the motion.
+        """
+        _refuse_rigid(points)
+        rows, samples = len(basis), fourier.samples
+        self._points, self._basis, self._fourier = points, basis, fourier
+        self._offset = np.zeros(rows) if offset is None else offset
+        self._odd, self._pruned = odd, pruned
+        recalls = bool(marched(points).any())
+        self._memory = FrictionMemory(basis, fourier) if recalls else None
+        entries = tangent_entries(points, pruned)
+        halves = None if recalls or samples % 2 else odd
+        self._symmetry = symmetry(points, self._offset, basis, entries, halves)
+        signs = np.empty(0)
+        if odd is not None and self._symmetry.holds:
+            signs = np.where(odd, -1.0, 1.0)
+        self._traces = Traces(basis, fourier, signs)
+        self._tangents = SampledTangents(basis, entries, self._symmetry, signs, samples)
+        self._last: Call | None = None
+        self._frequency = np.nan
+        self._moved: tuple[Array, Array] = (
+            np.zeros((rows, samples)),
+            np.zeros((rows, samples)),
+        )
+
+    def with_points(
+        self, points: ContactPoints, offset: Array
+    ) -> AlternatingFrequencyTime:
+        """Return the same for other values of the contacts.
+
+        Both share buffers, unless other tangents are needed or a symmetry is lost.
+        """
+        alike = still_holds(self._symmetry, points, offset)
+        if not (alike and np.array_equal(kinds(points), kinds(self._points))):
+            return AlternatingFrequencyTime(
+                points,
+                self._basis,
+                self._fourier,
+                offset=offset,
+                odd=self._odd,
+                pruned=self._pruned,
+            )
+        other = copy.copy(self)
+        other._points, other._offset, other._last = points, offset, None
+        return other
+
+    def __call__(
+        self, coefficients: Array, frequency: float, decay: float = 0.0
+    ) -> Array:
+        """Return the coefficients of the force on y [N], shape (2H + 1, rank).
+
+        Parameters
+        ----------
+        coefficients
+            Of y [m], shape ``(2H + 1, rank)``.
+        frequency
+            Excitation frequency ω [rad/s]; turns the derivative by phase into velocity.
+        decay
+            Rate β [1/s] at which the motion about its mean dies away: it slows the
+            velocity by β times that motion (theory, eq. 27).
+        """
+        last, motion = self._last, (frequency, decay)
+        if last is not None and last.answers(self.calls, motion, coefficients):
+            return last.force
+        force = self._evaluated(coefficients, frequency, decay)
+        self._last = Call(self.calls, motion, coefficients.copy(), force)
+        return force
+
+    def by_frequency(self) -> Array:
+        """Return ∂force/∂ω [N s/rad] of the last call, shape (2H + 1, rank).
+
+        It is that of a steady motion.
+        """
+        return self._traces.changes() / self._frequency
+
+    @property
+    def calls(self) -> int:
+        """Number of calls so far: of this one and of what shares its buffers."""
+        return self._traces.calls
+
+    @property
+    def tangents(self) -> SampledTangents:
+        """Of the last call."""
+        return self._tangents
+
+    def add_remembered(self, places: NDArray[np.int64], jacobian: Array) -> None:
+        """Add ∂force/∂y of the last call by what the contacts remember.
+
+        ``places``, shape ``(2H + 1, rank)``, are the rows and columns of the
+        coefficients in ``jacobian``; negative ones are left out.
+        """
+        if self._memory is not None:
+            self._memory.add_jacobian(
+                self._points, self._moved, self._frequency, places, jacobian
+            )
+
+    def small_tangents(self) -> tuple[Array, Array]:
+        """Return what a small motion about that of the last call feels in the mean.
+
+        By y [N/m] and by ẏ [N s/m], shape ``(rank, rank)`` each. What contacts remember
+        is a spring for a small motion of the same frequency.
+        """
+        elastic, viscous = (mean.copy() for mean in self.tangents.means())
+        rank = len(elastic)
+        cosines = np.full((self._fourier.coefficients, rank), -1)
+        cosines[1] = np.arange(rank)
+        self.add_remembered(cosines, elastic)
+        return elastic, viscous
+
+    def touched(self, places: NDArray[np.int64]) -> Factors | None:
+        """Return what :attr:`tangents` leave out of ∂force/∂y of the last call.
+
+        That is of cells in which faces touch or part; None if there are none.
+        ``places``, shape ``(2H + 1, rank)``, are those of the coefficients among the
+        unknowns; negative ones are left out.
+        """
+        if not (self._points.normal == ONE_SIDED).any():
+            return None
+        found = touches(self._points, *self._moved, self._telling)
+        if not found.place.size:
+            return None
+        if self._symmetry.holds:
+            # the other half, seen by coordinates that it mirrors, is the same again
+            found = found._replace(shared=2.0 * found.shared)
+        return touch_factors(found, self._basis, self._frequency, self.samples, places)
+
+    @property
+    def samples(self) -> int:
+        """Number of samples per period."""
+        return self._fourier.samples
+
+    @property
+    def points(self) -> ContactPoints:
+        """Contact table."""
+        return self._points
+
+    @property
+    def symmetry(self) -> Symmetry:
+        """What half a period later looks like."""
+        return self._symmetry
+
+    @property
+    def moved(self) -> tuple[Array, Array]:
+        """Displacement [m] and velocity [m/s] of the points in the last call.
+
+        Each has shape ``(3 points, samples)``; with a symmetry samples of the second
+        half of the period may be left out.
+        """
+        return self._moved
+
+    def impulses(self, above: int, most: int) -> float:
+        """Return the norm of the contact impulses [N] of the last call.
+
+        They are forces integrated over the phase. Orders up to ``above`` are left out,
+        ``most`` is the highest one.
+        """
+        force = self._traces.force(most)
+        orders = (np.arange(2 * above + 1, 2 * most + 1) + 1) // 2
+        return float(np.linalg.norm(force[2 * above + 1 :] / orders[:, None]))
+
+    def cycle(self, coefficients: Array, frequency: float) -> ContactCycle:
+        """Return normal forces and energies over one period."""
+        self(coefficients, frequency)
+        forces = self._traces.regular.force + self._traces.extra.force
+        period = 2.0 * np.pi / frequency
+        cycle = contact_cycle(self._points, self._moved, forces, self._telling, period)
+        # in the other half a point does what its mirror image did in this one
+        return cycle.joined(self._symmetry.images) if self._symmetry.holds else cycle
+
+    def _evaluated(self, coefficients: Array, frequency: float, decay: float) -> Array:
+        """Return the force, and fill the buffers."""
+        traces = self._traces
+        displacement, velocity = traces.motion(coefficients, frequency, decay)
+        displacement += self._offset[:, None]
+        self._moved, self._frequency = (displacement, velocity), frequency
+        sample(
+            self._points,
+            *self._moved,
+            self._tangents.entries,
+            self._tangents.bounds,
+            self._symmetry,
+            traces.regular,
+            traces.extra,
+            self._tangents.samples,
+        )
+        if self._memory is not None:
+            self._memory.add(self._points, self._moved, frequency, *traces.regular)
+        return traces.forces()
+
+    @property
+    def _telling(self) -> int:
+        """Number of samples that tell all: those of half a period with a symmetry."""
+        return self.samples // 2 if self._symmetry.holds else self.samples
+
+
+def _refuse_rigid(points: ContactPoints) -> None:
+    """Raise an error if a contact is rigid."""
+    if (points.friction == RIGID).any():
+        raise MicroslipError(
+            "rigid friction has no force of a given motion: it is solved along a "
+            "frequency or a parameter; give coulomb with a small threshold_velocity "
+            "here"
+        )

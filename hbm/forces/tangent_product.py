@@ -1,0 +1,72 @@
+"""Contact tangents over a period, by which motions are multiplied (theory §6)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from hbm.forces.fourier import Transform
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.jit import kernel
+
+
+class TangentProduct:
+    """The product 𝓜[∂f/∂y] y + ω 𝓜[∂f/∂ẏ] D y (eq. 18) by way of the samples.
+
+    At least 4H + 2 samples make it the same as that of the assembled Jacobian.
+    """
+
+    def __init__(self, tangents: Array, samples: int, signs: Array) -> None:
+        """Take the tangents at samples of a period.
+
+        Parameters
+        ----------
+        tangents
+            ∂f/∂y [N/m] and ∂f/∂ẏ [N s/m] of the coordinates at each sample, shape
+            ``(2, rank, rank, samples)``; half of the samples where ``signs`` say what
+            the other half is.
+        samples
+            Of a period.
+        signs
+            By which signs the coordinates differ after half a period, ``(rank,)``; ones
+            where all samples are given.
+        """
+        self._tangents, self._samples, self._signs = tangents, samples, signs
+
+    def __call__(self, coefficients: Array, frequency: float) -> Array:
+        """Return the change of the force [N] with that of the motion [m].
+
+        Both have shape ``(2H + 1, rank)``; ``frequency`` is in rad/s.
+        """
+        rank = coefficients.shape[1]
+        motion, force = _buffers(rank, self._samples)
+        series = np.zeros((len(coefficients), 2 * rank))
+        series[:, :rank] = coefficients
+        turning = frequency * np.arange(1, len(coefficients) // 2 + 1)[:, None]
+        series[1::2, rank:] = turning * coefficients[2::2]
+        series[2::2, rank:] = -turning * coefficients[1::2]
+        _multiply(self._tangents, motion.synthesis(series), self._signs, force.samples)
+        return force.analysis(len(coefficients) // 2)
+
+
+@lru_cache(maxsize=8)
+def _buffers(rank: int, samples: int) -> tuple[Transform, Transform]:
+    """Return room for displacement and velocity, and for the force."""
+    return Transform(2 * rank, samples), Transform(rank, samples)
+
+
+@kernel
+def _multiply(tangents: Array, moved: Array, signs: Array, force: Array) -> None:
+    """Write what changes of displacement and velocity, (2 rank, samples), make."""
+    rank, seen = tangents.shape[1], tangents.shape[3]
+    for row in range(rank):
+        force[row] = 0.0
+        for column in range(rank):
+            for place in range(seen):
+                force[row, place] += (
+                    tangents[0, row, column, place] * moved[column, place]
+                    + tangents[1, row, column, place] * moved[rank + column, place]
+                )
+        for place in range(seen, force.shape[1]):
+            force[row, place] = signs[row] * force[row, place - seen]

@@ -1,0 +1,1 @@
+"""Linear and nonlinear modes: free decaying motions."""

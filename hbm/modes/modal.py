@@ -1,0 +1,205 @@
+"""The residual of a nonlinear mode and its Jacobian (theory, eqs. 27–31)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.balance.linearisation import Linearisation
+from hbm.balance.relative import RelativeProblem
+from hbm.forces.fourier import FourierBasis, to_complex, to_real
+from hbm.modes.first_order import FirstOrder, first_order
+from hbm.modes.free_motion import FreeMotion
+from hbm.modes.modal_parts import ModalParts, Reference
+from hbm.modes.modal_tangents import ModalTangents
+from microslip_mechanics.arrays import Array, ComplexArray
+
+STRIDE = 0.01
+"""change of the pole, over that of the linear mode, that counts as one unit of arc"""
+FARTHER = 0.2
+"""change of the pole, over that since the linear mode, that does so where it is more"""
+FARTHEST = 60.0
+"""of log a, either way, that a trial may go"""
+FAINT = 1e-2
+"""relative motion over the amplitude, below which its changes count less"""
+
+
+class ModalBalance:
+    """Residual of a nonlinear mode with a fixed number of harmonics and samples.
+
+    A point is the flat array of coefficients, shape (2H + 1, rank + count + 1),
+    followed by log a. The columns are (y − rest)/a, then η/a and s over the modulus of
+    the linear pole, which have order 1 alone. It may carry more harmonics than are
+    solved for: those are ignored. Residuals are over a times the modal stiffness.
+    """
+
+    def __init__(
+        self,
+        problem: RelativeProblem,
+        free: FreeMotion,
+        reference: Reference,
+        fourier: FourierBasis,
+        active: NDArray[np.bool_],
+    ) -> None:
+        """Plan; ``active`` coefficients of y, (2H + 1, rank), are sought."""
+        self.problem, self.free, self.reference = problem, free, reference
+        self.fourier, self.rank = fourier, problem.rank
+        self.width = self.rank + free.count + 1
+        self._speed = abs(reference.pole)
+        self._active = active
+        self._wanted = np.vstack([active[:1], active[1::2]])
+        self._contact = problem.contact(fourier)
+        self._tangents = ModalTangents(self._contact, active)
+        self._orders = np.arange(fourier.harmonics + 1)
+        wide = np.arange(fourier.coefficients * self.width).reshape(-1, self.width)
+        self._inner = wide[:, : self.rank][active]
+        self._outer = wide[1:3, self.rank :].ravel()
+        self._still = np.zeros(active.shape)
+        self._still[0] = problem.rest
+        self._held = self._contact(self._still, self._speed)
+
+    def point(self, parts: ModalParts, size: int) -> Array:
+        """Return the point of some parts, with ``size`` components."""
+        point = np.zeros(size)
+        table = point[:-1].reshape(-1, self.width)
+        table[: len(parts.shape), : self.rank] = parts.shape
+        pole = parts.pole / self._speed
+        table[1:3, self.rank :] = _pair(np.append(parts.modal, pole))
+        point[-1] = math.log(parts.amplitude)
+        return point
+
+    def parts(self, point: Array) -> ModalParts:
+        """Return what a point means."""
+        table = point[:-1].reshape(-1, self.width)[: self.fourier.coefficients]
+        values = table[1, self.rank :] - 1j * table[2, self.rank :]
+        return ModalParts(
+            np.where(self._active, table[:, : self.rank], 0.0),
+            values[:-1],
+            complex(values[-1] * self._speed),
+            math.exp(min(max(point[-1], -FARTHEST), FARTHEST)),
+        )
+
+    def metric(self, point: Array) -> Array:
+        """Return the change of each component that counts as one unit of arc.
+
+        Relative changes of the relative motion and of the amplitude each, and
+        :data:`STRIDE` of the linear mode's pole, or :data:`FARTHER` of how far the pole
+        has moved if that is more.
+        """
+        table = point[:-1].reshape(-1, self.width)
+        scale = np.ones_like(table)
+        scale[:, : self.rank] = np.linalg.norm(table[1:, : self.rank]) + FAINT
+        moved = table[1:3, -1] - _pair(np.array(self.reference.pole / self._speed))
+        scale[:, -1] = max(STRIDE, FARTHER * float(np.linalg.norm(moved)))
+        return np.append(scale.ravel(), 1.0)
+
+    def impulses(self, above: int, most: int) -> float:
+        """Return the norm of the contact impulses between two orders, last call."""
+        return self._contact.impulses(above, most)
+
+    def motion(self, point: Array) -> Array:
+        """Return the coefficients of the motion about rest [m], (2H + 1, dofs)."""
+        parts, condensed = self.parts(point), self.problem.condensed
+        amplitudes = to_complex(parts.shape)
+        none = np.zeros((len(amplitudes), len(condensed.static)), complex)
+        moved = condensed.motion(self._others(parts.pole), amplitudes, none)
+        moved[1] = self.free.motion(parts.pole, amplitudes[1], parts.modal)
+        return parts.amplitude * to_real(moved)
+
+    def residual(self, point: Array) -> Array:
+        """Return the residual, (size − 1,)."""
+        return self._evaluated(point)[0]
+
+    def _evaluated(self, point: Array) -> tuple[Array, _State]:
+        """Return the residual, and what led to it."""
+        parts = self.parts(point)
+        amplitudes = to_complex(parts.shape)
+        first = first_order(self.free, self.reference, parts)
+        condensed, variable = self.problem.condensed, self._others(parts.pole)
+        stiffness = condensed.dynamic_stiffness(variable, self._wanted)
+        stiffness[0] += self.problem.gauge
+        stiffness[1] = first.stiffness
+        left = (stiffness @ amplitudes[..., None])[..., 0]
+        by_pole = condensed.slope(variable, amplitudes)
+        left[1], by_pole[0], by_pole[1] = first.left, 0.0, first.by_pole
+        # A trial may go so far that forces overflow: the corrector turns back then.
+        with np.errstate(over="ignore", invalid="ignore"):
+            force = self._contact(
+                self._still + parts.amplitude * parts.shape,
+                parts.pole.imag,
+                -parts.pole.real,
+            )
+        reaction = (force - self._held) / parts.amplitude
+        whole = np.zeros(point.size - 1)
+        balance = to_real(left) + reaction
+        whole[self._inner] = balance[self._active] / self.reference.stiffness
+        whole[self._outer] = _pair(first.imbalance).ravel()
+        return whole, _State(parts, first, stiffness, by_pole, reaction)
+
+    def __call__(self, point: Array) -> tuple[Array, Linearisation]:
+        """Return the residual, (size − 1,), and what solves with its Jacobian."""
+        whole, state = self._evaluated(point)
+        calls = self._contact.calls
+
+        def made() -> tuple[Array, Array]:
+            if self._contact.calls != calls:
+                self._evaluated(point)  # other tangents lie in the buffers
+            return self._derivatives(state)
+
+        places = np.concatenate([self._inner, self._outer])
+        return whole, Linearisation(made, places, point.size)
+
+    def _derivatives(self, state: _State) -> tuple[Array, Array]:
+        """Return those of the residual by the unknowns, and by log a."""
+        parts, active = state.parts, self._active
+        inner = self._tangents(parts, state.stiffness)
+        amplitudes = to_complex(parts.shape)
+        structure = (state.stiffness @ amplitudes[..., None])[..., 0]
+        by_logarithm = (
+            inner @ parts.shape[active] - (to_real(structure) + state.reaction)[active]
+        )
+        by_pole, turned = self._tangents.by_pole(parts), state.by_pole
+        by_pole[0] += to_real(turned)[active]
+        by_pole[1] += to_real(-1j * self._orders[:, None] * turned)[active]
+        border = state.first.border(active)
+        border[:, -1] = self._speed * by_pole
+        bottom, corner = state.first.bottom(active), state.first.turning()
+        scale = self.reference.stiffness
+        jacobian = np.block(
+            [
+                [inner / scale, border.reshape(len(bottom), -1).T / scale],
+                [bottom, corner],
+            ]
+        )
+        return jacobian, np.append(by_logarithm / scale, np.zeros(len(bottom)))
+
+    def _others(self, pole: complex) -> ComplexArray:
+        """Return s of each order: the mean is at rest, all others decay alike.
+
+        Order 1, which may lie on a pole of the stuck structure, is treated apart.
+        """
+        variable = pole.real + 1j * pole.imag * self._orders
+        variable[:2] = 0.0
+        return variable
+
+
+@dataclass(frozen=True, slots=True)
+class _State:
+    """What led to a residual."""
+
+    parts: ModalParts
+    first: FirstOrder
+    stiffness: ComplexArray
+    """of the structure, order by order, shape (H + 1, rank, rank)"""
+    by_pole: ComplexArray
+    """forces of the structure by s of each order, shape (H + 1, rank)"""
+    reaction: Array
+    """change of the contact forces from rest, over a, shape (2H + 1, rank)"""
+
+
+def _pair(values: ComplexArray) -> Array:
+    """Return real parts and negative imaginary parts, as rows."""
+    return np.stack([values.real, -values.imag])

@@ -1,0 +1,173 @@
+"""The public functions: from a problem to its nonlinear modes (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hbm.balance.active import moving, symmetric
+from hbm.balance.relative import relative_problem
+from hbm.continuation.correction import Correction
+from hbm.continuation.leaps import Leaping
+from hbm.continuation.step_control import StepControl
+from hbm.errors import ContinuationError, placed
+from hbm.forces.fourier import derivative
+from hbm.modes.free_motion import free_motion
+from hbm.modes.linear_modes import FreeDecay, LinearMode, linear_modes
+from hbm.modes.modal_parts import Reference
+from hbm.modes.modal_resolution import ModalResolution
+from hbm.modes.mode_options import ModeOptions
+from hbm.one_thread import one_thread
+from hbm.resolution.adaptive import AdaptiveBalance
+from hbm.structure.condensation import condense
+from microslip_mechanics.arrays import Array, ComplexArray, largest
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import StaticState
+
+MOST = 63
+"""harmonics that are not exceeded"""
+SHORTEST = 1e-5
+"""arc length below which a gap is passed"""
+SHARPEST = 0.9
+"""cosine of the sharpest turn in a step: strands of a narrow fold are told apart"""
+
+
+@dataclass(frozen=True, slots=True)
+class NonlinearMode(FreeDecay):
+    """A free decaying motion of one amplitude."""
+
+    probes: ComplexArray
+    """first harmonic of each probe [m], shape (probes,)"""
+    coefficients: Array
+    """of the motion u [m], shape (2H + 1, dofs)"""
+    frequency_error: float
+    """estimated, relative"""
+    damping_error: float
+    """estimated, of the damping ratio, relative"""
+    harmonics: int
+    samples: int
+
+    @property
+    def amplitude(self) -> float:
+        """Largest of the probes [m]."""
+        return largest(self.probes)
+
+    def state(self, phase: float) -> tuple[Array, Array]:
+        """Return displacement [m] and velocity [m/s] at a phase, shape (dofs,) each."""
+        orders = np.arange(1, len(self.coefficients) // 2 + 1) * phase
+        waves = np.ones(len(self.coefficients))
+        waves[1::2], waves[2::2] = np.cos(orders), np.sin(orders)
+        rates = self.pole.imag * derivative(self.coefficients)
+        rates[1:] += self.pole.real * self.coefficients[1:]
+        return waves @ self.coefficients, waves @ rates
+
+
+def modes_in_range(
+    problem: Problem, rest: StaticState, lowest: float, highest: float
+) -> list[LinearMode]:
+    """Return the modes of very small motions with natural frequencies in a range.
+
+    ``rest`` is the static equilibrium; the frequencies are in rad/s.
+    """
+    relative = relative_problem(problem, rest)
+    return linear_modes(problem, relative, lowest, highest)
+
+
+def nonlinear_mode(
+    problem: Problem, rest: StaticState, linear: LinearMode, options: ModeOptions
+) -> Iterator[NonlinearMode]:
+    """Yield a mode along its amplitude, one per continuation step.
+
+    Parameters
+    ----------
+    problem
+        What moves; its drive is not used.
+    rest
+        Its static equilibrium.
+    linear
+        The mode of small motions, from which this one grows.
+    options
+        Amplitudes and resolution.
+
+    Raises
+    ------
+    ContinuationError
+        If the mode cannot be followed; what was yielded before stays valid.
+    """
+    resolution = _resolution(problem, rest, linear)
+    system = AdaptiveBalance(
+        resolution,
+        options.first,
+        tolerance=options.error if options.harmonics is None else None,
+        most=MOST,
+    )
+    with one_thread(), placed(_millimetres):
+        for correction in Leaping(
+            system,
+            resolution.start(math.log(options.smallest), system.size),
+            math.log(options.largest),
+            resolution.metric,
+            StepControl(
+                tolerance=options.tolerance,
+                smallest=SHORTEST,
+                sharpest_turn=SHARPEST,
+            ),
+            system,
+        ):
+            yield _mode(problem, rest, resolution, system, correction)
+    if correction.point[-1] < math.log(options.largest):
+        raise ContinuationError(
+            f"the mode turns back to {options.smallest:g} m before it reaches "
+            f"{options.largest:g} m: more harmonics help, or a smaller range"
+        )
+
+
+def _millimetres(parameter: float) -> str:
+    """Return the name of a place along the logarithm of the amplitude."""
+    return f"{1e3 * math.exp(parameter):.9g} mm"
+
+
+def _resolution(
+    problem: Problem, rest: StaticState, linear: LinearMode
+) -> ModalResolution:
+    """Return the mode that grows from a linear one, at any resolution."""
+    whole = relative_problem(problem, rest)
+    mass = problem.structure.mass
+    row = linear.shape.conj() @ mass
+    size = float((row @ linear.shape).real)
+    # The mode answers to a load like its own inertia, and moves what that reaches.
+    load = np.stack([whole.force[0], (mass @ linear.shape).astype(complex)])
+    loaded = replace(whole, force=load)
+    active = moving(loaded, linear.frequency)
+    kept, odd = symmetric(active)
+    return ModalResolution(
+        loaded.restricted(kept, odd),
+        active[:, kept],
+        free_motion(condense(problem, whole.selection), kept, mass, linear.pole, size),
+        Reference(linear.pole, row / size, linear.frequency**2 * size),
+        linear,
+    )
+
+
+def _mode(
+    problem: Problem,
+    rest: StaticState,
+    resolution: ModalResolution,
+    system: AdaptiveBalance,
+    correction: Correction,
+) -> NonlinearMode:
+    """Return the mode at a settled point."""
+    point, fourier, error = system.report.kept(correction.point)
+    balance = resolution.at(fourier)
+    motion, pole = balance.motion(point), balance.parts(point).pole
+    first = problem.probes.rows @ (motion[1] - 1j * motion[2])
+    motion[0] += rest.displacement
+    errors, estimate = (error, error), system.estimate
+    if estimate is not None and math.isfinite(error):
+        errors = resolution.errors(estimate, system.report.corrects)
+    return NonlinearMode(
+        pole, first, motion, *errors, fourier.harmonics, fourier.samples
+    )

@@ -1,0 +1,1 @@
+"""What a curve is followed along: the frequency, or a parameter of the problem."""

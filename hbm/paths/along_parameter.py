@@ -1,0 +1,150 @@
+"""A path along a parameter of the problem, at one excitation frequency (theory §6)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.balance.active import extended, moving, symmetric
+from hbm.balance.parametric import ParametricBalance
+from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.rigid import with_pushes
+from hbm.errors import PLACE, ContinuationError
+from hbm.forces.fourier import FourierBasis
+from hbm.stability.stability import SmallMotions, small_motions
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import StaticState, static_equilibrium
+
+WIDE = 10.0
+"""ratio of two values from which equal ratios, not differences, count as equal"""
+PAST = 8
+"""problems that are remembered"""
+
+
+class AlongParameter:
+    """A problem that depends on a parameter; its excitation frequency stays.
+
+    The structure is condensed anew only where the parameter changes it.
+    """
+
+    def __init__(
+        self,
+        problem_at: Callable[[float], Problem],
+        frequency: float,
+        start: float,
+        end: float,
+    ) -> None:
+        """Plan for parameters from ``start`` to ``end`` at ``frequency`` [rad/s].
+
+        Raises
+        ------
+        ValueError
+            If the frequency is not positive.
+        """
+        if frequency <= 0.0:
+            raise ValueError(f"frequency {frequency:g} rad/s: give a positive one")
+        self._problem_at, self._frequency = problem_at, frequency
+        self._limits = min(start, end), max(start, end)
+        self._last: tuple[Problem, RelativeProblem, StaticState] | None = None
+        self._motions: tuple[Problem, SmallMotions] | None = None
+        self._basis: Array | None = None
+        self._past: dict[float, RelativeProblem] = {}
+        values = (start, 0.5 * (start + end), end)
+        seen = [moving(self._whole(value), frequency) for value in values]
+        active = np.logical_or.reduce(seen)
+        self._kept, self._odd = symmetric(active)
+        self._active = active[:, self._kept]
+        self.rank = self._kept.size
+
+    def at(self, parameter: float) -> tuple[RelativeProblem, float]:
+        """Return the problem at one value of the range, or its end, and the frequency.
+
+        Steps along a curve may lead beyond the range, where there may be no problem.
+        """
+        parameter = float(np.clip(parameter, *self._limits))
+        if parameter not in self._past:
+            while len(self._past) >= PAST:
+                self._past.pop(next(iter(self._past)))
+            whole = self._whole(parameter)
+            self._past[parameter] = whole.restricted(self._kept, self._odd)
+        return self._past[parameter], self._frequency
+
+    def mask(self, harmonics: int) -> NDArray[np.bool_]:
+        """Return the active coefficients, shape (2 harmonics + 1, rank)."""
+        return extended(self._active, harmonics)
+
+    def balance(self, fourier: FourierBasis) -> ParametricBalance:
+        """Return harmonic balance at one resolution."""
+        return ParametricBalance(
+            self.at, fourier, self.mask(fourier.harmonics), self.unit, self._limits
+        )
+
+    def unit(self, parameter: float) -> float:
+        """Return a tenth of the range, or the same share of its logarithm."""
+        low, high = self._limits
+        if low > 0.0 and high > WIDE * low:
+            return max(parameter, 0.1 * low) * math.log(high / low) / 10.0
+        return (high - low) / 10.0
+
+    def motions(self, parameter: float) -> SmallMotions:
+        """Return the structure for small motions."""
+        problem = self._problem(parameter)
+        if self._motions is None or not _alike(problem, self._motions[0]):
+            self._motions = problem, small_motions(problem)
+        return self._motions[1]
+
+    def _problem(self, parameter: float) -> Problem:
+        """Return the problem at a value of the range, or its end.
+
+        Raises
+        ------
+        ContinuationError
+            If there is none.
+        """
+        parameter = float(np.clip(parameter, *self._limits))
+        try:
+            return self._problem_at(parameter)
+        except (MicroslipError, ValueError) as error:
+            text = f"there is no problem at {PLACE}: {error}"
+            raise ContinuationError(text, parameter) from error
+
+    def _whole(self, parameter: float) -> RelativeProblem:
+        """Return the problem at one value, in all relative coordinates."""
+        problem = self._problem(parameter)
+        known = rest = None
+        if self._last is not None:
+            earlier, known, rest = self._last
+            if not _same_at_rest(problem, earlier):
+                rest = None
+            if not _alike(problem, earlier):
+                known = rest = None
+        rest = rest or static_equilibrium(problem)
+        made = relative_problem(problem, rest, known, self._basis)
+        self._basis = made.basis if self._basis is None else self._basis
+        self._last = problem, made, rest
+        return with_pushes(made, self._frequency)
+
+
+def _same_at_rest(one: Problem, two: Problem) -> bool:
+    """Return whether two problems of one structure have one equilibrium."""
+    pairs = zip(one.interface.points, two.interface.points, strict=True)
+    return _equal(one.preload, two.preload) and all(_equal(*pair) for pair in pairs)
+
+
+def _alike(one: Problem, two: Problem) -> bool:
+    """Return whether two problems have one structure, seen by the same contacts."""
+    names = ("mass", "damping", "stiffness")
+    pairs = [
+        (getattr(one.structure, name), getattr(two.structure, name)) for name in names
+    ]
+    pairs.append((one.interface.displacement, two.interface.displacement))
+    return all(first is last or _equal(first, last) for first, last in pairs)
+
+
+def _equal(first: np.ndarray, last: np.ndarray) -> bool:
+    return first.shape == last.shape and not np.any(first != last)

@@ -1,0 +1,145 @@
+"""What a curve is followed along: the frequency, or a parameter of the problem (§6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.balance.active import PROBE, extended, moving, symmetric
+from hbm.balance.balance import Balance
+from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.balance.rigid import with_pushes
+from hbm.forces.fourier import FourierBasis
+from hbm.stability.stability import SmallMotions, small_motions
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.static import StaticState
+
+
+class Path(Protocol):
+    """Problems along a parameter, which is the last component of each point."""
+
+    @property
+    def rank(self) -> int:
+        """Number of relative coordinates that move."""
+
+    def at(self, parameter: float) -> tuple[RelativeProblem, float]:
+        """Return problem and excitation frequency [rad/s] at one place."""
+
+    def mask(self, harmonics: int) -> NDArray[np.bool_]:
+        """Return the active coefficients, shape (2 harmonics + 1, rank)."""
+
+    def balance(self, fourier: FourierBasis) -> Balance:
+        """Return the system whose curve is followed, at one resolution."""
+
+    def unit(self, parameter: float) -> float:
+        """Return the change that counts as one unit of arc."""
+
+    def motions(self, parameter: float) -> SmallMotions:
+        """Return the structure for small motions."""
+
+
+@dataclass(frozen=True)
+class AlongFrequency:
+    """One problem; its excitation frequency changes."""
+
+    whole: Problem
+    problem: RelativeProblem
+    """of what moves"""
+    active: NDArray[np.bool_]
+    """coefficients of the probing orders that move, (11, rank)"""
+    range: float
+    """of frequencies [rad/s]"""
+
+    @property
+    def rank(self) -> int:
+        """Number of relative coordinates that move."""
+        return self.problem.rank
+
+    def at(self, parameter: float) -> tuple[RelativeProblem, float]:
+        """Return the problem, and the parameter, which is its frequency."""
+        return self.problem, parameter
+
+    def mask(self, harmonics: int) -> NDArray[np.bool_]:
+        """Return the active coefficients, shape (2 harmonics + 1, rank)."""
+        possible = self.problem.condensed.possible(harmonics + 1)
+        rows = np.vstack([possible[:1], possible[1:].repeat(2, axis=0)])
+        active: NDArray[np.bool_] = extended(self.active, harmonics) & rows
+        return active
+
+    def balance(self, fourier: FourierBasis) -> HarmonicBalance:
+        """Return harmonic balance at one resolution."""
+        return HarmonicBalance(self.problem, fourier, self.mask(fourier.harmonics))
+
+    def unit(self, parameter: float) -> float:  # noqa: ARG002
+        """Return a tenth of the range."""
+        return self.range / 10.0
+
+    def motions(self, parameter: float) -> SmallMotions:  # noqa: ARG002
+        """Return the structure for small motions."""
+        return self._motions
+
+    @cached_property
+    def _motions(self) -> SmallMotions:
+        return small_motions(self.whole)
+
+
+def along_frequency(
+    problem: Problem,
+    rest: StaticState,
+    start: float,
+    end: float,
+    *,
+    symmetry: bool = True,
+    pruned: bool = True,
+) -> AlongFrequency:
+    """Return the path of a frequency response curve.
+
+    Parameters
+    ----------
+    problem, rest
+        What is solved, and its static equilibrium.
+    start, end
+        Frequencies [rad/s].
+    symmetry
+        Whether what a symmetry keeps still is left out: a branch that breaks it needs
+        all.
+    pruned
+        Whether anything is left out, see :class:`~hbm.options.CurveOptions`.
+
+    Raises
+    ------
+    ValueError
+        If a frequency is not positive.
+    """
+    if min(start, end) <= 0.0:
+        raise ValueError(f"frequencies {start:g} and {end:g} rad/s: give positive ones")
+    still = relative_problem(problem, rest)
+    relative = with_pushes(replace(still, pruned=pruned), max(start, end))
+    width = abs(end - start)
+    return moving_path(problem, relative, start, width, symmetry=symmetry and pruned)
+
+
+def moving_path(
+    whole: Problem,
+    relative: RelativeProblem,
+    start: float,
+    width: float,
+    *,
+    symmetry: bool,
+) -> AlongFrequency:
+    """Return the path of a problem's coordinates that move, or of all.
+
+    ``start`` is the first frequency and ``width`` the range [rad/s]; a ``symmetry``
+    keeps still what does not move.
+    """
+    if not symmetry:
+        every = np.ones((PROBE.coefficients, relative.rank), dtype=bool)
+        return AlongFrequency(whole, relative, every, width)
+    active = moving(relative, start)
+    kept, odd = symmetric(active)
+    return AlongFrequency(whole, relative.restricted(kept, odd), active[:, kept], width)

@@ -1,0 +1,48 @@
+"""A path at any number of harmonics and samples, judged by what its probes see (§6)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hbm.balance.balance import Balance
+from hbm.forces.fourier import FourierBasis
+from hbm.paths.path import Path
+from hbm.resolution.resolution import Resolution
+from microslip_mechanics.arrays import Array, ComplexArray
+
+
+class PathResolution(Resolution):
+    """A path at any number of harmonics and samples, made when first asked for."""
+
+    def __init__(self, path: Path, probes: Array, *, marched: bool = False) -> None:
+        """Resolve ``path``; its points are judged by the amplitude of the probes.
+
+        ``probes`` has shape ``(probes, dofs)``; ``marched`` is that of a resolution.
+        """
+        self._path, self._probes, self.marched = path, probes, marched
+        self.rank = path.rank
+        self._made: dict[FourierBasis, Balance] = {}
+
+    def at(self, fourier: FourierBasis) -> Balance:
+        """Return the system at one resolution."""
+        if fourier not in self._made:
+            self._made[fourier] = self._path.balance(fourier)
+        return self._made[fourier]
+
+    def amplitudes(self, points: Sequence[Array]) -> Array:
+        """Return the first-harmonic amplitude of each probe [m], (points, probes)."""
+        return np.abs(self.phasors(points))
+
+    def phasors(self, points: Sequence[Array]) -> ComplexArray:
+        """Return the first harmonic of each probe [m], (points, probes)."""
+        rank, places = self.rank, [float(point[-1]) for point in points]
+        table = np.array([point[rank : 3 * rank] for point in points])
+        first = table[:, :rank] - 1j * table[:, rank:]
+        ways = {place: self._path.at(place) for place in places}
+        problem, _ = ways[places[0]]
+        if all(other is problem for other, _ in ways.values()):
+            frequencies = np.array([ways[place][1] for place in places])
+            return problem.first_harmonic(first, frequencies, self._probes)
+        return np.vstack([self.phasors([point]) for point in points])

@@ -1,0 +1,1 @@
+"""Harmonics and samples by the error that they leave."""

@@ -1,0 +1,195 @@
+"""A system at any number of harmonics and samples, and the error of its points (§6)."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hbm.balance.refined import Refined, Resolved, refined
+from hbm.continuation.correction import Correction
+from hbm.continuation.linearised import Linearised
+from hbm.forces.fourier import FourierBasis
+from microslip_mechanics.arrays import Array, ComplexArray, largest
+
+SMOOTHER = 1e-3
+"""relative change of a threshold velocity that tells what it does"""
+MORE = 4
+"""times the samples after the steps, with which marches tell what these err"""
+TURNING = 0.25
+"""share of a phasor's change that counts where its length just has an extremum"""
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What Newton steps at twice the resolution say of a point, and leave."""
+
+    change: float
+    """relative change of the amplitude by the steps"""
+    truncation: float
+    """relative error after the steps: by harmonics that are left out, and by what
+    further steps would change; infinite if they lead to no point"""
+    sampling: float
+    """by the distance of the samples"""
+    smoothing: float
+    """by friction that is not resolved"""
+    shift: float
+    """change of the parameter by the steps, across a fold"""
+    aside: float
+    """error of the parameter after them"""
+    fourier: FourierBasis
+    """resolution of the corrected point"""
+    made: Refined
+    """what the steps came to"""
+    values: Array
+    """by whose changes errors are measured, in the order of :func:`_changes`"""
+
+    @property
+    def corrected(self) -> Array:
+        """The point after the steps."""
+        return self.made.corrected
+
+    @property
+    def slope(self) -> Linearised:
+        """The derivative of the residual about there."""
+        return self.made.slope
+
+    def of(self, value: int) -> tuple[float, float]:
+        """Return how one of the values changes by the steps, and its error after."""
+        change, truncation, sampling = _changes(self.values[:, [value]], self.made)
+        return change, truncation + sampling
+
+    @property
+    def error(self) -> float:
+        """That of the corrected point."""
+        return self.truncation + self.sampling + self.smoothing
+
+    @property
+    def before(self) -> float:
+        """That of the point before the steps."""
+        return self.change + self.error
+
+
+class Resolution(ABC):
+    """A system at any number of harmonics and samples."""
+
+    rank: int
+    """number of components of a point for each Fourier coefficient"""
+    marched = False
+    """whether contacts are marched from sample to sample: how far a transition is from
+    the next sample, by which they err, is an accident at each resolution"""
+
+    @abstractmethod
+    def at(self, fourier: FourierBasis) -> Resolved:
+        """Return the system at one resolution."""
+
+    @abstractmethod
+    def amplitudes(self, points: Sequence[Array]) -> Array:
+        """Return the values by whose change an error is measured, (points, values)."""
+
+    def phasors(self, points: Sequence[Array]) -> ComplexArray:
+        """Return what these are the moduli of."""
+        return self.amplitudes(points).astype(complex)
+
+    def steepness(self, estimate: Estimate) -> float:
+        """Return the error that is large where the curve is steep."""
+        return estimate.error
+
+    def estimate(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> Estimate:
+        """Return the error of a converged point, by steps at twice the order.
+
+        The corrected point lies in the plane through the point that is normal to
+        ``normal``.
+
+        Raises
+        ------
+        SingularError
+            If the point lies on a fold.
+        """
+        point, finer = correction.point, fourier.doubled
+        made = refined(self.at(finer), point, finer.harmonics, normal)
+        low = made.residual.copy()
+        low[fourier.coefficients * self.rank :] = 0.0
+        newton, sampled = (
+            correction.linearised.solve(normal, np.append(right, 0.0))
+            for right in (correction.residual, low - correction.residual)
+        )
+        solved = point - newton
+        points = (
+            point, solved, solved - sampled, made.before, made.corrected,
+            *self._resampled(made, finer, normal),
+        )  # fmt: skip
+        sizes = self.amplitudes(points)
+        places = np.array([each[-1:] for each in points])
+        change, truncation, sampling = _changes(sizes, made)
+        shift, *aside = _changes(places, made)
+        smoothing, moved = self._smoothing(correction, fourier, normal)
+        size = float(sizes[0].max(initial=0.0)) or 1.0
+        return Estimate(
+            change / size,
+            truncation / size,
+            sampling / size,
+            smoothing / size,
+            shift,
+            sum(aside) + moved,
+            finer,
+            made,
+            sizes,
+        )
+
+    def _resampled(
+        self, made: Refined, finer: FourierBasis, normal: Array
+    ) -> list[Array]:
+        """Return the point after the steps with ever more samples, if it is marched.
+
+        Where loads jump between samples marches are of first order: what so many times
+        the samples still err is that share of it.
+        """
+        if not self.marched:
+            return []
+        finest = replace(finer, samples=MORE * finer.samples)
+        change = self.at(finest).residual(made.corrected) - made.rest
+        change *= MORE / (MORE - 1.0)
+        return [made.corrected - made.slope.solve(normal, np.append(change, 0.0))]
+
+    def _smoothing(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> tuple[float, float]:
+        """Return what resolved friction changes of amplitudes and the parameter."""
+        if fourier.threshold == 0.0:
+            return 0.0, 0.0
+        change = self._resolved(correction, fourier, normal)
+        smooth = correction.point
+        sharp, smooth = self.phasors((smooth + change, smooth))
+        moved = largest(np.abs(sharp) - np.abs(smooth))
+        moved = max(moved, TURNING * largest(np.abs(sharp - smooth)))
+        return moved, abs(float(change[-1]))
+
+    def _resolved(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> Array:
+        """Return how a point changes, to first order, if friction is resolved."""
+        smoother = replace(fourier, threshold=(1.0 + SMOOTHER) * fourier.threshold)
+        other = self.at(smoother).residual(correction.point)
+        slope = (other - correction.residual) / SMOOTHER
+        return correction.linearised.solve(normal, np.append(slope, 0.0))
+
+
+def _changes(values: Array, made: Refined) -> tuple[float, float, float]:
+    """Return how values change by steps, and how far they are off after them.
+
+    That is by harmonics, and by samples. The rows of ``values`` are those of a point,
+    of it solved, solved with more samples, before the last step, after it, and of that
+    with still more samples, if these count.
+    """
+    before, solved, resampled, after, last, *finest = values
+    truncation = made.beyond * largest(last - resampled)
+    lost = math.isinf(made.left)
+    truncation += math.inf if lost else made.left * largest(last - after)
+    sampling = [resampled - solved, *(each - last for each in finest)]
+    return largest(last - before), truncation, max(map(largest, sampling))

@@ -1,0 +1,95 @@
+"""The harmonics and samples that an error asks for, from point to point (theory §6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from hbm.forces.fourier import FourierBasis
+from hbm.resolution.resolution import Estimate
+
+FEWEST_SAMPLES, MOST_SAMPLES = 32, 16384
+PER_ORDER, ANEW = 8, 128
+"""samples per order at the least, the mean counted: twice what a Jacobian needs; and
+with which a curve begins anew at the least"""
+SPARE = 6.0
+"""times that the error may be below its tolerance before less is taken"""
+LITTLE = 1e-3
+"""part of such an error, from which on an eighth of the harmonics is taken, not half"""
+SHARPER = 4.0
+"""times that a threshold velocity falls where friction is to be resolved better"""
+MARKED = 127
+"""harmonics from which an event is no more accurate than any other point"""
+
+
+@dataclass(frozen=True, slots=True)
+class ResolutionChoice:
+    """Chooses resolutions by an error tolerance; without one they stay as they are."""
+
+    tolerance: float | None
+    """relative error of the amplitude"""
+    most: int
+    """number of harmonics that are not exceeded"""
+    smoothest: float
+    """threshold velocity of friction that is not exceeded"""
+
+    def finer(
+        self, fourier: FourierBasis, estimate: Estimate, share: float, sharpest: float
+    ) -> FourierBasis:
+        """Return the resolution that the error asks for.
+
+        ``share`` is that of the error that is allowed with fewer than :data:`MARKED`
+        harmonics. Friction as sharp as ``sharpest`` does not become sharper.
+        """
+        if fourier.harmonics >= MARKED:
+            share = 1.0
+        if self.tolerance is None or estimate.error <= share * self.tolerance:
+            return fourier
+        parts = 3.0 if self.smoothest else 2.0  # of an error; all may be as large
+        enough = share * self.tolerance / parts
+        finer = self.doubled(
+            fourier,
+            harmonics=estimate.truncation > enough,
+            samples=estimate.sampling > enough,
+        )
+        if estimate.smoothing > enough and finer.threshold > sharpest:
+            finer = replace(finer, threshold=finer.threshold / SHARPER)
+        return finer
+
+    def anew(self, harmonics: int) -> FourierBasis:
+        """Return the resolution with which a curve begins anew, with so many harmonics.
+
+        Or with the most; friction is as smooth as it may be.
+        """
+        harmonics = min(harmonics, self.most)
+        samples = max(ANEW, PER_ORDER * (harmonics + 1))
+        return FourierBasis(harmonics, samples, self.smoothest)
+
+    def doubled(
+        self, fourier: FourierBasis, *, harmonics: bool = True, samples: bool = True
+    ) -> FourierBasis:
+        """Return a resolution with twice the harmonics, and twice the samples."""
+        orders, count = fourier.harmonics, fourier.samples
+        if harmonics:
+            orders = min(2 * orders + 1, self.most)
+        if samples:
+            count = min(2 * count, MOST_SAMPLES)
+        count = max(count, PER_ORDER * (orders + 1))
+        return FourierBasis(orders, count, fourier.threshold)
+
+    def coarser(self, fourier: FourierBasis, estimate: Estimate) -> FourierBasis:
+        """Return the resolution for the next point, less where much is to spare."""
+        if self.tolerance is None:
+            return fourier
+        harmonics, samples = fourier.harmonics, fourier.samples
+        enough = self.tolerance / SPARE
+        if estimate.truncation < enough:
+            harmonics = max(harmonics // 2, 1)
+        if estimate.truncation < LITTLE * enough:
+            harmonics = max(harmonics // 4, 1)
+        if estimate.sampling < enough:
+            samples //= 2
+        threshold = fourier.threshold
+        if estimate.smoothing < enough / SHARPER:
+            threshold = min(SHARPER * threshold, self.smoothest)
+        samples = max(samples, FEWEST_SAMPLES, PER_ORDER * (harmonics + 1))
+        return FourierBasis(harmonics, samples, threshold)

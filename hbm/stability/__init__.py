@@ -1,0 +1,1 @@
+"""Floquet multipliers of one periodic response."""

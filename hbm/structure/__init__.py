@@ -1,0 +1,1 @@
+"""Linear structures, condensed onto what their contacts see, order by order."""

@@ -1,0 +1,1 @@
+"""Contact forces within one step, with their derivatives, compiled."""

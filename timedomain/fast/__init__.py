@@ -1,0 +1,1 @@
+"""The fast march: exact modes, contacts in few coordinates, steps by error."""

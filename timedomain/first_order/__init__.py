@@ -1,0 +1,1 @@
+"""The equations in first-order form, for solvers from elsewhere."""

@@ -1,0 +1,1 @@
+"""Where a march begins, what it measures and what it stores."""

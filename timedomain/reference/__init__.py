@@ -1,0 +1,1 @@
+"""The reference march: average acceleration with a fixed step."""

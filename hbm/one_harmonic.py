@@ -1,4 +1,4 @@
-"""Responses with one harmonic, and how far from more harmonics they are (theory §6)."""
+"""Responses with one harmonic, and how far from more harmonics they are (§6.7)."""
 
 from __future__ import annotations
 

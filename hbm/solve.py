@@ -127,7 +127,7 @@ def detached(
     frequencies
         Number of them.
     effort
-        What the search may cost, over the usual (theory §6).
+        What the search may cost, over the usual (theory §6.2).
 
     Raises
     ------

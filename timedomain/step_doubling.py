@@ -1,4 +1,4 @@
-"""A march beside one of longer steps: the difference tells its error (theory, §7)."""
+"""A march beside one of longer steps: the difference tells its error (theory, §7.2)."""
 
 from __future__ import annotations
 

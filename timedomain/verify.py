@@ -1,4 +1,4 @@
-"""Does a periodic response stay what it is when time runs? (theory §7)."""
+"""Does a periodic response stay what it is when time runs? (theory §7.3)."""
 
 from __future__ import annotations
 

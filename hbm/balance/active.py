@@ -1,4 +1,4 @@
-"""Unknowns that move: what a symmetry keeps at zero is not solved for (theory §6)."""
+"""Unknowns that move: what a symmetry keeps at zero is not solved for (theory §6.6)."""
 
 from __future__ import annotations
 

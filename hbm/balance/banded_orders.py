@@ -1,4 +1,4 @@
-"""High orders of a balance as a banded matrix, factored (theory §6)."""
+"""High orders of a balance as a banded matrix, factored (theory §6.1)."""
 
 from __future__ import annotations
 

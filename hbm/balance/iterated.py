@@ -1,4 +1,4 @@
-"""Solutions of a large bordered Jacobian by GMRES, its low orders factored (theory §6).
+"""Solutions of a large bordered Jacobian by GMRES, its low orders factored (§6.1).
 
 Factors of all orders cost the cube of their number. Of the high orders a band is enough
 for nearly the inverse.

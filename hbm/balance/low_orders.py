@@ -1,4 +1,4 @@
-"""Which orders of a large balance are factored, others being iterated (theory §6)."""
+"""Which orders of a large balance are factored, others being iterated (theory §6.1)."""
 
 from __future__ import annotations
 

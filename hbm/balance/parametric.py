@@ -1,4 +1,4 @@
-"""Harmonic balance at one frequency, along a parameter of the problem (theory §6)."""
+"""Harmonic balance at one frequency, along a parameter of the problem (theory §6.2)."""
 
 from __future__ import annotations
 

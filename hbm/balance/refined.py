@@ -1,4 +1,4 @@
-"""Newton steps at a finer resolution, and what they leave to be done (theory §6)."""
+"""Newton steps at a finer resolution, and what they leave to be done (theory §6.3)."""
 
 from __future__ import annotations
 

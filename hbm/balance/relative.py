@@ -1,4 +1,4 @@
-"""A problem in the relative coordinates of its contacts (theory §6)."""
+"""A problem in the relative coordinates of its contacts (theory §6.1)."""
 
 from __future__ import annotations
 

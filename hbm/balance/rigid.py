@@ -1,4 +1,4 @@
-"""Rigid friction in harmonic balance: pushes on it are unknowns (theory §6)."""
+"""Rigid friction in harmonic balance: pushes on it are unknowns (theory §6.5)."""
 
 from __future__ import annotations
 

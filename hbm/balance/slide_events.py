@@ -1,4 +1,4 @@
-"""Times at which a contact touches, lifts off, begins to slip, sticks or turns (§6)."""
+"""Times at which a contact touches, lifts off, slips, sticks or turns (§6.5)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Arc length along a curve: its unit, its tangents and the planes across (theory §6).
+"""Arc length along a curve: its unit, its tangents and the planes across (theory §6.2).
 
 Vectors have shape (n + 1,), the parameter last.
 """

@@ -1,4 +1,4 @@
-"""One step of pseudo-arc-length continuation: predict, correct, settle (theory §6)."""
+"""One step of pseudo-arc-length continuation: predict, correct, settle (§6.2)."""
 
 from __future__ import annotations
 

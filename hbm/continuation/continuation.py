@@ -1,4 +1,4 @@
-"""Pseudo-arc-length continuation as a generator; knows no physics (theory §6)."""
+"""Pseudo-arc-length continuation as a generator; knows no physics (theory §6.2)."""
 
 from __future__ import annotations
 

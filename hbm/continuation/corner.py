@@ -1,4 +1,4 @@
-"""Corners of a curve: where a contact changes its state, it may turn back sharply (§6).
+"""Corners of a curve: where a contact changes its state, it may turn sharply (§6.2).
 
 Where a slider begins to slip or a stop to touch, the derivative of the residual jumps.
 If the curve before and behind makes an acute angle, no plane across the first part

@@ -1,4 +1,4 @@
-"""A trace that goes round corners, where a curve may turn back sharply (theory §6)."""
+"""A trace that goes round corners, where a curve may turn back sharply (§6.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much work a search may take before it is given up (theory §6)."""
+"""How much work a search may take before it is given up (theory §6.2)."""
 
 from __future__ import annotations
 

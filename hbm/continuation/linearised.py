@@ -1,4 +1,4 @@
-"""The derivative of a residual at a point: what solves with it (theory §6)."""
+"""The derivative of a residual at a point: what solves with it (theory §6.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Extrapolation along a curve, of the order that has served best (theory §6)."""
+"""Extrapolation along a curve, of the order that has served best (theory §6.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lengths of the steps along a curve (theory §6)."""
+"""Lengths of the steps along a curve (theory §6.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Branches that begin where a Floquet multiplier passes +1 beside a fold (theory §6).
+"""Branches that begin where a Floquet multiplier passes +1 beside a fold (theory §6.2).
 
 They break a symmetry of the curve that they leave, so that all coordinates and orders
 are solved for. At the branch point the Jacobian has a direction that it maps to zero; a

@@ -1,4 +1,4 @@
-"""One sector of a bladed disk in place of all (theory §6)."""
+"""One sector of a bladed disk in place of all (theory §6.6)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves that do not hang together with a known one, sought by the drive (theory §6).
+"""Curves that do not hang together with a known one, sought by the drive (theory §6.2).
 
 At a few frequencies the drive grows from little to a multiple of its value, through
 folds. A response that is passed at the wanted drive and does not lie on a known curve

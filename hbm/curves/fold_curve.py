@@ -1,4 +1,4 @@
-"""The folds of frequency response curves along a second parameter (theory §6)."""
+"""The folds of frequency response curves along a second parameter (theory §6.4)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A first point where Newton's iteration resists: easier problems lead to it (§6)."""
+"""A first point where Newton's iteration resists: easier problems lead to it (§6.2)."""
 
 from __future__ import annotations
 

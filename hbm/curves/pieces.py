@@ -1,4 +1,4 @@
-"""A trace that begins by homotopy, and begins again, where Newton resists (§6)."""
+"""A trace that begins by homotopy, and begins again, where Newton resists (§6.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A point from which a curve goes on, or begins, where Newton resists (theory §6)."""
+"""A point from which a curve goes on, or begins, where Newton resists (theory §6.2)."""
 
 from __future__ import annotations
 

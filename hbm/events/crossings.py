@@ -1,4 +1,4 @@
-"""Where Floquet multipliers cross the unit circle between two points (theory §6)."""
+"""Where Floquet multipliers cross the unit circle between two points (theory §6.4)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far from its true place on a curve a peak or a fold may lie (theory §6)."""
+"""How far from its true place on a curve a peak or a fold may lie (theory §6.4)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """What happens between two points of a curve: peaks, folds, changes of stability.
 
-Each is located on the curve, and settled as accurately as its points (theory §6).
+Each is located on the curve, and settled as accurately as its points (theory §6.4).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A fold with twice the harmonics and samples: how far one is from it (theory §6)."""
+"""A fold with twice the harmonics and samples: how far one is from it (theory §6.4)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Harmonic balance at a fold: one more unknown, one more equation (theory §6)."""
+"""Harmonic balance at a fold: one more unknown, one more equation (theory §6.4)."""
 
 from __future__ import annotations
 

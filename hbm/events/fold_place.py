@@ -1,4 +1,4 @@
-"""Where a fold is as it is reported, which may be aside of where it was located (§6).
+"""Where a fold is as it is reported, which may be aside of where it was located (§6.4).
 
 More harmonics move a fold along its curve, along which the parameter hardly changes but
 the amplitude does.

@@ -1,4 +1,4 @@
-"""Which multiplier is which at two neighbouring orbits (theory §6)."""
+"""Which multiplier is which at two neighbouring orbits (theory §6.4)."""
 
 from __future__ import annotations
 

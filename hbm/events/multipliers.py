@@ -1,4 +1,4 @@
-"""Multipliers of truncated orbits; of finer ones where these may mislead (theory §6).
+"""Multipliers of truncated orbits; of finer ones where these may mislead (theory §6.4).
 
 They may where contacts rattle, and where friction falls with the speed: there a few
 harmonics may even balance where no orbit is.

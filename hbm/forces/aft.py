@@ -1,4 +1,4 @@
-"""Alternating frequency/time: contact forces and their tangents (theory §6)."""
+"""Alternating frequency/time: contact forces and their tangents (theory §6.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A cell between two samples: the motion within, and what its ends see (theory §6)."""
+"""A cell between two samples: the motion within, and what its ends see (§6.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Normal forces and energies of the contacts over one period (theory §6)."""
+"""Normal forces and energies of the contacts over one period (theory §6.6)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The motion of contact points between samples, and where their state changes (§6).
+"""The motion of contact points between samples, and where their state changes (§6.1).
 
 Between two samples the motion is interpolated by cubic polynomials with the velocities
 at both ends.

@@ -1,4 +1,4 @@
-"""Contacts as springs and dampers that do the same in one harmonic (theory §6)."""
+"""Contacts as springs and dampers that do the same in one harmonic (theory §6.7)."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class EquivalentContact:
 def equivalent_contact(
     problem: Problem, response: PeriodicResponse
 ) -> EquivalentContact:
-    """Return the describing function of each contact coordinate (theory §6).
+    """Return the describing function of each contact coordinate (theory §6.7).
 
     Mean and first harmonic of the response count. A coordinate at rest gets the mean
     of its tangents over the period: what a small motion at another frequency feels (at

@@ -1,4 +1,4 @@
-"""Friction that remembers, marched to its steady loop over one period (theory §6).
+"""Friction that remembers, marched to its steady loop over one period (theory §6.5).
 
 The loop begins with the traction that a stuck slider in the middle of its motion has,
 k_t (w − w̄) with the mean w̄ over the period: where nothing slides that is the rule

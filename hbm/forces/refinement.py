@@ -1,4 +1,4 @@
-"""Gauss rules between the transitions within a cell (theory §6)."""
+"""Gauss rules between the transitions within a cell (theory §6.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Places at which damping lets go of a contact before its faces part (theory §6)."""
+"""Places at which damping lets go of a contact before its faces part (theory §6.1)."""
 
 from __future__ import annotations
 

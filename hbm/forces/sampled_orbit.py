@@ -1,4 +1,4 @@
-"""A periodic motion of the contact points between its samples (theory §6)."""
+"""A periodic motion of the contact points between its samples (theory §6.1)."""
 
 from __future__ import annotations
 

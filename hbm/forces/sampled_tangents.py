@@ -1,4 +1,4 @@
-"""Contact tangents at the samples of a period, and their Fourier series (theory §6)."""
+"""Contact tangents at the samples of a period, and their Fourier series (§6.1)."""
 
 from __future__ import annotations
 

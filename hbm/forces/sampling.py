@@ -3,7 +3,7 @@
 Regularised friction turns around within a layer of phase width V_lim/(ω v_max), far
 narrower than the distance of samples. In a cell between two samples through which such
 a transition goes, the motion is interpolated linearly, the events are located, and a
-Gauss rule between them takes the place of the trapezoidal rule (theory §6).
+Gauss rule between them takes the place of the trapezoidal rule (theory §6.1).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Rigid friction over a period that repeats itself: a mass under a push (theory §6)."""
+"""Rigid friction over a period that repeats itself: a mass under a push (§6.5)."""
 
 from __future__ import annotations
 

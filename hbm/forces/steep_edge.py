@@ -1,4 +1,4 @@
-"""Edges at which damping begins steeply: nodes are graded towards them (theory §6)."""
+"""Edges at which damping begins steeply: nodes are graded towards them (§6.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which tangents the contacts have, and what they are to the coordinates y (§6)."""
+"""Which tangents the contacts have, and what they are to the coordinates y (§6.1)."""
 
 from __future__ import annotations
 

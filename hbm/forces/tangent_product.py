@@ -1,4 +1,4 @@
-"""Contact tangents over a period, by which motions are multiplied (theory §6)."""
+"""Contact tangents over a period, by which motions are multiplied (theory §6.1)."""
 
 from __future__ import annotations
 

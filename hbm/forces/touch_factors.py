@@ -1,4 +1,4 @@
-"""The derivative of what cells see in which faces touch or part (theory §6).
+"""The derivative of what cells see in which faces touch or part (theory §6.1).
 
 Tangents at the samples tell what a cell does to its ends as if either moved alone. That
 is good enough where they are small; where a stiff stop is struck for a few samples

@@ -1,4 +1,4 @@
-"""Cells of a period in which faces touch or part, and their tangents (theory §6)."""
+"""Cells of a period in which faces touch or part, and their tangents (theory §6.1)."""
 
 from __future__ import annotations
 

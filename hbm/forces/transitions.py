@@ -1,4 +1,4 @@
-"""Places within a cell where a contact changes its state (theory §6).
+"""Places within a cell where a contact changes its state (theory §6.1).
 
 Between two samples the motion is taken as linear in time. Faces that touch or separate,
 sliding that passes the threshold and sliding that turns are events then, whose places

@@ -1,4 +1,4 @@
-"""The first harmonic of a free motion, with the stuck modes that resonate (theory §6).
+"""The first harmonic of a free motion, with the stuck modes that resonate (§6.8).
 
 The condensed stiffness is infinite at a pole of the stuck structure, where y vanishes
 and the structure moves all the same. The modal coordinates η of poles near the motion

@@ -1,4 +1,4 @@
-"""Linear modes: free decaying motions about rest, contacts sticking (theory §6)."""
+"""Linear modes: free decaying motions about rest, contacts sticking (theory §6.8)."""
 
 from __future__ import annotations
 

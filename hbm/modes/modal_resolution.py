@@ -1,4 +1,4 @@
-"""One nonlinear mode at any number of harmonics and samples (theory §6)."""
+"""One nonlinear mode at any number of harmonics and samples (theory §6.8)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The public functions: from a problem to its nonlinear modes (theory §6)."""
+"""The public functions: from a problem to its nonlinear modes (theory §6.8)."""
 
 from __future__ import annotations
 

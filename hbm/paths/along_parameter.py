@@ -1,4 +1,4 @@
-"""A path along a parameter of the problem, at one excitation frequency (theory §6)."""
+"""A path along a parameter of the problem, at one excitation frequency (§6.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a curve is followed along: the frequency, or a parameter of the problem (§6)."""
+"""What a curve is followed along: the frequency, or another parameter (§6.2)."""
 
 from __future__ import annotations
 

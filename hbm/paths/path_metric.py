@@ -1,4 +1,4 @@
-"""What counts as one unit of arc along a path (theory §6)."""
+"""What counts as one unit of arc along a path (theory §6.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A path at any number of harmonics and samples, judged by what its probes see (§6)."""
+"""A path at any number of harmonics and samples, judged by what probes see (§6.3)."""
 
 from __future__ import annotations
 

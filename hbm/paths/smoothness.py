@@ -1,4 +1,4 @@
-"""How smooth friction may be while a curve is traced (theory §6)."""
+"""How smooth friction may be while a curve is traced (theory §6.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Harmonics and samples that follow an error tolerance from point to point (§6)."""
+"""Harmonics and samples that follow an error tolerance from point to point (§6.3)."""
 
 from __future__ import annotations
 

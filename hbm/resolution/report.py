@@ -1,4 +1,4 @@
-"""A settled point as it is reported: corrected, with its error (theory §6)."""
+"""A settled point as it is reported: corrected, with its error (theory §6.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A system at any number of harmonics and samples, and the error of its points (§6)."""
+"""A system at any number of harmonics and samples: the error of its points (§6.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The harmonics and samples that an error asks for, from point to point (theory §6)."""
+"""The harmonics and samples that an error asks for, from point to point (§6.3)."""
 
 from __future__ import annotations
 

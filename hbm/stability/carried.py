@@ -1,4 +1,4 @@
-"""The map of a small motion over all steps of a period (theory §6).
+"""The map of a small motion over all steps of a period (theory §6.4).
 
 Displacements y of the contacts go with their velocities ẏ, displacements q of the modes
 with their momenta w = q̇ + M_qy ẏ. What a step makes of the modes alone, and what it

@@ -1,4 +1,4 @@
-"""What the steps of one length share that carry a small motion (theory §6).
+"""What the steps of one length share that carry a small motion (theory §6.4).
 
 Displacements q of the modes go with their momenta w = q̇ + M_qy ẏ. What a step makes of
 the modes alone, and what it takes from ẏ, are real matrices.

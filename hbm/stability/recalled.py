@@ -1,4 +1,4 @@
-"""Floquet multipliers where contacts remember (theory §6).
+"""Floquet multipliers where contacts remember (theory §6.5).
 
 The tractions T of friction that remembers are carried beside a small motion. Structure
 and mean tangents are one constant matrix A, diagonal in its own motions; what contacts

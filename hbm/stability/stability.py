@@ -1,4 +1,4 @@
-"""Floquet multipliers of a periodic response (theory §6).
+"""Floquet multipliers of a periodic response (theory §6.4).
 
 A small motion about the orbit is carried through a period in the coordinates of the
 relative motion and modes of the structure with stuck contacts (Craig and Bampton,

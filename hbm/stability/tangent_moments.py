@@ -1,4 +1,4 @@
-"""Moments of the contact tangents in an interval of a period (theory §6).
+"""Moments of the contact tangents in an interval of a period (theory §6.4).
 
 The mean A₀, the tilt A₁, and what a straight line leaves of the tangents A, each of the
 points for itself.

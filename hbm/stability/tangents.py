@@ -1,4 +1,4 @@
-"""Contact tangents over the steps of a period, cut where contacts change (theory §6).
+"""Contact tangents over the steps of a period, cut where contacts change (theory §6.4).
 
 Steps begin and end where a point touches, lifts off, begins to slide, sticks or turns.
 A force that jumps there is a step of next to no length, as stiff as its jump over the

@@ -1,4 +1,4 @@
-"""Exact dynamic condensation onto the relative motion of the contacts (theory §6)."""
+"""Exact dynamic condensation onto the relative motion of the contacts (theory §6.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The structure of one sector, condensed order by order (theory §6).
+"""The structure of one sector, condensed order by order (theory §6.6).
 
 Order k of a response that travels around the disk has kE nodal diameters: the next
 sector moves like this one, ahead by k·2πE/N. Structure and contacts see that as

@@ -1,4 +1,4 @@
-"""The dynamic stiffness of a condensed structure, order by order (theory §6)."""
+"""The dynamic stiffness of a condensed structure, order by order (theory §6.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where to look at the response of a structure without contacts (theory §6).
+"""Where to look at the response of a structure without contacts (theory §6.4).
 
 Its poles and residues are known: they tell where the response changes, and how fast.
 """

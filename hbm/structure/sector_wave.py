@@ -1,4 +1,4 @@
-"""One sector for one number of nodal diameters: what its contacts see (theory §6)."""
+"""One sector for one number of nodal diameters: what its contacts see (theory §6.6)."""
 
 from __future__ import annotations
 

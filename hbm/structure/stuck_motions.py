@@ -1,4 +1,4 @@
-"""What moves of a structure while all of its contacts stick (theory §6)."""
+"""What moves of a structure while all of its contacts stick (theory §6.1)."""
 
 from __future__ import annotations
 

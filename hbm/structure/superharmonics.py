@@ -1,4 +1,4 @@
-"""Resonances of single harmonics that a step along a curve has passed (theory §6)."""
+"""Resonances of single harmonics that a step along a curve has passed (theory §6.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A structure with pushes on rigid contacts as further coordinates (theory §6).
+"""A structure with pushes on rigid contacts as further coordinates (theory §6.5).
 
 The traction λ of rigid friction is no function of the motion w. It is one of the push
 g = λ + (m s² + c s) w on a mass m with a dashpot c that slides at the contact; in the

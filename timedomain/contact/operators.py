@@ -1,4 +1,4 @@
-"""The matrices of average acceleration for one length of a step (theory, §7)."""
+"""The matrices of average acceleration for one length of a step (theory, §7.1)."""
 
 from __future__ import annotations
 

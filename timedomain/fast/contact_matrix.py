@@ -1,4 +1,4 @@
-"""Newton's matrix and residual for the contact forces of one stage (theory, §7)."""
+"""Newton's matrix and residual for the contact forces of one stage (theory, §7.2)."""
 
 from __future__ import annotations
 

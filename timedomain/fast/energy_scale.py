@@ -1,4 +1,4 @@
-"""What the errors of the fast march are compared with: what moves (theory, §7)."""
+"""What the errors of the fast march are compared with: what moves (theory, §7.2)."""
 
 from __future__ import annotations
 

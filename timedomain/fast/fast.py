@@ -1,4 +1,4 @@
-"""The fast march: modes, contacts in few coordinates, a ladder of steps (§7)."""
+"""The fast march: modes, contacts in few coordinates, a ladder of steps (§7.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the fast march is told: steps, their ladder, and tolerances (theory, §7)."""
+"""What the fast march is told: steps, their ladder, and tolerances (theory, §7.2)."""
 
 from __future__ import annotations
 

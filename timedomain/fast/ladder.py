@@ -1,4 +1,4 @@
-"""The compiled march of the fast method: a ladder of steps (theory, §7)."""
+"""The compiled march of the fast method: a ladder of steps (theory, §7.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a step makes of the modes' state and of the forces on them (theory, §7).
+"""What a step makes of the modes' state and of the forces on them (theory, §7.2).
 
 A stage is z_k = E_k z_0 + Σ_j Q_kj f_j in each mode, with z = (q, q̇) and the modal
 forces f_j of the stages j = 0 … k.

@@ -1,4 +1,4 @@
-"""Which step the fast march tries after one that is too rough (theory, §7)."""
+"""Which step the fast march tries after one that is too rough (theory, §7.2)."""
 
 from __future__ import annotations
 

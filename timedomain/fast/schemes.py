@@ -1,4 +1,4 @@
-"""One-step schemes of the fast march, as tables (theory, §7)."""
+"""One-step schemes of the fast march, as tables (theory, §7.2)."""
 
 from __future__ import annotations
 

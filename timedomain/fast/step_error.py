@@ -1,4 +1,4 @@
-"""The error of a step of the fast march (theory, §7)."""
+"""The error of a step of the fast march (theory, §7.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Step matrices of the fast march, for each length of a step (theory, §7)."""
+"""Step matrices of the fast march, for each length of a step (theory, §7.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the energy balance of a march closes: a check, not a measure (theory, §7)."""
+"""Whether the energy balance of a march closes: a check, not a measure (§7.1)."""
 
 from __future__ import annotations
 

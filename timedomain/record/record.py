@@ -1,4 +1,4 @@
-"""What a march measures: energies by quadrature, probes and contact forces (§7)."""
+"""What a march measures: energies by quadrature, probes and contact forces (§7.1)."""
 
 from __future__ import annotations
 

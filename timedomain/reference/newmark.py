@@ -1,4 +1,4 @@
-"""One compiled march: average acceleration with a contact Newton (theory §7)."""
+"""One compiled march: average acceleration with a contact Newton (theory §7.1)."""
 
 from __future__ import annotations
 

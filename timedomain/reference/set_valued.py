@@ -1,4 +1,4 @@
-"""Average acceleration with rigid friction as a set-valued law (theory §7).
+"""Average acceleration with rigid friction as a set-valued law (theory §7.1).
 
 A rigid contact carries a mean traction over a step: that under which the mass that it
 sees, with a constant push, slides from its velocity at the step's begin to that at its

@@ -1,4 +1,4 @@
-"""Newton's method of a step with rigid contacts: accelerations and pushes (§7)."""
+"""Newton's method of a step with rigid contacts: accelerations and pushes (§7.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A march of one period that ends where it began: Newton's iteration (theory §7)."""
+"""A march of one period that ends where it began: Newton's iteration (theory §7.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether shooting finds the orbit that harmonic balance found (theory §7)."""
+"""Whether shooting finds the orbit that harmonic balance found (theory §7.3)."""
 
 from __future__ import annotations
 

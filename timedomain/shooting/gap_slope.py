@@ -1,4 +1,4 @@
-"""How the gap between end and beginning of a period goes with the state (theory §7)."""
+"""How the gap between end and beginning of a period goes with the state (§7.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A period of the reference march as a map of states (theory §7).
+"""A period of the reference march as a map of states (theory §7.3).
 
 The step of :mod:`timedomain.reference.newmark` is the trapezoidal rule on s = (u, u̇).
 With φ the contact force at the old and at the new time it is

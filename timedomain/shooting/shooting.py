@@ -1,4 +1,4 @@
-"""The public function of shooting: periodic orbits as fixed points (theory §7)."""
+"""The public function of shooting: periodic orbits as fixed points (theory §7.3)."""
 
 from __future__ import annotations
 

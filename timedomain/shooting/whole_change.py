@@ -1,4 +1,4 @@
-"""Newton's change of all states of a period at once (theory §7).
+"""Newton's change of all states of a period at once (theory §7.3).
 
 It obeys z₁ = (A + c E W) z₀ − r and δs = z + b E W z, with what each step leaves, r.
 Blocks of steps are maps of the z with which they begin; the chain of blocks is solved

@@ -1,4 +1,4 @@
-"""All steps of a period at once: orbits on which no march stays (theory §7).
+"""All steps of a period at once: orbits on which no march stays (theory §7.3).
 
 The steps are those of :mod:`timedomain.shooting.period_map`,
 s₁ = A s₀ + b (φ₀ + φ₁) + g, but the states at all times are unknowns: no small motion

@@ -55,7 +55,7 @@ class CurveOptions:
     :class:`~hbm.continuation.effort.Effort`"""
     highest: float | None = None
     """frequency up to which a sparse structure is resolved [rad/s], see
-    :func:`~microslip_mechanics.reduction.reduced`; 16 × the larger one if left out"""
+    :mod:`~microslip_mechanics.reduction.reduction`; 16 × the larger one if left out"""
 
     def __post_init__(self) -> None:
         """Check range, accuracy and harmonics."""

@@ -19,7 +19,7 @@ from hbm.paths.path import along_frequency
 from hbm.structure.condensation import CondensedStructure
 from hbm.structure.linear_curve import LinearCurve, linear_curve
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
 
 

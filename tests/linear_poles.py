@@ -3,7 +3,7 @@
 import numpy as np
 
 from microslip_mechanics.arrays import ComplexArray
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 
 def poles(structure: Structure) -> ComplexArray:

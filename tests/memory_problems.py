@@ -9,7 +9,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import BRISTLE, ELASTIC, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 STIFFNESS, LIMIT = 40.0, 0.3
 JENKINS = PointLaw(

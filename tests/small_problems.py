@@ -10,19 +10,19 @@ import numpy as np
 
 from contact_tables import contact_points
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import Dwell, LoadHistory
-from microslip_mechanics.frame import Beam, Frame, Node
 from microslip_mechanics.laws.unilateral import UnilateralSpring
+from microslip_mechanics.loads.excitation import Dwell, LoadHistory
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.time_history import TimeHistory, joined
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import Beam, Frame, Node
+from microslip_mechanics.structures.structure import Structure
 from microslip_mechanics.system import system
-from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import Start
 

@@ -9,7 +9,7 @@ import scipy.sparse
 from contact_tables import contact_points
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.structure import MATRICES, Structure
+from microslip_mechanics.structures.structure import MATRICES, Structure
 
 
 def net(

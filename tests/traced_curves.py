@@ -4,7 +4,7 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.studies.curve import Traced
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response_curve import response_curve
+from microslip_mechanics.results.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 
 

@@ -21,7 +21,7 @@ from hbm.paths.path import AlongFrequency, along_frequency
 from hbm.paths.path_metric import path_metric
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
 
 

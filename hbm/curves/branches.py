@@ -24,7 +24,7 @@ from hbm.options import CurveOptions
 from hbm.paths.path import AlongFrequency
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 OFFSETS = (0.01, 0.03, 0.1)
 """distances from a branch point that are tried, over the size of the motion"""

@@ -21,7 +21,7 @@ from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.points import ONE_SIDED
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 TURN = 2.0 * np.pi
 ASIDE = 0.05

@@ -15,7 +15,7 @@ from hbm.options import CurveOptions
 from hbm.paths.path import AlongFrequency, moving_path
 from hbm.structure.cyclic_structure import CyclicStructure
 from microslip_mechanics.cyclic import CyclicProblem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState, static_equilibrium
 
 

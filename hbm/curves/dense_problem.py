@@ -7,7 +7,7 @@ from dataclasses import replace
 from hbm.options import CurveOptions
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.reduction import reduced
+from microslip_mechanics.reduction.reduction import reduced
 from microslip_mechanics.static import StaticState
 
 RESOLVED = 16.0

@@ -24,7 +24,7 @@ from hbm.paths.along_parameter import AlongParameter
 from hbm.paths.path import AlongFrequency
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 LEAST, MOST = 0.05, 4.0
 """drives between which is sought, over the wanted one"""

@@ -21,7 +21,7 @@ from hbm.options import CurveOptions
 from hbm.paths.along_parameter import AlongParameter
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import MARGIN, PeriodicResponse
+from microslip_mechanics.results.response import MARGIN, PeriodicResponse
 
 HARMONICS = 63
 """most that are solved for, if their number is left open"""

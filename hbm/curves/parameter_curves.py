@@ -13,7 +13,7 @@ from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
 from hbm.paths.along_parameter import AlongParameter
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 
 def parameter_response(

@@ -17,7 +17,7 @@ from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
 
 

@@ -25,7 +25,7 @@ from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 
 class Tracer:

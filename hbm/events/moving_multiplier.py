@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from microslip_mechanics.arrays import ComplexArray
-from microslip_mechanics.response import MARGIN
+from microslip_mechanics.results.response import MARGIN
 
 ALIKE = 1e-9
 """relative distance of conjugates that rounding leaves"""

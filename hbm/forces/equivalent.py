@@ -14,9 +14,9 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 SAMPLES = 1024
 """of the contacts per period"""

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.structure import Structure
-from microslip_mechanics.undamped_modes import undamped_modes
+from microslip_mechanics.structures.structure import Structure
+from microslip_mechanics.structures.undamped_modes import undamped_modes
 
 ALIKE = 0.9
 """of the shapes before and after a step that is not divided (MAC)"""

@@ -8,9 +8,9 @@ import numpy as np
 import scipy.linalg
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.structure import Structure
-from microslip_mechanics.undamped_modes import undamped_modes
-from microslip_mechanics.unheld import dragged, unheld_motions
+from microslip_mechanics.structures.structure import Structure
+from microslip_mechanics.structures.undamped_modes import undamped_modes
+from microslip_mechanics.structures.unheld import dragged, unheld_motions
 
 
 class StuckMotions(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.undamped_modes import undamped_modes
+from microslip_mechanics.structures.undamped_modes import undamped_modes
 
 
 def stuck_poles(

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from microslip.results import figure, load, save
     from microslip_mechanics.element import Element
     from microslip_mechanics.errors import MicroslipError
-    from microslip_mechanics.given_loads import BaseMotion, EngineOrder
     from microslip_mechanics.laws.catalogue import LAWS
-    from microslip_mechanics.reduced_problem import reduced_problem
+    from microslip_mechanics.loads.given_loads import BaseMotion, EngineOrder
+    from microslip_mechanics.reduction.reduced_problem import reduced_problem
     from microslip_mechanics.system import system
 
 __all__ = [
@@ -50,10 +50,10 @@ HOMES = {
     "load": "microslip.results",
     "save": "microslip.results",
     "system": "microslip_mechanics.system",
-    "reduced_problem": "microslip_mechanics.reduced_problem",
-    "BaseMotion": "microslip_mechanics.given_loads",
+    "reduced_problem": "microslip_mechanics.reduction.reduced_problem",
+    "BaseMotion": "microslip_mechanics.loads.given_loads",
     "Element": "microslip_mechanics.element",
-    "EngineOrder": "microslip_mechanics.given_loads",
+    "EngineOrder": "microslip_mechanics.loads.given_loads",
     "LAWS": "microslip_mechanics.laws.catalogue",
     "MicroslipError": "microslip_mechanics.errors",
 }

@@ -24,7 +24,7 @@ from microslip.schema import (
 )
 from microslip.stream import ORIGIN, RESERVED, Head, Stream
 from microslip_mechanics.errors import MicroslipError
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.io import netcdf_file
 
 from microslip.schema import CURVE, names_of
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 LATER = ("parameter_error",)
 """what files of earlier versions do not have"""

@@ -10,9 +10,9 @@ import numpy as np
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import repeated_points
-from microslip_mechanics.engine_order import phasor
+from microslip_mechanics.loads.engine_order import phasor
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,8 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import PointLaw, contact_table
-from microslip_mechanics.forms import Pair, relative
 from microslip_mechanics.laws.row import Direction, Law, Row
+from microslip_mechanics.structures.forms import Pair, relative
 
 KEYS = ("between", "normal", "tangents", "rotations")
 """by which an element says in what directions its law acts"""

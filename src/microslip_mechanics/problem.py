@@ -8,7 +8,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 
 @dataclass(frozen=True, slots=True)

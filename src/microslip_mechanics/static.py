@@ -10,7 +10,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.potential import potential
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.reduction import reduced
+from microslip_mechanics.reduction.reduction import reduced
 
 FAR = 1.0
 """displacement [m or rad] from which a body that only contact holds is driven away"""

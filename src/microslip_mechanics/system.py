@@ -9,10 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from microslip_mechanics.arrays import Array, Matrix
-from microslip_mechanics.damping import Damping
 from microslip_mechanics.element import Element, interface_of
-from microslip_mechanics.forms import Form, Pair, form, relative
-from microslip_mechanics.given_loads import (
+from microslip_mechanics.loads.given_loads import (
     BaseMotion,
     Drive,
     EngineOrder,
@@ -20,14 +18,16 @@ from microslip_mechanics.given_loads import (
     driven,
     preloaded,
 )
-from microslip_mechanics.given_matrices import (
+from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.structures.damping import Damping
+from microslip_mechanics.structures.forms import Form, Pair, form, relative
+from microslip_mechanics.structures.given_matrices import (
     check_like,
     check_massive,
     dof_names,
     square_matrix,
 )
-from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 ProbeForms: TypeAlias = Sequence[str] | Mapping[str, Form | Pair]
 """degrees of freedom, or names with a form or a pair of ends each"""

@@ -9,8 +9,8 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.laws.bristles import Dahl, LuGre
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system

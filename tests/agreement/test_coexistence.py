@@ -14,7 +14,7 @@ import pytest
 from hbm.curves.parameter_curves import parameter_response
 from hbm.options import CurveOptions
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from rigs import rig_problem
 from small_problems import dwelled, from_rest, last_harmonic
 from timedomain.record.start import Start

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import scipy.signal
 
-from microslip_mechanics.excitation import Dwell, LoadHistory
-from microslip_mechanics.force_record import ForceRecord
-from microslip_mechanics.segments import factors_over
-from microslip_mechanics.sine_test import SineTest, Tone
+from microslip_mechanics.loads.excitation import Dwell, LoadHistory
+from microslip_mechanics.loads.force_record import ForceRecord
+from microslip_mechanics.loads.segments import factors_over
+from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.system import system
 from small_problems import marched, oscillator
 from timedomain.integrate import MarchOptions

@@ -9,7 +9,7 @@ import scipy.integrate
 from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import NonlinearMode, modes_in_range, nonlinear_mode
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem

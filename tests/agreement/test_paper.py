@@ -9,8 +9,8 @@ import functools
 import numpy as np
 import pytest
 
-from microslip_mechanics.excitation import SweptSine
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.loads.excitation import SweptSine
+from microslip_mechanics.results.time_history import TimeHistory
 from rigs import rig_problem
 from small_problems import marched
 from timedomain.integrate import MarchOptions

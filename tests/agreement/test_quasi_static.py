@@ -6,7 +6,7 @@ import pytest
 from convergence import observed_order
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_problems import marched

@@ -8,15 +8,15 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from hbm.structure.condensation import condense
 from hbm.structure.poles import poles
-from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import TWO_SIDED, PointLaw, contact_table
-from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.rotating_frame import RotatingFrame
-from microslip_mechanics.rotation import Rotation
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import MOTIONS, Beam, Frame, Node
+from microslip_mechanics.structures.rotating_frame import RotatingFrame
+from microslip_mechanics.structures.rotation import Rotation
 from small_motions.multipliers import floquet_multipliers
 from small_problems import dwelled, last_harmonic
 from timedomain.record.start import Start

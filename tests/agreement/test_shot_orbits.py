@@ -9,7 +9,7 @@ from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_motions.multipliers import floquet_multipliers

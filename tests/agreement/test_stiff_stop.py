@@ -12,7 +12,7 @@ from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from timedomain.record.start import Start
 from timedomain.shooting.shooting import ShootingOptions, periodic_orbit

@@ -31,7 +31,7 @@ from microslip.scenes.bladed_disk.build import sector
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 
 SECTORS = (6, 12, 24, 36, 48, 60)

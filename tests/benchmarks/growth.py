@@ -33,7 +33,7 @@ from hbm.solve import frequency_response
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.reduction import reduced
+from microslip_mechanics.reduction.reduction import reduced
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from sparse_problems import net

@@ -28,9 +28,9 @@ from microslip.studies.sweep import swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.excitation import LoadHistory, SweptSine
+from microslip_mechanics.loads.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.time_history import TimeHistory, joined
+from microslip_mechanics.results.time_history import TimeHistory, joined
 from other_schemes import ESDIRK3, LINEAR_FORCE, TR_BDF2
 from timedomain.fast.fast import FastMarch
 from timedomain.fast.schemes import MEAN_FORCE, SDIRK2, TRAPEZOID, Scheme

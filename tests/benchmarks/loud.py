@@ -13,9 +13,9 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.api.scene import scene
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response_curve import response_curve
+from microslip_mechanics.results.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import Start

@@ -40,7 +40,7 @@ from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.static import static_equilibrium
 from timedomain.first_order.first_order import first_order
 from timedomain.record.start import Start

@@ -40,7 +40,7 @@ from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 
 PACKAGE = "pyharm-os==1.2.2"

@@ -12,10 +12,10 @@ from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
-from microslip_mechanics.engine_order import engine_order
 from microslip_mechanics.laws.elastic_friction import ElasticFriction
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring
+from microslip_mechanics.loads.engine_order import engine_order
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.system import system
 

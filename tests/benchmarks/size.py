@@ -30,15 +30,15 @@ from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.beam import RectangularSection, beam_matrices
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import TWO_SIDED, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.reduction import reduced
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import response_curve
+from microslip_mechanics.reduction.reduction import reduced
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.beam import RectangularSection, beam_matrices
+from microslip_mechanics.structures.structure import Structure
 
 HERTZ = 2.0 * np.pi
 SECTION = RectangularSection(0.02, 0.01, 2.1e11, 0.3, 7800.0)

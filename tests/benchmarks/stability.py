@@ -26,11 +26,11 @@ from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.time_history import joined
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.time_history import joined
 from small_motions.multipliers import floquet_multipliers, monodromy
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import Start

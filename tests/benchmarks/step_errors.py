@@ -30,13 +30,13 @@ from memory_problems import DAHL, JENKINS, LUGRE, SHOE, masses
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import Dwell, LoadHistory, SweptSine
 from microslip_mechanics.laws.gkf import GeneralKineticFriction
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.laws.unilateral import UnilateralSpring
+from microslip_mechanics.loads.excitation import Dwell, LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.system import system
-from microslip_mechanics.time_history import TimeHistory
 from rigs import rig_problem
 from small_problems import cubic_oscillator, marched
 from timedomain.integrate import MarchOptions

@@ -27,9 +27,9 @@ from microslip.experiments import Curve
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.curve import curve_options
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import Start

@@ -12,7 +12,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from small_problems import between_stops, cubic_oscillator

@@ -21,7 +21,7 @@ from microslip_mechanics.contact.points import (
 from microslip_mechanics.cyclic import Coupling, CyclicProblem
 from microslip_mechanics.problem import Probes
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 COULOMB_LAW = PointLaw(
     friction=COULOMB, dynamic=0.3, threshold=0.05, constant_load=True, load=1.0

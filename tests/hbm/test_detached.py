@@ -9,7 +9,7 @@ from hbm.curves.detached import MOST, Sought
 from hbm.options import CurveOptions
 from hbm.solve import detached, frequency_response
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from small_problems import dwelled, last_harmonic, oscillator, sliding_block
 from timedomain.record.start import Start

@@ -17,7 +17,7 @@ from hbm.solve import frequency_response
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from rigs import rig_problem

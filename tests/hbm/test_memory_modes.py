@@ -13,7 +13,7 @@ from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ELASTIC, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 DAMPING, SPRING = 0.4, 45.0
 

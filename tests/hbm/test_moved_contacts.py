@@ -12,7 +12,7 @@ from hbm.solve import frequency_response
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 from small_problems import cubic_oscillator
 
 PLAIN = {"stability": False, "errors": False, "events": False}

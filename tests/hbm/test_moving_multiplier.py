@@ -5,7 +5,7 @@ import pytest
 
 from hbm.events.crossings import BRANCH, TORUS, crossed
 from hbm.events.moving_multiplier import MovingMultiplier, outside
-from microslip_mechanics.response import MARGIN
+from microslip_mechanics.results.response import MARGIN
 
 NEUTRAL = 0.999996
 AWAY = 2.0 * MARGIN

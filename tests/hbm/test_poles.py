@@ -8,7 +8,7 @@ from hbm.balance.relative import relative_problem
 from hbm.modes.linear_modes import linear_modes
 from hbm.structure.poles import damping_ratios, followed, frequencies, poles
 from microslip_mechanics.static import StaticState
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 from rigs import rig_problem
 from small_problems import cantilever, oscillator
 

@@ -15,9 +15,9 @@ from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import COULOMB, PointLaw, contact_table
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 TURN = 2.0 * np.pi
 SPRING, DAMPING = 45.0, 0.4

@@ -24,7 +24,7 @@ from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 

@@ -15,11 +15,11 @@ from hbm.solve import frequency_response
 from hbm.stability.stability import small_motions
 from hbm.structure.condensation import condense
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.reduction import Reduction, reduced
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import response_curve
+from microslip_mechanics.reduction.reduction import Reduction, reduced
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_motions.multipliers import floquet_multipliers

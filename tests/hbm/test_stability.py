@@ -16,9 +16,9 @@ from hbm.stability.stability import small_motions
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 from rigs import rig_problem
 from small_motions.multipliers import floquet_multipliers
 from small_problems import sliding_block

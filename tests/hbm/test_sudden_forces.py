@@ -12,7 +12,7 @@ from microslip.scene_file import load_scene
 from microslip.studies.curve import Traced, trace_curve
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 
 @functools.cache

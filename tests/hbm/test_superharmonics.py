@@ -14,7 +14,7 @@ from microslip.scene_file import load_scene
 from microslip.studies.curve import curve_options
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from small_problems import cubic_oscillator
 

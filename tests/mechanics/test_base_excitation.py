@@ -5,14 +5,20 @@ import re
 import numpy as np
 import pytest
 
-from microslip_mechanics.base_excitation import (
+from microslip_mechanics.loads.base_excitation import (
     carried_inertia,
     frame_carried_inertia,
     translation,
 )
-from microslip_mechanics.beam import RectangularSection
-from microslip_mechanics.frame import MOTIONS, Beam, Frame, GroundSpring, Node
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import (
+    MOTIONS,
+    Beam,
+    Frame,
+    GroundSpring,
+    Node,
+)
+from microslip_mechanics.structures.structure import Structure
 
 DIRECTION = np.array([0.3, -0.5, 0.8])
 SECTION = RectangularSection(0.02, 0.01, 2.1e11, 0.3, 7800.0)

@@ -11,8 +11,8 @@ from scipy.special import zeta
 
 from convergence import observed_order
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.beam import RectangularSection, beam_matrices
-from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node, RigidBody
+from microslip_mechanics.structures.beam import RectangularSection, beam_matrices
+from microslip_mechanics.structures.frame import MOTIONS, Beam, Frame, Node, RigidBody
 
 SECTION = RectangularSection(0.02, 0.01, 2.1e11, 0.3, 7800.0)
 LENGTH = 0.2075

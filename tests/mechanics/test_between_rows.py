@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from microslip_mechanics import between_rows
-from microslip_mechanics.between_rows import DENSE, largest
+from microslip_mechanics.results import between_rows
+from microslip_mechanics.results.between_rows import DENSE, largest
 from row_motions import bounces, swings
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from microslip.result_file import load
 from microslip.store import Stored, save
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 
 def test_copies_are_equal_and_what_differs_is_not(result: Any) -> None:

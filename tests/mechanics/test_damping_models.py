@@ -10,13 +10,13 @@ import scipy.linalg
 import scipy.sparse
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.hysteretic import equivalent_viscous
-from microslip_mechanics.modal_damping import ModalDamping
-from microslip_mechanics.natural_modes import natural_modes
-from microslip_mechanics.rayleigh import Rayleigh
-from microslip_mechanics.reduction import reduced
+from microslip_mechanics.reduction.reduction import reduced
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.hysteretic import equivalent_viscous
+from microslip_mechanics.structures.modal_damping import ModalDamping
+from microslip_mechanics.structures.natural_modes import natural_modes
+from microslip_mechanics.structures.rayleigh import Rayleigh
+from microslip_mechanics.structures.structure import Structure
 from microslip_mechanics.system import system
 from sparse_problems import dense, net
 

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from microslip_mechanics.engine_order import engine_order
+from microslip_mechanics.loads.engine_order import engine_order
 
 BLADES = 12
 NAMES = tuple(f"{node}.{way}" for node in range(BLADES) for way in ("x", "z"))

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from microslip_mechanics.cycle_rows import enveloped, parted
-from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.excitation import SweptSine
-from microslip_mechanics.segments import factors_over
-from microslip_mechanics.sine_test import SineTest, Tone
-from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
+from microslip_mechanics.loads.excitation import SweptSine
+from microslip_mechanics.loads.segments import factors_over
+from microslip_mechanics.loads.sine_test import SineTest, Tone
+from microslip_mechanics.results.cycle_rows import enveloped, parted
+from microslip_mechanics.results.envelope import Envelope
+from microslip_mechanics.results.time_history import Checkpoint, TimeHistory, joined
 
 LOADS = SineTest(0.0, 0.0, (Tone(10.0, 30.0, 2.0), Tone(30.0, 10.0, 2.0, 3.0)), 0.0)
 ROWS = 40_000

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from microslip_mechanics.excitation import Dwell, SweptSine
-from microslip_mechanics.segments import factors_over
+from microslip_mechanics.loads.excitation import Dwell, SweptSine
+from microslip_mechanics.loads.segments import factors_over
 
 SWEEP = SweptSine(
     ramp=1.0, start=2.0, end=8.0, duration=10.0, lowest=125.0, highest=145.0

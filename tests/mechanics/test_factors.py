@@ -5,7 +5,7 @@ import pytest
 import scipy.sparse
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.factors import factors, indefinite_factors
+from microslip_mechanics.structures.factors import factors, indefinite_factors
 
 
 def random_symmetric(seed: int, shift: float) -> Array:

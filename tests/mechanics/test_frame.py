@@ -9,10 +9,16 @@ from scipy.linalg import eigh, null_space
 
 from microslip.scenes.two_blades import layout
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.beam import RectangularSection
-from microslip_mechanics.frame import Beam, Frame, GroundSpring, Node, RigidBody
-from microslip_mechanics.rigid_body import point_motion
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import (
+    Beam,
+    Frame,
+    GroundSpring,
+    Node,
+    RigidBody,
+)
+from microslip_mechanics.structures.rigid_body import point_motion
+from microslip_mechanics.structures.structure import Structure
 from rigs import rig, rig_problem
 
 SECTION = RectangularSection(0.02, 0.01, 2.1e11, 0.3, 7800.0)

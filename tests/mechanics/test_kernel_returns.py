@@ -22,7 +22,7 @@ INTERRUPTED = """
 import signal, time
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from timedomain.record.start import Start, first_state
 import numpy as np
 

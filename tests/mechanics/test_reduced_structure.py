@@ -10,18 +10,18 @@ import scipy.sparse
 from numpy.typing import NDArray
 
 from hbm.structure.poles import poles
-from microslip_mechanics.beam import RectangularSection
-from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node
-from microslip_mechanics.reduced_structure import (
+from microslip_mechanics.reduction.reduced_structure import (
     ReducedStructure,
     craig_bampton,
     modal_truncation,
 )
-from microslip_mechanics.reduction import reduced
-from microslip_mechanics.rotating_frame import RotatingFrame
-from microslip_mechanics.rotation import Rotation
-from microslip_mechanics.selection import selected
-from microslip_mechanics.structure import MATRICES, Structure
+from microslip_mechanics.reduction.reduction import reduced
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import MOTIONS, Beam, Frame, Node
+from microslip_mechanics.structures.rotating_frame import RotatingFrame
+from microslip_mechanics.structures.rotation import Rotation
+from microslip_mechanics.structures.selection import selected
+from microslip_mechanics.structures.structure import MATRICES, Structure
 from small_problems import cantilever
 from sparse_problems import dense, net
 

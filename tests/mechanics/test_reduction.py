@@ -8,16 +8,16 @@ import scipy.linalg
 import scipy.sparse
 
 from contact_tables import contact_points
-from microslip_mechanics import stuck_modes
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.beam import RectangularSection, beam_matrices
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.reduced_structure import craig_bampton
-from microslip_mechanics.reduction import reduced
+from microslip_mechanics.reduction.reduced_structure import craig_bampton
+from microslip_mechanics.reduction.reduction import reduced
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.structure import Structure
-from microslip_mechanics.stuck import stuck_structure
+from microslip_mechanics.structures import stuck_modes
+from microslip_mechanics.structures.beam import RectangularSection, beam_matrices
+from microslip_mechanics.structures.structure import Structure
+from microslip_mechanics.structures.stuck import stuck_structure
 from rigs import rig_problem
 from sparse_problems import dense, net, sparse
 

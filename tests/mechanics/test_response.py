@@ -9,9 +9,9 @@ from contact_tables import contact_points
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.response import MARGIN, PeriodicResponse
-from microslip_mechanics.response_curve import PEAK_SAMPLES, response_curve
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.results.response import MARGIN, PeriodicResponse
+from microslip_mechanics.results.response_curve import PEAK_SAMPLES, response_curve
+from microslip_mechanics.structures.structure import Structure
 
 FREQUENCY = 850.0
 

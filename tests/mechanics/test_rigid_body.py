@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.rigid_body import point_motion, rigid_mass
+from microslip_mechanics.structures.rigid_body import point_motion, rigid_mass
 
 
 def cloud(seed: int) -> tuple[Array, Array]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from microslip_mechanics.ring_down import ring_down
+from microslip_mechanics.results.ring_down import ring_down
 
 
 @pytest.mark.parametrize("ratio", [1e-4, 2e-3, 0.02, 0.1])

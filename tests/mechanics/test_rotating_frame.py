@@ -10,12 +10,15 @@ from scipy.spatial.transform import Rotation as Turn
 from convergence import observed_order
 from microslip.scenes.two_blades import layout
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.beam import RectangularSection, beam_matrices
-from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node, RigidBody
-from microslip_mechanics.rotating_beam import rotating_beam, tension_stiffness
-from microslip_mechanics.rotating_body import rotating_body
-from microslip_mechanics.rotating_frame import RotatingFrame
-from microslip_mechanics.rotation import Rotation, cross
+from microslip_mechanics.structures.beam import RectangularSection, beam_matrices
+from microslip_mechanics.structures.frame import MOTIONS, Beam, Frame, Node, RigidBody
+from microslip_mechanics.structures.rotating_beam import (
+    rotating_beam,
+    tension_stiffness,
+)
+from microslip_mechanics.structures.rotating_body import rotating_body
+from microslip_mechanics.structures.rotating_frame import RotatingFrame
+from microslip_mechanics.structures.rotation import Rotation, cross
 from rigs import rig
 
 SECTION = RectangularSection(0.02, 0.01, 2.1e11, 0.3, 7800.0)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.extremes import extremes, of_all
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.extremes import extremes, of_all
+from microslip_mechanics.results.time_history import TimeHistory
 from row_motions import swings
 
 

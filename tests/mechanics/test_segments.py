@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import SweptSine
-from microslip_mechanics.segments import (
+from microslip_mechanics.loads.excitation import SweptSine
+from microslip_mechanics.loads.segments import (
     Segments,
     clock,
     factors_over,

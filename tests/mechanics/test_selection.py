@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from microslip_mechanics.selection import selected
+from microslip_mechanics.structures.selection import selected
 
 NAMES = ("root.x", "root.y", "12.x", "12.z", "13.z", "tip.x", "tip.ry")
 

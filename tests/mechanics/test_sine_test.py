@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import LoadHistory, SweptSine
-from microslip_mechanics.force_record import ForceRecord
-from microslip_mechanics.segments import clock, factors_over
-from microslip_mechanics.sine_test import SineTest, Tone, stepped
+from microslip_mechanics.loads.excitation import LoadHistory, SweptSine
+from microslip_mechanics.loads.force_record import ForceRecord
+from microslip_mechanics.loads.segments import clock, factors_over
+from microslip_mechanics.loads.sine_test import SineTest, Tone, stepped
 
 
 def drive_of(history: LoadHistory, time: Array) -> Array:

@@ -15,7 +15,7 @@ from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.static import StaticError, static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 from microslip_mechanics.system import system
 from rigs import rig_problem
 

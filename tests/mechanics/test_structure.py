@@ -8,7 +8,7 @@ import scipy.sparse
 from scipy.sparse.linalg import LinearOperator, aslinearoperator
 
 from microslip_mechanics.arrays import Array, Matrix
-from microslip_mechanics.structure import MATRICES, Structure
+from microslip_mechanics.structures.structure import MATRICES, Structure
 
 NAMES = ("a", "b")
 

@@ -8,13 +8,13 @@ import pytest
 import scipy.sparse
 
 from microslip_mechanics.element import Element
-from microslip_mechanics.given_loads import EngineOrder
 from microslip_mechanics.laws.area_contact import AreaContact
 from microslip_mechanics.laws.elastic_friction import ElasticFriction
 from microslip_mechanics.laws.iwan import Iwan
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
+from microslip_mechanics.loads.given_loads import EngineOrder
 from microslip_mechanics.system import system
 
 MASS, STIFFNESS = [1.0, 2.0], [[30.0, -10.0], [-10.0, 10.0]]

@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from microslip_mechanics.time_history import TimeHistory, joined
+from microslip_mechanics.results.time_history import TimeHistory, joined
 
 ENERGIES = ("input", "kinetic", "elastic", "friction")
 

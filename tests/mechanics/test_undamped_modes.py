@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from microslip_mechanics.beam import RectangularSection
-from microslip_mechanics.frame import Beam, Frame, Node
-from microslip_mechanics.structure import Structure
-from microslip_mechanics.undamped_modes import undamped_modes
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import Beam, Frame, Node
+from microslip_mechanics.structures.structure import Structure
+from microslip_mechanics.structures.undamped_modes import undamped_modes
 
 LENGTH, THICKNESS, YOUNG, DENSITY = 0.5, 0.01, 2.1e11, 7850.0
 MOVES = ("uz", "ry")

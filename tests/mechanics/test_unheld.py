@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from free_structures import MASSES, chain
-from microslip_mechanics.beam import RectangularSection
-from microslip_mechanics.frame import Beam, Frame, Node
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.unheld import dragged, unheld_motions
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import Beam, Frame, Node
+from microslip_mechanics.structures.unheld import dragged, unheld_motions
 from rigs import rig_problem
 
 

@@ -11,7 +11,7 @@ from figure_checks import UNIT, check_lines, legend, unmarked
 from microslip.figures.abscissa import abscissa
 from microslip.figures.agreement import agreement_figure
 from microslip.figures.track import track_figure
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 
 def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(

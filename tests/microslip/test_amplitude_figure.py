@@ -15,7 +15,7 @@ from microslip.figures.amplitude import (
     frequency_response,
     stretches,
 )
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 
 def test_unstable_stretches_and_events_are_marked_on_the_largest_amplitude(

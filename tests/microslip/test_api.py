@@ -9,9 +9,9 @@ import pytest
 
 import microslip
 from figure_checks import check_labels
-from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.response_curve import ResponseCurve
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.envelope import Envelope
+from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.time_history import TimeHistory
 
 
 @pytest.fixture(scope="module")

@@ -15,8 +15,8 @@ from microslip.result_file import load
 from microslip.scene_file import built_in_text
 from microslip.schema import Result
 from microslip.store import Stored, save
-from microslip_mechanics.response_curve import ResponseCurve
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 COMMANDS = (

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from figure_checks import check_labels, check_lines, legend
 from microslip.figures import curve as curves
 from microslip.figures.abscissa import abscissa
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 
 def test_sliding_velocity_shows_relative_motions(

@@ -19,7 +19,7 @@ from microslip.studies.quasi_static import (
     followed_upwards,
     quasi_static_energy,
 )
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 
 @pytest.fixture

@@ -26,12 +26,12 @@ from microslip.studies.decay import (
     unmeasured,
 )
 from microslip.studies.dwell import dwelling
+from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.ring_down import RingDown
-from microslip_mechanics.sine_test import SineTest, Tone
+from microslip_mechanics.results.ring_down import RingDown
+from microslip_mechanics.results.time_history import Checkpoint, TimeHistory, joined
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
-from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
 from rigs import rig_problem
 from small_problems import cubic_oscillator, oscillator, sliding_block
 from timedomain.integrate import IntegrationError, MarchOptions, integrate

@@ -9,8 +9,8 @@ from figure_checks import check_labels, legend
 from microslip.figures.envelope import envelope_figure
 from microslip.figures.passes import passes
 from microslip.figures.result import result_figure
-from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.envelope import Envelope
+from microslip_mechanics.results.time_history import TimeHistory
 
 
 def swept(hertz: np.ndarray, level: np.ndarray, small: Envelope) -> Envelope:

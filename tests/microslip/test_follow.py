@@ -15,7 +15,7 @@ from microslip.result_file import load
 from microslip.studies.curve import trace_curve
 from microslip.studies.follow import follow
 from microslip.studies.parameter import parameter, told_along
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 STICKY = ("model=A", "friction.mu_dynamic=50", "friction.mu_static=50")
 

@@ -12,8 +12,8 @@ from microslip.quantity import SceneError
 from microslip.result_file import load
 from microslip.scene_file import load_scene
 from microslip.studies.loads import load_history
-from microslip_mechanics.segments import factors_over
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.loads.segments import factors_over
+from microslip_mechanics.results.time_history import TimeHistory
 from scene_texts import EXPERIMENTS
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

@@ -9,7 +9,7 @@ import pytest
 
 from microslip.cli import main
 from microslip.studies.gaps import broken, gaps, lines, told, uncovered
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from microslip.store import Stored, save, save_figure
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 SAID = "microslip: interrupted; no file is written but those named above\n"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from microslip.store import Stored, save
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 SCREEN = {"matplotlib.pyplot", "tkinter"}
 """needs a display, or looks for one"""
@@ -88,9 +88,9 @@ def test_plot_loads_no_solver(small_curve: ResponseCurve, tmp_path: Path) -> Non
 
 SPARED = {
     "microslip.scenes.turning",
-    "microslip_mechanics.rotating_frame",
-    "microslip_mechanics.base_excitation",
-    "microslip_mechanics.reduced_problem",
+    "microslip_mechanics.structures.rotating_frame",
+    "microslip_mechanics.loads.base_excitation",
+    "microslip_mechanics.reduction.reduced_problem",
 }
 """needed by scenes that turn, whose ground moves, or that are reduced"""
 TURNED = ("rotation.speed=10", "rotation.axis=[0,0,1]", "rotation.centre=[0,-1,0]")

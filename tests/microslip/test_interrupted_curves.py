@@ -10,7 +10,7 @@ import pytest
 
 from hbm.errors import ContinuationError
 from hbm.solve import frequency_response
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 KEPT = "microslip: interrupted; what was computed is kept\n"

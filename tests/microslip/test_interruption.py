@@ -31,9 +31,9 @@ from microslip.studies.curve import gathered
 from microslip.studies.sweep import kept
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import ResponseCurve
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

@@ -17,8 +17,8 @@ from microslip.studies.jump_folds import Fold, folds_of
 from microslip.studies.jump_sweeps import Sweep
 from microslip.studies.jumps import LEAST, Jump
 from microslip.studies.verify import StudyError
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import ResponseCurve, response_curve
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 from small_problems import cubic_oscillator
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

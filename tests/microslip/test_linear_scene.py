@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from microslip.result_file import load
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 from scene_texts import EXPERIMENTS
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

@@ -7,7 +7,7 @@ from microslip.quantity import SceneError
 from microslip.scene_file import load_scene
 from microslip.studies.loads import load_history
 from microslip.studies.sweep import swept_sine
-from microslip_mechanics.segments import clock, factors_over
+from microslip_mechanics.loads.segments import clock, factors_over
 
 
 def of(*words: str) -> tuple[float, np.ndarray]:

@@ -9,7 +9,7 @@ import scipy.sparse
 
 from microslip.quantity import SceneError
 from microslip.studies.march_size import demand_end, turns
-from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.loads.excitation import SweptSine
 from timedomain.options import MarchOptions
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

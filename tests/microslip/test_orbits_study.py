@@ -17,7 +17,7 @@ from microslip.studies.orbits import (
     whereabouts,
 )
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from small_problems import TANGENT, cubic_oscillator, mass_on_contact, sliding_block
 from traced_curves import traced
 

@@ -12,8 +12,8 @@ from microslip.figures.poles import poles_figure
 from microslip.figures.style import widened
 from microslip.figures.track import track_figure
 from microslip_mechanics.arrays import ComplexArray
-from microslip_mechanics.ring_down import RingDown
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.ring_down import RingDown
+from microslip_mechanics.results.time_history import TimeHistory
 
 SPAN = (1.0, 1e3)
 

@@ -9,8 +9,8 @@ import pytest
 
 import microslip
 from microslip.commands.sweep_tables import estimates
-from microslip_mechanics.extremes import extremes
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.extremes import extremes
+from microslip_mechanics.results.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 

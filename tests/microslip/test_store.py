@@ -12,9 +12,9 @@ from scipy.io import netcdf_file
 from microslip.result_file import load
 from microslip.schema import SCHEMAS, Result
 from microslip.store import Stored, StoreError, save
-from microslip_mechanics.response_curve import ResponseCurve
-from microslip_mechanics.thinning import thinned
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.thinning import thinned
+from microslip_mechanics.results.time_history import TimeHistory
 
 SCENE = '# a scene\nscene = "two-blades"\n# --set model=A'
 DOCS = Path(__file__).parents[2] / "docs"

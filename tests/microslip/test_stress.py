@@ -23,7 +23,7 @@ from microslip.studies.stress_cases import cases
 from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError, limited
 from microslip.studies.stress_finding import Finding, Outcome, Tried
 from microslip.studies.worker import Ended
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.shooting.closed_march import ShootingError
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

@@ -15,7 +15,7 @@ from microslip.studies.stress_case import Case
 from microslip.studies.stress_clock import Clock
 from microslip.studies.stress_curve import Drawn
 from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from small_problems import prescribed
 from timedomain.shooting.closed_march import ShootingError
 from timedomain.shooting.comparison import Comparison

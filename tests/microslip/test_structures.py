@@ -15,7 +15,7 @@ from microslip.scene_file import built_in_text, load_scene
 from microslip.scenes.systems.build import reduction
 from microslip.studies.explain import pruned
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.reduced_problem import (
+from microslip_mechanics.reduction.reduced_problem import (
     Method,
     ReducedProblem,
     reduced_problem,
@@ -309,7 +309,9 @@ def test_what_is_kept_is_told_of_one_reduction(
         calls.append(given)
         return reduced_problem(*given, **more)
 
-    monkeypatch.setattr("microslip_mechanics.reduced_problem.reduced_problem", counted)
+    monkeypatch.setattr(
+        "microslip_mechanics.reduction.reduced_problem.reduced_problem", counted
+    )
     pruned(load_scene(str(path)))
 
     assert len(calls) == 1

@@ -12,8 +12,8 @@ from microslip.figures import march
 from microslip.figures import sweep as sweeps
 from microslip.figures.passes import Pass, amplitude
 from microslip.figures.style import alike, legend_beside, one_range
-from microslip_mechanics.response_curve import ResponseCurve
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.time_history import TimeHistory
 
 
 def test_displacement_shows_one_probe_in_millimetres(

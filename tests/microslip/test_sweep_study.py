@@ -14,9 +14,9 @@ from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
 from microslip.studies.sweep import march_sweep, march_whole, swept_sine
-from microslip_mechanics.extremes import extremes
+from microslip_mechanics.results.extremes import extremes
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, integrate
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

@@ -12,9 +12,9 @@ from microslip.rigs import problem_of
 from microslip.scene_file import SYSTEMS, built_in_text, load_scene
 from microslip.studies.explain import obeyed
 from microslip.studies.parameter import parameter
-from microslip_mechanics.beam import RectangularSection
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.structures.beam import RectangularSection
 from scene_texts import EXPERIMENTS
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

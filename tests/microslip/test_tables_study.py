@@ -16,7 +16,7 @@ from microslip.scene_tables import Scene
 from microslip.studies import tables
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.tables import PAPER, SENSITIVITIES, Row, Variant, rows
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.integrate import IntegrationError
 from timedomain.step_doubling import CAUTION
 

@@ -18,7 +18,7 @@ from microslip.studies.unpruned import (
     timed,
     unpruned_path_of,
 )
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 BANDS = {

@@ -18,7 +18,7 @@ from microslip.commands.verify_tables import (
 from microslip.studies.curve import Traced
 from microslip.studies.orbits import Verdict
 from microslip.studies.verify import SweepAgreement
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.static import StaticState
 from small_problems import prescribed
 from timedomain.shooting.comparison import Comparison

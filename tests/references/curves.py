@@ -10,7 +10,7 @@ from hbm.solve import frequency_response
 from microslip_mechanics.laws.normal_load import NormalLoad
 from microslip_mechanics.laws.row import Law
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 
 

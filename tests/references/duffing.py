@@ -13,7 +13,7 @@ import microslip
 from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import modes_in_range, nonlinear_mode
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from references.curves import curve, first, oscillator
 from references.finding import Finding

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import microslip
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from references.curves import curve, first, oscillator, point
 from references.finding import Finding
 

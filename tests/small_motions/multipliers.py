@@ -6,7 +6,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from small_motions.pieces import Pieces, pieces
 from small_motions.propagator import propagate, propagator
 from small_motions.relative_orbit import RelativeOrbit

@@ -14,7 +14,7 @@ from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(3)
 """of the mean over a step, on −1 … 1"""

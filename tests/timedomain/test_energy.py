@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from convergence import observed_order
-from microslip_mechanics.excitation import Dwell, SweptSine
+from microslip_mechanics.loads.excitation import Dwell, SweptSine
 from rigs import rig_problem
 from small_problems import dwelled, from_rest, marched, sliding_block
 from timedomain.integrate import MarchOptions

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from rigs import rig_problem
 from small_problems import from_rest, marched
 from timedomain.integrate import MarchOptions

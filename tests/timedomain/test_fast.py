@@ -10,7 +10,7 @@ from convergence import observed_order
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.loads import load_history
-from microslip_mechanics.excitation import Dwell, SweptSine
+from microslip_mechanics.loads.excitation import Dwell, SweptSine
 from microslip_mechanics.problem import Problem
 from rigs import rig_problem
 from small_problems import (

@@ -7,10 +7,10 @@ import pytest
 import scipy.integrate
 
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.time_history import joined
 from microslip_mechanics.system import system
-from microslip_mechanics.time_history import joined
 from timedomain.integrate import MarchOptions, integrate
 
 HERTZ, DRIVES = 5.3, np.array([1.0, 0.7])

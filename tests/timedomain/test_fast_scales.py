@@ -5,16 +5,16 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import Dwell, SweptSine
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.laws.dampers import LinearDamper
 from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
+from microslip_mechanics.loads.excitation import Dwell, SweptSine
+from microslip_mechanics.loads.sine_test import SineTest, Tone, stepped
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.sine_test import SineTest, Tone, stepped
+from microslip_mechanics.results.time_history import TimeHistory, joined
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
-from microslip_mechanics.time_history import TimeHistory, joined
 from rigs import rig_problem
 from small_problems import marched
 from timedomain.fast.fast import FastMarch

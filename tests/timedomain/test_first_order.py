@@ -10,9 +10,9 @@ from benchmarks.dop853 import DOP853, integrated, real_limit
 from convergence import observed_order
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ELASTIC, PointLaw, contact_table
-from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.loads.excitation import SweptSine
+from microslip_mechanics.loads.segments import factors_over
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.segments import factors_over
 from rigs import rig_problem
 from small_problems import from_rest, marched, mass_on_contact, oscillator
 from timedomain.first_order.first_order import FirstOrder, first_order, flow, jacobian

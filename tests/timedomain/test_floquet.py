@@ -11,7 +11,7 @@ from linear_poles import in_order, poles
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import FRICTIONLESS
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from small_motions.multipliers import floquet_multipliers, monodromy
 from small_problems import (
     NORMAL,

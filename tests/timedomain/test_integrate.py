@@ -9,11 +9,11 @@ import pytest
 
 from contact_tables import contact_points
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import Dwell, SweptSine
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
+from microslip_mechanics.loads.excitation import Dwell, SweptSine
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.time_history import TimeHistory, joined
 from microslip_mechanics.system import system
-from microslip_mechanics.time_history import TimeHistory, joined
 from rigs import rig_problem
 from small_problems import NORMAL, from_rest, marched, mass_on_contact, oscillator
 from timedomain.integrate import IntegrationError, MarchOptions, integrate

@@ -11,7 +11,7 @@ import scipy.integrate
 
 from contact_tables import FRICTION_LAWS, contact_points, linear_contact
 from convergence import observed_order
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from small_problems import NORMAL, mass_on_contact, oscillator, sliding_block
 from timedomain.integrate import MarchOptions, integrate
@@ -25,7 +25,7 @@ STEPS = (32, 64, 128, 256)
 """few enough for a march without compiled kernels"""
 ONE_ITERATION = """
 from contact_tables import contact_points
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from small_problems import NORMAL, from_rest, marched, mass_on_contact
 from timedomain.reference import newmark
 from timedomain.integrate import MarchOptions

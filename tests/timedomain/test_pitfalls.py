@@ -7,9 +7,9 @@ import pytest
 import scipy.integrate
 import scipy.linalg
 
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 from other_schemes import LINEAR_FORCE
 from rigs import rig_problem
 from small_problems import cantilever, from_rest, marched, oscillator, sliding_block

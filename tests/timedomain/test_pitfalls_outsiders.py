@@ -14,7 +14,7 @@ from benchmarks.dop853 import DOP853, integrated, real_limit
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem

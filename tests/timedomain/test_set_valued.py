@@ -10,13 +10,13 @@ import pytest
 from law_examples import SLIDING, driven
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import Dwell
-from microslip_mechanics.given_loads import Drive
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
+from microslip_mechanics.loads.excitation import Dwell
+from microslip_mechanics.loads.given_loads import Drive
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.time_history import TimeHistory, joined
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
-from microslip_mechanics.time_history import TimeHistory, joined
 from timedomain.first_order.first_order import first_order
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import Start

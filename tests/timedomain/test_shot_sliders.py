@@ -11,7 +11,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import contact_table
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.slides import slides_of
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from small_problems import dwelled
 from timedomain.integrate import MarchOptions, integrate

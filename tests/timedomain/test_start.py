@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import SweptSine
 from microslip_mechanics.laws.hunt_crossley import HuntCrossleyContact
+from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.system import system
 from rigs import rig_problem

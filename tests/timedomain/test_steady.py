@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from convergence import observed_order
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from small_problems import oscillator
 from timedomain.integrate import MarchOptions, integrate

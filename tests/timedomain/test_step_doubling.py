@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.element import Element
-from microslip_mechanics.excitation import Dwell, SweptSine
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.laws.unilateral import UnilateralSpring
+from microslip_mechanics.loads.excitation import Dwell, SweptSine
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.time_history import joined
 from microslip_mechanics.system import system
-from microslip_mechanics.time_history import joined
 from rigs import rig_problem
 from small_problems import marched, oscillator
 from timedomain.integrate import MarchOptions, integrate

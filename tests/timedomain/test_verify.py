@@ -7,7 +7,7 @@ import pytest
 
 from convergence import observed_order
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from small_problems import oscillator, prescribed
 from timedomain.verify import Agreement, agreement, march_periods
 

@@ -9,7 +9,7 @@ from hbm.curves.periodic_response import periodic_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import TWO_SIDED
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from small_problems import (
     NORMAL,

@@ -13,7 +13,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.undamped_modes import undamped_modes
+from microslip_mechanics.structures.undamped_modes import undamped_modes
 
 
 class Contacts(NamedTuple):

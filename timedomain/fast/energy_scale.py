@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.segments import Segments
+from microslip_mechanics.loads.segments import Segments
 from timedomain.contact.state import State
 from timedomain.fast.coordinates import Modes
 

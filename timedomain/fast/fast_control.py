@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from microslip_mechanics.segments import Segments, clock
+from microslip_mechanics.loads.segments import Segments, clock
 from timedomain.contact.state import State
 from timedomain.fast.coordinates import Coordinates
 from timedomain.fast.energy_scale import least_energy, settled

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from microslip_mechanics.jit import bare_kernel, inner_kernel
-from microslip_mechanics.segments import Segments
+from microslip_mechanics.loads.segments import Segments
 from timedomain.contact.dense import copy, copy_rows
 from timedomain.contact.local_motion import Answer
 from timedomain.fast.contact_newton import solve_contact

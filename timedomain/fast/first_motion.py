@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.loads.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
 from timedomain.contact.state import State
 from timedomain.fast.coordinates import Contacts, Coordinates, Modes

@@ -7,7 +7,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.normal import contact_energy, normal_response
 from microslip_mechanics.jit import bare_kernel, inner_kernel
-from microslip_mechanics.segments import Segments, segment_of
+from microslip_mechanics.loads.segments import Segments, segment_of
 from timedomain.fast.accept import accept, settle, tell_error
 from timedomain.fast.coordinates import Contacts, Modes
 from timedomain.fast.fast_step import SOONEST, attempt

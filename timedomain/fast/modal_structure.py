@@ -8,7 +8,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.undamped_modes import undamped_modes
+from microslip_mechanics.structures.undamped_modes import undamped_modes
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from microslip_mechanics.jit import inner_kernel
-from microslip_mechanics.segments import Segments, load_factors
+from microslip_mechanics.loads.segments import Segments, load_factors
 from timedomain.fast.coordinates import Modes
 from timedomain.fast.coupling import coupled_force
 from timedomain.fast.fast_powers import pull

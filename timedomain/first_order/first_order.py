@@ -18,10 +18,10 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import ELASTIC, RIGID, ContactPoints
-from microslip_mechanics.excitation import LoadHistory
 from microslip_mechanics.jit import closure
+from microslip_mechanics.loads.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.undamped_modes import undamped_modes
+from microslip_mechanics.structures.undamped_modes import undamped_modes
 from timedomain.first_order.first_order_rate import flow, jacobian, stored_energy
 from timedomain.first_order.first_order_system import ENERGIES, System
 from timedomain.record.start import Start

@@ -9,7 +9,7 @@ from microslip_mechanics.contact.law import contact_force, contact_power
 from microslip_mechanics.contact.normal import contact_energy, spring_response
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
-from microslip_mechanics.segments import load_factors
+from microslip_mechanics.loads.segments import load_factors
 from timedomain.first_order.first_order_slider import slide, slide_tangents
 from timedomain.first_order.first_order_system import ENERGIES, System
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.segments import Segments
+from microslip_mechanics.loads.segments import Segments
 
 ENERGIES = 3
 """friction, damping, input: the last places of the state"""

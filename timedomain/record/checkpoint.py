@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import remembers
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.time_history import Checkpoint
+from microslip_mechanics.results.time_history import Checkpoint
 from timedomain.contact.state import State
 from timedomain.record.meters import meters
 from timedomain.record.record import Meters

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.envelope import Envelope
+from microslip_mechanics.results.time_history import TimeHistory
 
 OPEN = "the energy balance does not close, so the march is wrong"
 """of a march that :func:`closes` denies"""

@@ -8,10 +8,10 @@ import numpy as np
 from scipy.integrate import simpson
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.loads.excitation import LoadHistory
+from microslip_mechanics.loads.segments import clock, factors_over
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.segments import clock, factors_over
-from microslip_mechanics.unheld import dragged, unheld_motions
+from microslip_mechanics.structures.unheld import dragged, unheld_motions
 
 DENSE, FEWEST, MOST = 64, 4096, 1 << 22
 """moments of a cycle of the drive, and of each segment, at which loads are summed; of a

@@ -6,9 +6,9 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.normal import contact_energy
-from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.loads.excitation import LoadHistory
+from microslip_mechanics.loads.segments import factors_over
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.segments import factors_over
 from timedomain.contact.state import State
 from timedomain.record.record import FLOWS, Meters, accumulate
 

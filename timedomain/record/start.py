@@ -12,11 +12,11 @@ from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.memory import pressed, remembers
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
-from microslip_mechanics.excitation import Dwell, LoadHistory
 from microslip_mechanics.jit import kernel
+from microslip_mechanics.loads.excitation import Dwell, LoadHistory
+from microslip_mechanics.loads.segments import factors_over
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.segments import factors_over
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from timedomain.contact.state import State
 from timedomain.record.driftless import driftless

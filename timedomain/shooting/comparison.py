@@ -8,7 +8,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import MARGIN, PeriodicResponse
+from microslip_mechanics.results.response import MARGIN, PeriodicResponse
 from timedomain.record.start import on_orbit
 from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 

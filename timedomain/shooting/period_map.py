@@ -15,7 +15,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.slides import Slides, slides_of
 from microslip_mechanics.contact.tangents import contact_tangents
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
 from timedomain.fast.modal_structure import ModalStructure
 from timedomain.integrate import MarchOptions, integrate

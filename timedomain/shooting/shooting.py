@@ -11,7 +11,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import beyond_motion, remembers
 from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.record.start import Start
 from timedomain.shooting.closed_march import ClosedMarch, ShootingError, closed
 from timedomain.shooting.period_map import BLOCK, PeriodMap

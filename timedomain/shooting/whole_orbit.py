@@ -16,10 +16,10 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.slides import slides_of
-from microslip_mechanics.excitation import Dwell
 from microslip_mechanics.jit import kernel
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.segments import factors_over
+from microslip_mechanics.loads.excitation import Dwell
+from microslip_mechanics.loads.segments import factors_over
+from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.shooting.closed_march import (
     CLOSED,
     HALVINGS,

@@ -9,7 +9,7 @@ from microslip.experiments import Curve
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.response_curve import ResponseCurve
+    from microslip_mechanics.results.response_curve import ResponseCurve
 
 NAME = "microslip.curve"
 

@@ -14,7 +14,7 @@ from microslip.quantity import quantity
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.response_curve import ResponseCurve
+    from microslip_mechanics.results.response_curve import ResponseCurve
 
 NAME = "microslip.follow"
 

@@ -11,7 +11,7 @@ from microslip.quantity import quantity
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.time_history import TimeHistory
+    from microslip_mechanics.results.time_history import TimeHistory
 
 NAME = "microslip.sweep"
 REMEDY = (
@@ -71,7 +71,7 @@ def sweep(
     """
     from microslip.studies.march_size import demand_end
     from microslip.studies.sweep import march_sweep
-    from microslip_mechanics.excitation import SweptSine
+    from microslip_mechanics.loads.excitation import SweptSine
     from timedomain.options import MarchOptions
     from timedomain.record.closure import OPEN, closes
 

@@ -18,7 +18,7 @@ from microslip_mechanics.errors import MicroslipError
 if TYPE_CHECKING:
     from microslip.scene_tables import Scene
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.time_history import Checkpoint, TimeHistory
+    from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
 
 PERIODS = 300
 

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from microslip_mechanics.ring_down import RingDown
+    from microslip_mechanics.results.ring_down import RingDown
 
 COLUMNS = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
 SHOWN = 20

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from microslip.scene_tables import Scene
     from microslip.studies.dwell import Period
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.time_history import TimeHistory
+    from microslip_mechanics.results.time_history import TimeHistory
 
 TOLERANCE, PERIODS = 1e-4, 5000
 MOST = 10**7
@@ -74,7 +74,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
     from microslip.store import save_figure
-    from microslip_mechanics.extremes import extremes
+    from microslip_mechanics.results.extremes import extremes
     from timedomain.record.closure import OPEN, closes
 
     data, picture = arguments.outputs(options, "dwell")
@@ -110,7 +110,7 @@ def dwelled(
     from microslip.recording import Recording
     from microslip.studies.dwell import dwelling
     from microslip.studies.sweep import kept
-    from microslip_mechanics.time_history import joined
+    from microslip_mechanics.results.time_history import joined
 
     if not problem.drive.any():
         raise SceneError(

@@ -11,7 +11,7 @@ from microslip.commands.columns import about, decimal, headed, tabled, titled
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
-    from microslip_mechanics.response_curve import ResponseCurve
+    from microslip_mechanics.results.response_curve import ResponseCurve
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

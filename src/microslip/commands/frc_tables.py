@@ -11,7 +11,7 @@ from microslip.commands.columns import about, decimal, headed, tabled, titled
 if TYPE_CHECKING:
     from microslip.scene_tables import Scene
     from microslip.studies.curve import Traced
-    from microslip_mechanics.response_curve import ResponseCurve
+    from microslip_mechanics.results.response_curve import ResponseCurve
     from microslip_mechanics.static import StaticState
 
 SECTOR = (
@@ -132,7 +132,7 @@ def _stability(curve: ResponseCurve) -> str:
 
 def _multiplier(value: float) -> str:
     """Return one outside the unit circle with so many digits that it is not 1."""
-    from microslip_mechanics.response import MARGIN
+    from microslip_mechanics.results.response import MARGIN
 
     digits = 1 - math.floor(math.log10(max(value - 1.0, MARGIN)))
     return f"{value:.{max(4, digits)}f}"

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from microslip.progress import Watch
     from microslip.recording import Recording
     from microslip.scene_tables import Scene
-    from microslip_mechanics.envelope import Envelope
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.time_history import Checkpoint, TimeHistory
+    from microslip_mechanics.results.envelope import Envelope
+    from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -143,7 +143,7 @@ def _begun(
     """
     from microslip.quantity import SceneError
     from microslip.recording import Recording, resumed
-    from microslip_mechanics.envelope import Envelope
+    from microslip_mechanics.results.envelope import Envelope
 
     if options.resume is None:
         return Recording(data, scene.text, options.command), None, options.envelope
@@ -167,7 +167,7 @@ def _show(
     from microslip.result_file import load, stretches
     from microslip.store import save_figure
     from microslip_mechanics.contact.memory import beyond_motion
-    from microslip_mechanics.extremes import extremes, of_all
+    from microslip_mechanics.results.extremes import extremes, of_all
     from timedomain.record.closure import closes
 
     data, picture = paths

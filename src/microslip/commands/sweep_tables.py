@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from microslip_mechanics.envelope import Envelope
-    from microslip_mechanics.extremes import Extremes
-    from microslip_mechanics.time_history import TimeHistory
+    from microslip_mechanics.results.envelope import Envelope
+    from microslip_mechanics.results.extremes import Extremes
+    from microslip_mechanics.results.time_history import TimeHistory
 
 PARTED = 30.0
 """times its tolerance from which a march's peak is known less than steps explain"""
@@ -72,7 +72,7 @@ def extreme_lines(
     ``found`` are those of all rows; ``pressed`` are the contacts that have normal
     forces at all.
     """
-    from microslip_mechanics.response_curve import pulling
+    from microslip_mechanics.results.response_curve import pulling
 
     lines = ["largest displacement [mm] and velocity [m/s]"]
     for name, far, fast in zip(result.probes, *found.largest, strict=True):

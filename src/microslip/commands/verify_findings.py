@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from microslip.studies.orbits import Verdict
     from microslip.studies.verify import SweepAgreement
-    from microslip_mechanics.response_curve import ResponseCurve
+    from microslip_mechanics.results.response_curve import ResponseCurve
     from timedomain.verify import Agreement
 
 

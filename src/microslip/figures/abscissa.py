@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 
 from microslip.figures.style import literal
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 FREQUENCY = "excitation frequency [Hz]"
 BEGINNINGS = ("branch", "detached", "restart")

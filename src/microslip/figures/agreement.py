@@ -14,7 +14,7 @@ from microslip.figures.amplitude import frequency_response, greatest
 from microslip.figures.names import absolute, readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 DOTS: dict[str, Any] = {"linestyle": "", "marker": "o", "ms": 4, "clip_on": False}
 """whole at the ends of the axes, too"""

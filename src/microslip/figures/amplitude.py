@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from microslip.figures.abscissa import abscissa, abscissa_name
 from microslip.figures.names import absolute, readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, from_nothing
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 MARKERS = {
     "peak": "^",

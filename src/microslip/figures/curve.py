@@ -30,7 +30,7 @@ from microslip.figures.style import (
     legend_above,
     plain_logarithmic,
 )
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 ROWS = {2: (1, 1), 3: (1, 2), 4: (2, 2), 5: (2, 3), 6: (3, 3)}
 """for each number of panels how many the upper row has, and the lower one"""

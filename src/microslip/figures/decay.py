@@ -15,8 +15,8 @@ from microslip.figures.style import (
     plain_logarithmic,
     widened,
 )
-from microslip_mechanics.ring_down import RingDown
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.ring_down import RingDown
+from microslip_mechanics.results.time_history import TimeHistory
 
 
 def decay_figure(

@@ -14,7 +14,7 @@ from microslip.figures.march import energies
 from microslip.figures.names import absolute, foremost, readable, relative
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip.figures.sweep import displacement
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 
 FEW = 40
 """distances up to which each is a dot: a line through one alone would not be seen"""

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from microslip.figures.march import TIME, Panels, march_figure
 from microslip.figures.names import called, force_kind, readable
 from microslip.figures.style import COLOURS, WIDTH, framed, legend_beside
-from microslip_mechanics.envelope import Envelope
+from microslip_mechanics.results.envelope import Envelope
 
 
 def envelope_figure(envelope: Envelope, title: str) -> Figure:

@@ -14,7 +14,7 @@ from microslip.figures.amplitude import steady, stretches
 from microslip.figures.names import readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 BESIDE = 0.2
 """how much of the curve is shown beside the sweeps, over their range"""

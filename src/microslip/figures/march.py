@@ -21,8 +21,8 @@ from microslip.figures.style import (
     one_range,
 )
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.envelope import Envelope
+from microslip_mechanics.results.time_history import TimeHistory
 
 TIME = "time [s]"
 BROAD = 3.0

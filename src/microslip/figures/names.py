@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response_curve import pulling
+from microslip_mechanics.results.response_curve import pulling
 
 
 def absolute(probes: Iterable[str]) -> list[int]:

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from microslip.figures.names import readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, legend_above
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.envelope import Envelope
+from microslip_mechanics.results.time_history import TimeHistory
 
 FEWEST = 4
 """cycles of a way, and rows of a cycle, that can be seen"""

@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from microslip.figures.curve import curve_figure
 from microslip.figures.envelope import envelope_figure
 from microslip.figures.sweep import sweep_figure
-from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.response_curve import ResponseCurve
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.envelope import Envelope
+from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.time_history import TimeHistory
 
 
 def result_figure(result: ResponseCurve | TimeHistory | Envelope, title: str) -> Figure:

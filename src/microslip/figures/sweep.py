@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from microslip.figures.march import TIME, Panels, march_figure
 from microslip.figures.names import called, force_kind, readable
 from microslip.figures.style import COLOURS, alike, framed, legend_beside
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 
 
 def sweep_figure(history: TimeHistory, title: str) -> Figure:

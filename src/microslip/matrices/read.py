@@ -11,7 +11,7 @@ from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
 from microslip.matrices.source import MatrixSource
 from microslip_mechanics.arrays import Matrix
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 USUAL = {
     "mass": ("M", "mass", "MASS", "MAAX"),

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from microslip.scenes.rotation import SteadyRotation
-from microslip_mechanics.frame import Frame
-from microslip_mechanics.rotating_frame import RotatingFrame
-from microslip_mechanics.rotation import Rotation
+from microslip_mechanics.structures.frame import Frame
+from microslip_mechanics.structures.rotating_frame import RotatingFrame
+from microslip_mechanics.structures.rotation import Rotation
 
 
 def turning(frame: Frame, table: SteadyRotation) -> RotatingFrame:

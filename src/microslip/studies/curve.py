@@ -19,8 +19,8 @@ from microslip.studies.detached import Searched, search
 from microslip.studies.gaps import BROKEN, MISSING, told
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import ResponseCurve, response_curve
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 from microslip_mechanics.static import StaticState, static_equilibrium
 
 SHOWN = 11

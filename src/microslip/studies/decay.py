@@ -13,11 +13,11 @@ from microslip.quantity import SceneError
 from microslip.studies.march_size import demand_end
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import beyond_motion
+from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.ring_down import RingDown, ring_down
-from microslip_mechanics.sine_test import SineTest, Tone
+from microslip_mechanics.results.ring_down import RingDown, ring_down
+from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.time_history import Checkpoint, TimeHistory
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.checkpoint import at_end
 from timedomain.record.driftless import undragged_motions

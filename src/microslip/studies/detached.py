@@ -12,7 +12,7 @@ from hbm.solve import detached
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
 
 FREQUENCIES = 15

@@ -17,7 +17,7 @@ from microslip.studies.pruned_unknowns import balance, time_step
 from microslip.studies.unpruned import path_of, unpruned_path_of
 
 if TYPE_CHECKING:
-    from microslip_mechanics.reduced_problem import ReducedProblem
+    from microslip_mechanics.reduction.reduced_problem import ReducedProblem
 
 LOADS = "friction uses the computed normal force, or a constant"
 

@@ -18,8 +18,8 @@ from microslip.progress import Watch
 from microslip.studies.curve import trace_curve
 from microslip.studies.parameter import Parameter, told_along
 from microslip_mechanics.errors import MicroslipError
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import ResponseCurve, response_curve
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 
 FAR = 10.0
 """times the highest frequency of the curve, or its lowest over it, beyond which a fold

@@ -13,7 +13,7 @@ from microslip.studies.curve import gathered
 from microslip.studies.gaps import told
 from microslip.studies.parameter import Parameter, told_along
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response_curve import ResponseCurve, response_curve
+from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 
 
 def follow(

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.errors import REMEDY
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 NARROW = 0.01
 """share of its range that a whole curve may leave out"""

@@ -11,7 +11,7 @@ from hbm.curves.detached import MARKS
 from microslip.studies.curve import Traced
 from microslip.studies.verify import StudyError
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 
 BEYOND = 1e-4
 """of a fold's frequency, by which one looks behind it for where the motion lands"""

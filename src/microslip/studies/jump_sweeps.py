@@ -10,9 +10,9 @@ from microslip.studies.jump_folds import Fold
 from microslip.studies.march_size import demand_end
 from microslip.studies.verify import StudyError, envelope_of
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.excitation import SweptSine
+from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.time_history import joined
+from microslip_mechanics.results.time_history import joined
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import on_orbit
 

@@ -11,9 +11,9 @@ from microslip.quantity import SceneError
 from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.two_blades.tables import TwoBlades
-from microslip_mechanics.excitation import LoadHistory
-from microslip_mechanics.force_record import ForceRecord
-from microslip_mechanics.sine_test import SineTest, Tone, stepped
+from microslip_mechanics.loads.excitation import LoadHistory
+from microslip_mechanics.loads.force_record import ForceRecord
+from microslip_mechanics.loads.sine_test import SineTest, Tone, stepped
 
 if TYPE_CHECKING:
     from microslip.scenes.systems.tables import System

@@ -7,9 +7,9 @@ import math
 import numpy as np
 
 from microslip.quantity import SceneError
-from microslip_mechanics.excitation import LoadHistory
+from microslip_mechanics.loads.excitation import LoadHistory
+from microslip_mechanics.loads.segments import clock
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.segments import clock
 from timedomain.options import MarchOptions
 
 MOST_STEPS = 1e10

@@ -10,7 +10,7 @@ import numpy as np
 from microslip.studies.curve import Traced
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.shooting.closed_march import ShootingError
 from timedomain.shooting.comparison import COVERAGE, FLOOR, Comparison, compared
 

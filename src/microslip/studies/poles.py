@@ -23,10 +23,10 @@ from microslip.studies.pole_question import Question
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.reduction import reduced
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.reduction.reduction import reduced
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState, static_equilibrium
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 
 @dataclass(frozen=True, slots=True)

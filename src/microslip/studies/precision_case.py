@@ -21,7 +21,7 @@ from microslip.studies.orbit import PHASES
 from microslip.studies.precision_march import PERIODS, Carried, fixed_step, march
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
 from timedomain.integrate import MarchOptions
 from timedomain.record.start import Start, on_orbit

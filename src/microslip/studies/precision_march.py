@@ -10,7 +10,7 @@ import numpy as np
 
 from microslip.studies.orbit import PHASES, Orbit
 from microslip_mechanics.contact.points import rubs
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.checkpoint import at_end

@@ -18,7 +18,7 @@ from microslip.studies.precision_outsiders import Outsiders
 from microslip.studies.precision_result import Result, steady_result
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.contact.points import rubs
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.integrate import MarchOptions
 from timedomain.record.start import on_orbit
 from timedomain.shooting.shooting import ShootingOptions, periodic_orbit

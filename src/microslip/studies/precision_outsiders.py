@@ -17,7 +17,7 @@ from microslip.studies.precision_march import PERIODS, Carried
 from microslip.studies.precision_result import Result, steady_result
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import rubs
-from microslip_mechanics.excitation import Dwell
+from microslip_mechanics.loads.excitation import Dwell
 from timedomain.first_order.first_order import FirstOrder, Flow, Jacobian, first_order
 from timedomain.record.start import Start
 

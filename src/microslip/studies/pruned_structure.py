@@ -12,7 +12,7 @@ from microslip.studies.pruned import Pruned
 from microslip_mechanics.problem import Problem
 
 if TYPE_CHECKING:
-    from microslip_mechanics.reduced_problem import ReducedProblem
+    from microslip_mechanics.reduction.reduced_problem import ReducedProblem
 
 
 def structure(

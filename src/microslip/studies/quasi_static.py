@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 NEAR = 0.05
 """of the frequency: how far beyond a jump a sweep is compared with a branch"""

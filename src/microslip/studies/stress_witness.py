@@ -26,7 +26,7 @@ from microslip.studies.stress_finding import (
 )
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.shooting.closed_march import ShootingError
 from timedomain.shooting.comparison import COVERAGE, compared
 from timedomain.verify import agreement, march_periods

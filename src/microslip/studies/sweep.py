@@ -10,12 +10,12 @@ from microslip.experiments import March, Sweep
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.studies.march_size import demand_end
-from microslip_mechanics.cycle_rows import enveloped, parted
-from microslip_mechanics.envelope import Envelope
-from microslip_mechanics.excitation import LoadHistory, SweptSine
+from microslip_mechanics.loads.excitation import LoadHistory, SweptSine
+from microslip_mechanics.loads.segments import clock
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.segments import clock
-from microslip_mechanics.time_history import Checkpoint, TimeHistory, joined
+from microslip_mechanics.results.cycle_rows import enveloped, parted
+from microslip_mechanics.results.envelope import Envelope
+from microslip_mechanics.results.time_history import Checkpoint, TimeHistory, joined
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
 from timedomain.record.start import loaded
 

@@ -13,8 +13,8 @@ from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
 from microslip.studies.sweep import march_whole, swept_sine
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.time_history import TimeHistory
 
 
 @dataclass(frozen=True, slots=True)

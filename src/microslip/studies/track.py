@@ -9,7 +9,7 @@ from hbm.errors import ContinuationError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.curve import trace_curve
-from microslip_mechanics.response_curve import ResponseCurve
+from microslip_mechanics.results.response_curve import ResponseCurve
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,9 +21,9 @@ from microslip.rigs import problem_of, sector_of, unpruned_of
 from microslip.scene_tables import Scene
 from microslip.studies.curve import curve_options, gathered
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.reduction import reduced
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import ResponseCurve, response_curve
+from microslip_mechanics.reduction.reduction import reduced
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 from microslip_mechanics.static import static_equilibrium
 
 HARMONICS = 31

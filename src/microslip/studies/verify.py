@@ -14,9 +14,9 @@ from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.response import PeriodicResponse
-from microslip_mechanics.response_curve import ResponseCurve
-from microslip_mechanics.time_history import TimeHistory
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.verify import Agreement, agreement, march_periods
 
 

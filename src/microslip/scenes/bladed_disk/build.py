@@ -11,7 +11,7 @@ from microslip_mechanics.contact.points import COULOMB, PointLaw, contact_table
 from microslip_mechanics.cyclic import Coupling, CyclicProblem
 from microslip_mechanics.laws.jenkins import slider
 from microslip_mechanics.problem import Probes, Problem
-from microslip_mechanics.structure import Structure
+from microslip_mechanics.structures.structure import Structure
 
 
 def sector(rig: BladedDisk) -> CyclicProblem:

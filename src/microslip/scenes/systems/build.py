@@ -14,15 +14,15 @@ from microslip.scenes.systems.cantilever import assembled
 from microslip.scenes.systems.tables import Numbers, RayleighRatios, System
 from microslip_mechanics.element import Element
 from microslip_mechanics.errors import MicroslipError
-from microslip_mechanics.given_loads import BaseMotion, EngineOrder
+from microslip_mechanics.loads.given_loads import BaseMotion, EngineOrder
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.rayleigh import Rayleigh
+from microslip_mechanics.structures.rayleigh import Rayleigh
 from microslip_mechanics.system import system
 
 if TYPE_CHECKING:
-    from microslip_mechanics.frame import Frame
-    from microslip_mechanics.reduced_problem import ReducedProblem
-    from microslip_mechanics.rotating_frame import RotatingFrame
+    from microslip_mechanics.reduction.reduced_problem import ReducedProblem
+    from microslip_mechanics.structures.frame import Frame
+    from microslip_mechanics.structures.rotating_frame import RotatingFrame
 
 Made = TypeVar("Made")
 SMALL = 400
@@ -52,7 +52,7 @@ def reduction(rig: System) -> ReducedProblem | None:
     wanted = rig.structure.reduction
     if wanted is None:
         return None
-    from microslip_mechanics.reduced_problem import reduced_problem
+    from microslip_mechanics.reduction.reduced_problem import reduced_problem
 
     return _told(
         rig,
@@ -92,7 +92,7 @@ def _whole(rig: System) -> Problem:
 
 def _moved(made: Problem, frame: Frame, motion: BaseMotion) -> Problem:
     """Return a problem whose ground moves."""
-    from microslip_mechanics.base_excitation import frame_carried_inertia
+    from microslip_mechanics.loads.base_excitation import frame_carried_inertia
 
     load = -motion.acceleration * frame_carried_inertia(frame, motion.unit)
     return replace(made, drive=made.drive + load)

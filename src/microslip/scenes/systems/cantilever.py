@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.quantity import quantity
-from microslip_mechanics.beam import RectangularSection
-from microslip_mechanics.frame import MOTIONS, Beam, Frame, Node, RigidBody
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import MOTIONS, Beam, Frame, Node, RigidBody
 
 FOOT, TIP = "foot", "tip"
 

@@ -10,8 +10,8 @@ from typing import Any, Literal, TypeAlias
 from microslip.quantity import quantity
 from microslip.scenes.rotation import SteadyRotation
 from microslip.scenes.systems.cantilever import Cantilever
-from microslip_mechanics.forms import Form, Pair
 from microslip_mechanics.laws.row import Law
+from microslip_mechanics.structures.forms import Form, Pair
 
 Rows: TypeAlias = str | tuple[Any, ...]
 """a matrix: name of its file, rows, or diagonal"""

@@ -11,11 +11,11 @@ from microslip.scenes.two_blades import layout
 from microslip.scenes.two_blades.faces import interface, unpruned_interface
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.frame import Frame
 from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.structures.frame import Frame
 
 if TYPE_CHECKING:
-    from microslip_mechanics.rotating_frame import RotatingFrame
+    from microslip_mechanics.structures.rotating_frame import RotatingFrame
 
 SLIPS = ("element-to-excited", "element-to-follower")
 """motion of the friction element's centre relative to the blade ends' centres"""

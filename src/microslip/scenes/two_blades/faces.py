@@ -20,7 +20,7 @@ from microslip_mechanics.contact.points import (
     PointLaw,
     contact_table,
 )
-from microslip_mechanics.frame import Frame
+from microslip_mechanics.structures.frame import Frame
 
 MOST = 4
 """contact points of a face, in the full model"""

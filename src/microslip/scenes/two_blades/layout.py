@@ -13,8 +13,8 @@ import numpy as np
 
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.beam import RectangularSection
-from microslip_mechanics.frame import (
+from microslip_mechanics.structures.beam import RectangularSection
+from microslip_mechanics.structures.frame import (
     MOTIONS,
     Beam,
     Frame,

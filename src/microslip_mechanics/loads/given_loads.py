@@ -1,0 +1,181 @@
+"""Loads as a user gives them: by name, by a moving base, by an engine order."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import numbers
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array, ComplexArray, numbers_of
+from microslip_mechanics.loads.engine_order import engine_order
+from microslip_mechanics.structures.forms import place_of
+from microslip_mechanics.structures.structure import Structure
+
+Drive: TypeAlias = Mapping[str, float | tuple[float, float]]
+"""amplitude [N], or amplitude and phase [rad], by degree of freedom"""
+Sets: TypeAlias = Mapping[str, Sequence[str]]
+"""nodes, by the name of their set"""
+
+
+@dataclass(frozen=True, slots=True)
+class EngineOrder:
+    """A wave that stands still around a disk that turns."""
+
+    blades: Sequence[str]
+    """the loaded degree of freedom of each blade, in the order around the disk"""
+    order: int
+    """maxima around the disk"""
+    amplitude: float
+    """on each blade [N]"""
+
+
+@dataclass(frozen=True, slots=True)
+class BaseMotion:
+    """Ground that moves all supports alike; motions are then relative to it."""
+
+    direction: Sequence[float]
+    """x, y, z; degrees of freedom say theirs by names such as ``12.z`` or ``tip.uz``"""
+    acceleration: float
+    """amplitude along it [m/s²]"""
+
+    def __post_init__(self) -> None:
+        """Check that there is a direction."""
+        direction = numbers_of(self.direction)
+        if direction.shape != (3,) or not direction.any():
+            raise ValueError(
+                f"base: direction {self.direction}: give three numbers, not all zero"
+            )
+        if numbers_of(self.acceleration).shape != ():
+            raise ValueError(
+                f"base: acceleration {self.acceleration}: give a finite number [m/s²]"
+            )
+
+    @property
+    def unit(self) -> Array:
+        """The direction, of length one."""
+        direction = np.asarray(self.direction, dtype=float)
+        unit: Array = direction / np.linalg.norm(direction)
+        return unit
+
+    def load(self, structure: Structure) -> Array:
+        """Return the load on a structure [N], shape (dofs,)."""
+        from microslip_mechanics.loads.base_excitation import (
+            carried_inertia,
+            translation,
+        )
+
+        carried = translation(structure.names, self.unit)
+        return -float(self.acceleration) * carried_inertia(structure, carried)
+
+
+def driven(
+    drive: Drive,
+    structure: Structure,
+    sets: Sets,
+    order: EngineOrder | None = None,
+    base: BaseMotion | None = None,
+) -> Array | ComplexArray:
+    """Return the drive [N], shape (dofs,): real if all acts in phase with the sine.
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown or an amplitude is not finite.
+    """
+    names, waves = structure.names, {}
+    if not isinstance(drive, Mapping):
+        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+            f"drive = {drive!r}: give amplitudes [N] by degree of freedom, such as "
+            f"{{{names[0]!r}: 1.0}}"
+        )
+    for name, wave in drive.items():
+        amplitude, phase = _wave(name, wave)
+        turn = math.remainder(phase, math.tau)
+        if turn in (0.0, math.pi, -math.pi):
+            waves[name] = complex(amplitude if turn == 0.0 else -amplitude)
+        else:
+            waves[name] = cmath.rect(1.0, phase) * amplitude
+    total = loads(waves, names, sets, "drive")
+    if not isinstance(order, EngineOrder | None):
+        raise ValueError(  # noqa: TRY004  (as above)
+            f"engine_order = {order!r}: give microslip.EngineOrder(blades, order, "
+            "amplitude)"
+        )
+    if not isinstance(base, BaseMotion | None):
+        raise ValueError(  # noqa: TRY004  (as above)
+            f"base = {base!r}: give microslip.BaseMotion(direction, acceleration)"
+        )
+    if order is not None:
+        total += engine_order(names, order.blades, order.order, order.amplitude)
+    if base is not None:
+        total += base.load(structure)
+    return total if total.imag.any() else total.real
+
+
+def preloaded(
+    preload: Mapping[str, float], names: tuple[str, ...], sets: Sets
+) -> Array:
+    """Return the static load [N], shape (dofs,).
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown or a force is not a finite real number.
+    """
+    if not isinstance(preload, Mapping):
+        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+            f"preload = {preload!r}: give static forces [N] by degree of freedom, such "
+            f"as {{{names[0]!r}: 1.0}}"
+        )
+    for name, force in preload.items():
+        if isinstance(force, numbers.Complex) and not isinstance(force, numbers.Real):
+            raise ValueError(  # noqa: TRY004  (as above)
+                f"preload of {name} is {force}: give a real number, a static force has "
+                "no phase"
+            )
+    return loads(preload, names, sets, "preload").real
+
+
+def _wave(name: str, given: object) -> tuple[float, float]:
+    """Return amplitude and phase of a load."""
+    several = isinstance(given, tuple | list) or getattr(given, "ndim", 0) > 0
+    pair: Any = given if several else (given, 0.0)
+    try:
+        amplitude, phase = (float(each) for each in pair)
+    except (TypeError, ValueError):
+        amplitude = phase = math.nan
+    if not math.isfinite(phase) or not math.isfinite(amplitude):
+        raise ValueError(
+            f"drive of {name} is {given!r}: give a finite amplitude [N], or a pair of "
+            "that and a phase [rad]"
+        )
+    return amplitude, phase
+
+
+def loads(
+    given: Mapping[str, float] | Mapping[str, complex],
+    names: tuple[str, ...],
+    sets: Sets,
+    what: str,
+) -> ComplexArray:
+    """Return loads over the degrees of freedom; ``set.direction`` is all of a set."""
+    total = np.zeros(len(names), dtype=complex)
+    for name, force in given.items():
+        if not isinstance(force, numbers.Number) or not cmath.isfinite(force):
+            raise ValueError(f"{what} of {name} is {force}: give a finite number")
+        for each in _members(name, names, sets):
+            total[place_of(each, names, what)] += force
+    return total
+
+
+def _members(name: str, names: tuple[str, ...], sets: Sets) -> list[str]:
+    """Return the degrees of freedom that a name stands for."""
+    group, _, direction = str(name).rpartition(".")  # what is no text is refused later
+    if name in names or group not in sets:
+        return [name]
+    return [f"{node}.{direction}" for node in sets[group]]

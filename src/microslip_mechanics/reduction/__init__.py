@@ -1,0 +1,1 @@
+"""Large structures in few coordinates, with what that leaves out."""

@@ -1,0 +1,1 @@
+"""What solvers return, and what is read from it."""

@@ -1,0 +1,1 @@
+"""Linear structures: beams, bodies, frames, rotation, damping, and their modes."""

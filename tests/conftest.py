@@ -12,9 +12,10 @@ from matplotlib.figure import Figure
 from microslip.cli import main
 from microslip.scene_file import built_in_text
 from microslip.schema import Result
+from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.response_curve import ResponseCurve
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.record.record import FLOWS, STORES
 
 PROBES = ("excited-blade", "follower-blade", "element", "element-to-excited")

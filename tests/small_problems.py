@@ -16,8 +16,9 @@ from microslip_mechanics.element import Element
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.loads.excitation import Dwell, LoadHistory
 from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.results.joined import joined
 from microslip_mechanics.results.response import PeriodicResponse
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structures.beam import RectangularSection
 from microslip_mechanics.structures.frame import Beam, Frame, Node

@@ -9,7 +9,8 @@ from dataclasses import replace
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.loads.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.fast.fast import FastMarch
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record.start import Start, at_rest

@@ -9,7 +9,8 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.fast.energy_scale import settled
 from timedomain.fast.fast import FastMarch
 from timedomain.options import MOST_DIVISIONS, MarchOptions

@@ -10,8 +10,9 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.joined import joined
 from microslip_mechanics.results.response import PeriodicResponse
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import on_orbit
 

@@ -83,6 +83,7 @@ def main(arguments: list[str] | None = None) -> int:
         reason = f"{words[0]}: no such argument: {unknown[0]}"
         return _failed(f"{reason}: see microslip {words[0]} --help", 2)
     options.command = shlex.join(["microslip", *words])
+    options.main = main  # for a command that runs others
     try:
         return _run(options)
     except BrokenPipeError:  # the reader of our output left, as `head` does

@@ -10,9 +10,9 @@ from microslip.result_file import end_of
 from microslip.schema import Growing
 from microslip.store import WrongFileError, begin, told
 from microslip.stream import Head, Stream, rows_of
+from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.cycle_rows import parted
 from microslip_mechanics.results.envelope import Envelope
-from microslip_mechanics.results.time_history import Checkpoint
 
 
 @dataclass(slots=True)

@@ -16,8 +16,9 @@ from microslip.store import Stored, WrongFileError
 from microslip.stored_curve import stored_curve
 from microslip.stream import Head, rows_of
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.results.joined import joined
 from microslip_mechanics.results.thinning import thinned
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.time_history import TimeHistory
 
 TEXTS = ("kind", "scene", "command")
 CHUNK = 50_000

@@ -8,9 +8,10 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.response_curve import ResponseCurve
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 
 Growing: TypeAlias = TimeHistory | Envelope
 """results that a march adds to"""

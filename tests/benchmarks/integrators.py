@@ -30,7 +30,8 @@ from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.loads.excitation import LoadHistory, SweptSine
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 from other_schemes import ESDIRK3, LINEAR_FORCE, TR_BDF2
 from timedomain.fast.fast import FastMarch
 from timedomain.fast.schemes import MEAN_FORCE, SDIRK2, TRAPEZOID, Scheme

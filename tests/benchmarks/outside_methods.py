@@ -20,7 +20,7 @@ from benchmarks.work_precision import Setting
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import joined
+from microslip_mechanics.results.joined import joined
 from timedomain.first_order.first_order import FirstOrder, Flow, Jacobian
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import Start

@@ -28,8 +28,8 @@ from microslip.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
+from microslip_mechanics.results.joined import joined
 from microslip_mechanics.results.response import PeriodicResponse
-from microslip_mechanics.results.time_history import joined
 from microslip_mechanics.static import static_equilibrium
 from small_motions.multipliers import floquet_multipliers, monodromy
 from timedomain.integrate import MarchOptions, integrate

@@ -9,9 +9,11 @@ import pytest
 from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.loads.segments import factors_over
 from microslip_mechanics.loads.sine_test import SineTest, Tone
+from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.cycle_rows import enveloped, parted
 from microslip_mechanics.results.envelope import Envelope
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 
 LOADS = SineTest(0.0, 0.0, (Tone(10.0, 30.0, 2.0), Tone(30.0, 10.0, 2.0, 3.0)), 0.0)
 ROWS = 40_000

@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from microslip_mechanics.results.joined import joined
 from microslip_mechanics.results.thinning import thinned
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.time_history import TimeHistory
 
 
 def long(history: TimeHistory, rows: int) -> TimeHistory:

@@ -5,7 +5,8 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 
 ENERGIES = ("input", "kinetic", "elastic", "friction")
 

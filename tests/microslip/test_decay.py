@@ -28,8 +28,10 @@ from microslip.studies.decay import (
 from microslip.studies.dwell import dwelling
 from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.joined import joined
 from microslip_mechanics.results.ring_down import RingDown
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory, joined
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from rigs import rig_problem

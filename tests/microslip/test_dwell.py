@@ -17,7 +17,8 @@ from microslip.figures.dwell import dwell_figure
 from microslip.result_file import load
 from microslip.studies.dwell import _left, amplitudes, dwelling
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
 from small_problems import cubic_oscillator, oscillator
 

@@ -15,8 +15,9 @@ from microslip.result_file import load
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.store import StoreError
+from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.integrate import integrate
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

@@ -10,7 +10,7 @@ from microslip.studies.dwell import amplitudes, dwelling
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import Dwell, LoadHistory, SweptSine
 from microslip_mechanics.loads.sine_test import SineTest, Tone
-from microslip_mechanics.results.time_history import joined
+from microslip_mechanics.results.joined import joined
 from rigs import rig_problem
 from small_problems import marched
 from timedomain.integrate import MarchOptions

@@ -9,7 +9,7 @@ import scipy.integrate
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import joined
+from microslip_mechanics.results.joined import joined
 from microslip_mechanics.system import system
 from timedomain.integrate import MarchOptions, integrate
 

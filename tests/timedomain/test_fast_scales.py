@@ -12,7 +12,8 @@ from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.loads.excitation import Dwell, SweptSine
 from microslip_mechanics.loads.sine_test import SineTest, Tone, stepped
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from rigs import rig_problem

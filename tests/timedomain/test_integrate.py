@@ -12,7 +12,8 @@ from microslip_mechanics.element import Element
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.loads.excitation import Dwell, SweptSine
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.system import system
 from rigs import rig_problem
 from small_problems import NORMAL, from_rest, marched, mass_on_contact, oscillator

@@ -7,7 +7,8 @@ from contact_tables import FRICTION_LAWS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 from small_problems import from_rest, sliding_block
 from timedomain.integrate import MarchOptions, integrate
 

@@ -14,7 +14,8 @@ from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.loads.given_loads import Drive
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from timedomain.first_order.first_order import first_order

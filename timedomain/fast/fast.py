@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import LoadHistory
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.fast.coordinates import modal_coordinates
 from timedomain.fast.fast_control import SAFETY, fast_control
 from timedomain.fast.fast_history import empty_rows, fast_history

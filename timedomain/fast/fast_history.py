@@ -8,7 +8,8 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.fast.motion import DRIFT, LARGEST_DRIFT, OTHER_WORK, REFERENCE, UNKEPT
 from timedomain.record.record import row_length
 from timedomain.record.stored_history import stored_history

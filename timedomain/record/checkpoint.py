@@ -13,7 +13,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import Checkpoint
+from microslip_mechanics.results.checkpoint import Checkpoint
 from timedomain.contact.state import State
 from timedomain.record.meters import meters
 from timedomain.record.record import Meters

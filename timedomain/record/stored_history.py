@@ -6,7 +6,8 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.record.record import FLOWS, STORES
 
 

@@ -8,7 +8,8 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import LoadHistory
 from microslip_mechanics.loads.segments import factors_over
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.contact.operators import Operators, step_operators
 from timedomain.options import IntegrationError, MarchOptions
 from timedomain.record.checkpoint import checkpoint, restore

@@ -18,7 +18,8 @@ from microslip_mechanics.errors import MicroslipError
 if TYPE_CHECKING:
     from microslip.scene_tables import Scene
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+    from microslip_mechanics.results.checkpoint import Checkpoint
+    from microslip_mechanics.results.time_history import TimeHistory
 
 PERIODS = 300
 

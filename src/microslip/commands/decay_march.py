@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from microslip.experiments import March
     from microslip.scene_tables import Scene
     from microslip_mechanics.problem import Problem
-    from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+    from microslip_mechanics.results.checkpoint import Checkpoint
+    from microslip_mechanics.results.time_history import TimeHistory
 
 
 def recorded(
@@ -48,7 +49,7 @@ def marched(
     from microslip.commands.sweep import watched
     from microslip.studies.decay import released
     from microslip.studies.sweep import kept
-    from microslip_mechanics.results.time_history import joined
+    from microslip_mechanics.results.joined import joined
 
     (state, frequency), (name, also) = begin, shown
     blocks: list[TimeHistory] = []

@@ -110,7 +110,7 @@ def dwelled(
     from microslip.recording import Recording
     from microslip.studies.dwell import dwelling
     from microslip.studies.sweep import kept
-    from microslip_mechanics.results.time_history import joined
+    from microslip_mechanics.results.joined import joined
 
     if not problem.drive.any():
         raise SceneError(

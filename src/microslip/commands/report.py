@@ -114,7 +114,7 @@ def _sections(
             words = words_of(
                 part, options.scene, options.overrides, folder, quick=options.quick
             )
-            yield section_of(part, words, folder)
+            yield section_of(part, words, folder, options.main)
 
 
 def _scene(scene: Scene) -> Section:

@@ -6,7 +6,7 @@ import contextlib
 import io
 import shlex
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from microslip.commands.report_parts import Part
@@ -15,12 +15,14 @@ from microslip.page import DONE, FAILED, STOPPED, Section
 INTERRUPTED = 130
 
 
-def section_of(part: Part, words: list[str], folder: Path) -> Section:
+def section_of(
+    part: Part, words: list[str], folder: Path, run: Callable[[list[str]], int]
+) -> Section:
     """Run a part's command in this process; return what it prints and draws."""
     picture = (folder / part.command).with_suffix(".png")
     picture.unlink(missing_ok=True)  # that of an earlier report
     began = time.perf_counter()
-    status, said, complaints = _ran(words)
+    status, said, complaints = _ran(words, run)
     state = {0: DONE, INTERRUPTED: STOPPED}.get(status, FAILED)
     result = _telling(part, said) if state == DONE else ""
     if state != DONE:
@@ -51,14 +53,12 @@ def words_of(
     return [*words, "-o", str(folder / part.command)] if part.files else words
 
 
-def _ran(words: list[str]) -> tuple[int, str, str]:
+def _ran(words: list[str], run: Callable[[list[str]], int]) -> tuple[int, str, str]:
     """Return exit status, output and complaints of a command."""
-    from microslip.cli import main
-
     said, complaints = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaints):
         try:
-            status = main(words)
+            status = run(words)
         except Exception as error:  # a defect costs its section alone
             status = 1
             complaints.write(f"{type(error).__name__}: {error}")

@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from microslip.recording import Recording
     from microslip.scene_tables import Scene
     from microslip_mechanics.problem import Problem
+    from microslip_mechanics.results.checkpoint import Checkpoint
     from microslip_mechanics.results.envelope import Envelope
-    from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+    from microslip_mechanics.results.time_history import TimeHistory
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

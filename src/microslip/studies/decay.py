@@ -15,8 +15,9 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.ring_down import RingDown, ring_down
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.checkpoint import at_end

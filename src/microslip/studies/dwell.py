@@ -13,7 +13,8 @@ from microslip.studies.march_size import demand_end
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.driftless import driftless, undragged_motions

@@ -12,7 +12,7 @@ from microslip.studies.verify import StudyError, envelope_of
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.time_history import joined
+from microslip_mechanics.results.joined import joined
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import on_orbit
 

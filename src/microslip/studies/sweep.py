@@ -13,9 +13,11 @@ from microslip.studies.march_size import demand_end
 from microslip_mechanics.loads.excitation import LoadHistory, SweptSine
 from microslip_mechanics.loads.segments import clock
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.cycle_rows import enveloped, parted
 from microslip_mechanics.results.envelope import Envelope
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory, joined
+from microslip_mechanics.results.joined import joined
+from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.integrate import IntegrationError, MarchOptions, integrate
 from timedomain.record.start import loaded
 

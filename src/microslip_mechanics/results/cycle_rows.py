@@ -9,8 +9,9 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.segments import Segments, clock
+from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
-from microslip_mechanics.results.time_history import Checkpoint, TimeHistory
+from microslip_mechanics.results.time_history import TimeHistory
 
 LAST, HIGHEST, LOWEST = 0, 1, 2
 """which row of a cycle a column keeps"""

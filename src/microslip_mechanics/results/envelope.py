@@ -8,11 +8,8 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.by_value import ByValue
-from microslip_mechanics.results.time_history import (
-    Checkpoint,
-    closing_error,
-    energy_of,
-)
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.energies import closing_error, energy_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,31 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.by_value import ByValue
-
-if TYPE_CHECKING:
-    from microslip_mechanics.results.envelope import Envelope
-
-Block = TypeVar("Block", "TimeHistory", "Envelope")
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Checkpoint(ByValue):
-    """The end of a block: from here a march goes on as if it had never stopped."""
-
-    displacement: Array
-    """[m], shape (dofs,)"""
-    velocity: Array
-    """[m/s], shape (dofs,)"""
-    memory: Array
-    """what else the integrator keeps, in an order of its own, shape (numbers,)"""
+from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.energies import closing_error, energy_of
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -90,34 +73,3 @@ class TimeHistory(ByValue):
     def closing_error(self) -> Array:
         """What the energy balance leaves [J], shape (times,) (theory, eq. 26)."""
         return closing_error(self)
-
-
-def energy_of(result: TimeHistory | Envelope, name: str) -> Array:
-    """Return one energy [J], shape (rows,)."""
-    column: Array = result.energy[:, result.energies.index(name)]
-    return column
-
-
-def closing_error(result: TimeHistory | Envelope) -> Array:
-    """Return what the energy balance leaves [J], shape (rows,) (theory, eq. 26)."""
-    others = [place for place, name in enumerate(result.energies) if name != "input"]
-    spent: Array = result.energy[:, others].sum(axis=1)
-    return energy_of(result, "input") + result.stored_at_start - spent
-
-
-def joined(blocks: Sequence[Block], ending: str) -> Block:
-    """Return blocks of one march as one."""
-    first = blocks[0]
-    whole: dict[str, Any] = {
-        each.name: np.concatenate([getattr(block, each.name) for block in blocks])
-        for each in fields(first)
-        if isinstance(getattr(first, each.name), np.ndarray)
-    }
-    return replace(
-        first,
-        **whole,
-        iterations=sum(block.iterations for block in blocks),
-        divided=sum(block.divided for block in blocks),
-        ending=ending,
-        checkpoint=blocks[-1].checkpoint,
-    )

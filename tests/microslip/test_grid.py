@@ -58,7 +58,9 @@ def test_an_attempt_tells_how_it_ended() -> None:
     sticking = replace(cases(RIG)[0], friction=5.0, preload=100.0, drive=0.1)
     impossible = replace(sticking, sigma=-1.0)
 
-    whole, wrong = attempts("two-blades", ("model=A",), [sticking, impossible])
+    whole, wrong = attempts(
+        "two-blades", ("model=A",), [sticking, impossible], seconds=60.0, processes=1
+    )
 
     assert whole.ending == "complete"
     assert whole.points > 10
@@ -68,6 +70,18 @@ def test_an_attempt_tells_how_it_ended() -> None:
     assert wrong.points == 0
     assert not wrong.whole
     assert "[contact] sigma = -1.0" in wrong.ending
+
+
+def test_a_curve_ends_where_its_time_does_and_keeps_its_points() -> None:
+    slow = replace(cases(RIG)[0], threshold=1e-6, friction=0.3, preload=1.0, drive=1.0)
+
+    (late,) = attempts("two-blades", ("model=A",), [slow], seconds=0.3, processes=1)
+
+    assert late.ending == "out of time after 0.3 s"
+    assert not late.whole
+    assert late.points > 0
+    assert 0.01 < late.gap < 1.0
+    assert 0.3 <= late.seconds < 3.0
 
 
 @pytest.mark.parametrize("name", ["bladed-disk", "jenkins"])

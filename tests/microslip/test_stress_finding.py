@@ -10,9 +10,9 @@ import pytest
 
 from hbm.options import CurveOptions
 from microslip.studies import stress_witness
+from microslip.studies.clock import Clock
 from microslip.studies.curve import Traced
 from microslip.studies.stress_case import Case
-from microslip.studies.stress_clock import Clock
 from microslip.studies.stress_curve import Drawn
 from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.results.response import PeriodicResponse

@@ -11,9 +11,9 @@ from threading import Thread
 import pytest
 
 from microslip.studies.bounded import bounded
+from microslip.studies.clock import Clock, OutOfTimeError, limited
 from microslip.studies.stress_budget import LEAST, MOST, WHOLE, Budget
 from microslip.studies.stress_case import Case
-from microslip.studies.stress_clock import Clock, OutOfTimeError, limited
 
 
 def test_cases_share_what_is_left_of_ten_minutes(

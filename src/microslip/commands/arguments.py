@@ -80,6 +80,16 @@ def outputs(
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
 
 
+def add_processes(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add in how many processes something is done."""
+    parser.add_argument(
+        "--processes",
+        type=whole(1, 64),
+        default=2,
+        help=f"{what} at the same time (default: 2)",
+    )
+
+
 def add_table(parser: argparse.ArgumentParser) -> None:
     """Add where a table goes."""
     parser.add_argument(

@@ -38,6 +38,13 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument(
         "--quick", action="store_true", help="every tenth combination only"
     )
+    parser.add_argument(
+        "--seconds",
+        type=arguments.positive,
+        default=60.0,
+        help="of processor time that a curve may take (default: 60)",
+    )
+    arguments.add_processes(parser, "curves are traced")
     arguments.add_table(parser)
     parser.set_defaults(run=_run)
 
@@ -54,7 +61,13 @@ def _run(options: argparse.Namespace) -> int:
     print(HEADER)
     try:
         for attempt in collected(
-            attempts(options.scene, tuple(options.overrides), chosen),
+            attempts(
+                options.scene,
+                options.overrides,
+                chosen,
+                seconds=options.seconds,
+                processes=options.processes,
+            ),
             found,
             total=len(chosen),
             unit="curves",

@@ -52,12 +52,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help=f"a case may take at most (default: {QUICK:g} with --quick, else twice "
         "its part of what is left of ten minutes for all, and no more than 40)",
     )
-    parser.add_argument(
-        "--processes",
-        type=arguments.whole(1, 64),
-        default=2,
-        help="cases are tried at the same time (default: 2)",
-    )
+    arguments.add_processes(parser, "cases are tried")
     arguments.add_output(parser, "stress")
     parser.set_defaults(run=_run)
 

@@ -25,10 +25,10 @@ OTHERS = ("branch", "detached")
 def told(curve: ResponseCurve) -> ResponseCurve:
     """Return a curve whose ending says where it is missing, if that is not narrow."""
     wide = uncovered(curve) > NARROW
-    missing = [*(_gap_lines(curve) if wide else []), *_broken_lines(curve)]
-    if curve.ending != "complete" or not missing:
+    lost = [*(_gap_lines(curve) if wide else []), *_broken_lines(curve)]
+    if curve.ending != "complete" or not lost:
         return curve
-    return replace(curve, ending=f"{' and '.join(missing)}: {REMEDY}")
+    return replace(curve, ending=f"{' and '.join(lost)}: {REMEDY}")
 
 
 def lines(curve: ResponseCurve) -> list[str]:
@@ -64,6 +64,13 @@ def uncovered(curve: ResponseCurve) -> float:
         return 0.0
     own = _own(curve)
     return sum(high - low for low, high in found) / float(own.max() - own.min())
+
+
+def missing(curve: ResponseCurve, lowest: float, highest: float) -> float:
+    """Return the share of a range of the parameter in which a curve has no point."""
+    own = _own(curve)
+    covered = float(own.max() - own.min()) * (1.0 - uncovered(curve))
+    return max(0.0, 1.0 - covered / (highest - lowest))
 
 
 def gaps(curve: ResponseCurve) -> list[tuple[float, float]]:

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
+import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
+from microslip.studies.bounded import bounded
+from microslip.studies.clock import LATE, OutOfTimeError, limited
 from microslip.studies.curve import trace_curve
-from microslip.studies.gaps import uncovered
-from microslip_mechanics.errors import MicroslipError
+from microslip.studies.gaps import missing
+from microslip.studies.stress_finding import EXPECTED, line
 
 LAWS = ("coulomb", "gkf")
 SIGMAS = (3e-9, 3e-7)
@@ -24,6 +29,8 @@ LOADS = tuple(itertools.product((0.01, 1.0, 100.0), (0.1, 1.0, 100.0)))
 """preload and drive [N]"""
 QUICK = 10
 """every so-many-th case is enough for a quick look, in which no value is missing"""
+PATIENCE = 1.5
+"""times as long may pass until its process is ended, where nothing interrupts it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +75,7 @@ class Attempt:
     gap: float
     """share of the range in which there is no curve"""
     seconds: float
+    """of processor time"""
 
     @property
     def whole(self) -> bool:
@@ -97,25 +105,56 @@ def cases(scene: Scene) -> list[Case]:
 
 
 def attempts(
-    scene: str, overrides: tuple[str, ...], chosen: list[Case]
+    scene: str,
+    overrides: Sequence[str],
+    chosen: Sequence[Case],
+    *,
+    seconds: float,
+    processes: int,
 ) -> Iterator[Attempt]:
-    """Trace the curve of each case; a curve that cannot be traced is a result too.
+    """Trace the curves of cases, several at the same time; yield them as they end.
 
-    Raises
-    ------
-    KeyboardInterrupt
-        After the attempt that is interrupted, which is a result as far as it went.
+    A curve that cannot be traced is a result too. One that takes more than ``seconds``
+    of processor time ends there.
     """
-    for case in chosen:
-        began = time.perf_counter()
-        points, error, gap = 0, 0.0, 1.0
-        try:
-            loaded = load_scene(scene, (*overrides, *case.overrides))
-            traced = trace_curve(problem_of(loaded), loaded.curve)
-            ending, points = traced.curve.ending, traced.curve.frequency.size
-            error, gap = float(traced.curve.error.max()), uncovered(traced.curve)
-        except (MicroslipError, ValueError, ArithmeticError, RuntimeWarning) as cause:
-            ending = " ".join(str(cause).split())
-        yield Attempt(case, ending, points, error, gap, time.perf_counter() - began)
-        if ending == "interrupted":
-            raise KeyboardInterrupt
+    for ended in bounded(
+        partial(_attempted, scene, tuple(overrides), seconds),
+        chosen,
+        seconds=lambda _: PATIENCE * seconds,
+        processes=processes,
+        prepare=partial(_prepare, scene, tuple(overrides)),
+    ):
+        lost = Attempt(ended.item, ended.cause, 0, 0.0, 1.0, ended.seconds)
+        yield lost if ended.cause else ended.result
+
+
+def _prepare(scene: str, overrides: tuple[str, ...]) -> None:
+    """Have the machine code made, as far as the scene lets it."""
+    with contextlib.suppress(*EXPECTED):
+        loaded = load_scene(scene, (*overrides, "curve.harmonics=3"))
+        trace_curve(
+            problem_of(loaded), loaded.curve, lambda points: itertools.islice(points, 2)
+        )
+
+
+def _attempted(
+    scene: str, overrides: tuple[str, ...], seconds: float, case: Case, _: float
+) -> Iterator[Attempt]:
+    """Yield how a case went."""
+    began = time.process_time()
+    points, error, gap = 0, 0.0, 1.0
+    try:
+        loaded = load_scene(scene, (*overrides, *case.overrides))
+        problem = problem_of(loaded)
+        with limited(seconds):
+            curve = trace_curve(problem, loaded.curve).curve
+        ending, points = curve.ending, curve.frequency.size
+        error = float(curve.error.max())
+        gap = missing(
+            curve, math.tau * loaded.curve.lowest, math.tau * loaded.curve.highest
+        )
+    except (*EXPECTED, OutOfTimeError) as cause:
+        ending = line(cause)
+    if ending == LATE:
+        ending = f"{LATE} after {seconds:g} s"
+    yield Attempt(case, ending, points, error, gap, time.process_time() - began)

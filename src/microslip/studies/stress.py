@@ -14,10 +14,10 @@ from hbm.errors import ContinuationError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.bounded import bounded
+from microslip.studies.clock import Clock, OutOfTimeError
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_budget import Budget
 from microslip.studies.stress_case import Case
-from microslip.studies.stress_clock import Clock, OutOfTimeError
 from microslip.studies.stress_curve import Drawn, drawn
 from microslip.studies.stress_finding import (
     EXPECTED,

@@ -11,8 +11,8 @@ from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.experiments import Curve
+from microslip.studies.clock import LATE, Clock, OutOfTimeError
 from microslip.studies.curve import Traced, curve_options, trace_curve, traced_of
-from microslip.studies.stress_clock import LATE, Clock, OutOfTimeError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 

@@ -11,9 +11,9 @@ from microslip.quantity import SceneError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.scene_tables import Scene
+from microslip.studies.clock import OutOfTimeError, limited
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_case import Case
-from microslip.studies.stress_clock import OutOfTimeError, limited
 from microslip.studies.stress_finding import EXPECTED, Finding, Outcome, line
 from microslip_mechanics.problem import Problem
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from hbm.curves.periodic_response import with_multipliers
 from microslip.scene_tables import Scene
+from microslip.studies.clock import Clock, OutOfTimeError
 from microslip.studies.dwell import dwelling
-from microslip.studies.stress_clock import Clock, OutOfTimeError
 from microslip.studies.stress_condition import condition
 from microslip.studies.stress_curve import Drawn
 from microslip.studies.stress_finding import (

@@ -1,4 +1,4 @@
-"""The time that a part of a case under stress may take."""
+"""Processor time that something may take, and its interruption when that is over."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class OutOfTimeError(KeyboardInterrupt):
 
 @dataclass(frozen=True, slots=True)
 class Clock:
-    """The processor time of a case; what a part of it leaves is for those after it."""
+    """Processor time for parts of a whole; what one leaves is for those after it."""
 
     seconds: float
     """for all of it"""

@@ -2,7 +2,7 @@
 
 import csv
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TypeAlias
 
@@ -10,6 +10,8 @@ import pytest
 
 from hbm.errors import ContinuationError
 from hbm.solve import frequency_response
+from microslip.studies.grid import Case
+from microslip.studies.worker import Ended, Task
 from microslip_mechanics.results.response import PeriodicResponse
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -72,17 +74,27 @@ def test_track_goes_on_behind_a_curve_that_is_stuck_and_says_so(
     assert error == told
 
 
-def test_grid_keeps_the_attempt_and_begins_no_other(
+def test_grid_keeps_the_attempts_that_have_ended(
     run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    curves = solver(monkeypatch, KeyboardInterrupt())
+    def stopped(
+        task: Task, cases: Sequence[Case], **_: object
+    ) -> Iterator[Ended[Case]]:
+        (attempt,) = task(cases[0], 60.0)
+        yield Ended(cases[0], attempt, "", 1.0)
+        raise KeyboardInterrupt
 
-    status, _, error = run("grid", str(quick_scene), "--quick", "--csv", "grid.csv")
+    monkeypatch.setattr("microslip.studies.grid.bounded", stopped)
 
-    assert (status, error, curves.curves) == (130, KEPT, 1)
+    status, output, error = run(
+        "grid", str(quick_scene), "--quick", "--csv", "grid.csv"
+    )
+
+    assert (status, error) == (130, KEPT)
+    assert output.count("complete") == 1
     with (tmp_path / "grid.csv").open(encoding="utf-8", newline="") as file:
         (row,) = csv.DictReader(file)
-    assert (row["ending"], row["points"]) == ("interrupted", "2")
+    assert (row["law"], row["ending"]) == ("coulomb", "complete")
 
 
 @pytest.mark.long

@@ -102,12 +102,12 @@ CARRIED = ("base.direction=[0,0,1]", "base.acceleration=1")
     [
         ("two-blades", (), ()),
         ("friction-beam", (), ()),
-        ("two-blades", TURNED, ("scenes.turning", "mechanics.rotating_frame")),
-        ("friction-beam", CARRIED, ("mechanics.base_excitation",)),
+        ("two-blades", TURNED, ("scenes.turning", "structures.rotating_frame")),
+        ("friction-beam", CARRIED, ("loads.base_excitation",)),
         (
             "friction-beam",
             ("structure.reduction.highest=20000",),
-            ("mechanics.reduced_problem",),
+            ("reduction.reduced_problem",),
         ),
     ],
 )

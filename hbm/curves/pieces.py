@@ -49,7 +49,7 @@ class Pieces:
             yield from self._noted(self._from(self.start, self.end), there)
         except ContinuationError as error:
             stopped = error
-        if stopped is None and there[-1:] in ([], [1.0]):
+        if stopped is None and _arrived(there, 1.0):
             return
         back: list[float] = []
         again = FIRST if there else ()
@@ -57,7 +57,7 @@ class Pieces:
             yield from self._noted(self._from(self.end, self.start, again), back)
         except ContinuationError as error:
             raise stopped or error from None
-        if back[-1:] in ([], [0.0]):
+        if _arrived(back, 0.0):
             return
         if stopped is not None:
             raise stopped
@@ -167,3 +167,11 @@ class Pieces:
             return heading
         onwards = math.copysign(1.0, last.along[-1])
         return max(self.start, self.end, key=lambda each: onwards * each)
+
+
+def _arrived(shares: list[float], end: float) -> bool:
+    """Return whether a trace has come to an end of the range, or had nothing to trace.
+
+    ``shares`` are those of the range that lie before each of its points.
+    """
+    return not shares or shares[-1] == end

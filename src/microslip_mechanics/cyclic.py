@@ -27,7 +27,7 @@ class Coupling:
     """[N/m]"""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class CyclicProblem:
     """N equal sectors; each moves like the one before, earlier by 2π E/N of a period.
 

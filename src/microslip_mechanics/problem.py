@@ -28,11 +28,12 @@ class Probes:
             )
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Problem:
     """M ü + C u̇ + K u + Lᵀ f(L u, L u̇) = preload + Im(drive · e^(i excitation phase)).
 
-    A real drive acts in phase with the sine.
+    A real drive acts in phase with the sine. A problem equals itself alone, and may be
+    a key of what was computed of it.
     """
 
     structure: Structure

@@ -36,6 +36,14 @@ def test_parts_that_fit_make_a_problem() -> None:
     assert whole.interface.displacement.shape == (3, whole.structure.dofs)
 
 
+def test_a_problem_equals_itself_and_is_a_key() -> None:
+    one, other = problem(), problem()
+
+    assert one == one  # noqa: PLR0124
+    assert one != other
+    assert {one: "curve"}[one] == "curve"
+
+
 @pytest.mark.parametrize(
     ("name", "parts"),
     [

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import NamedTuple
 
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import PRECISION, ROUGH, ROUGHER, Segment, folds
+from hbm.events.crossing_error import crossing_error, witness
 from hbm.events.moving_multiplier import MovingMultiplier, outside
 from hbm.events.multipliers import Multipliers
 from hbm.events.settled import Settled
@@ -31,6 +35,16 @@ mean position that hardly decays is there all the time"""
 TORUS, BRANCH = "Neimark-Sacker", "branch point"
 
 
+class Crossing(NamedTuple):
+    """A multiplier on the unit circle."""
+
+    name: str
+    """of what happens there"""
+    point: Correction
+    error: Callable[[], float]
+    """of the parameter; NaN if nothing is known of it"""
+
+
 @dataclass(frozen=True, slots=True)
 class Crossings:
     """Finds them along a path."""
@@ -42,8 +56,8 @@ class Crossings:
 
     def between(
         self, segment: Segment, before: Settled, after: Settled
-    ) -> Iterator[tuple[str, Correction]]:
-        """Yield what happens where a multiplier crosses the circle, and the point."""
+    ) -> Iterator[Crossing]:
+        """Yield what happens where a multiplier crosses the circle."""
         paired = False
         if before.multipliers.size != after.multipliers.size:
             return  # one of the two has none that are known
@@ -51,15 +65,14 @@ class Crossings:
             if paired:  # a conjugate crosses where the one before it does
                 paired = False
                 continue
-            located, multiplier = self._crossing(segment, which, before, after)
-            kind = crossed(multiplier)
+            crossing, multiplier = self._crossing(segment, which, before, after)
             paired = _turns(multiplier)
-            if located is not None:
-                yield kind, located
+            if crossing is not None:
+                yield crossing
 
     def _crossing(
         self, segment: Segment, which: int, before: Settled, after: Settled
-    ) -> tuple[Correction | None, complex]:
+    ) -> tuple[Crossing | None, complex]:
         """Return where a multiplier crosses the unit circle, if it does, and its value.
 
         The value is the one next to it that is still outside. A multiplier that leaps
@@ -77,12 +90,42 @@ class Crossings:
             if not self._astray(segment, located, moving, told):
                 break
             moving = MovingMultiplier(which, before.multipliers, after.multipliers)
-            located = self._along(segment, moving, told, each)
-        if self.recalls and located is not None:
-            first, last = moving.ends
-            growth = moving.growth(self._finest(located, finer))
-            located = None if abs(growth) > LEAP * abs(last - first) else located
-        return located, moving.outside
+            located, finer, precision = (
+                self._along(segment, moving, told, each),
+                told,
+                each,
+            )
+        multiplier = moving.outside
+        if located is None:
+            return None, multiplier
+        growth = moving.growth(self._finest(located, finer))
+        first, last = moving.ends
+        if self.recalls and abs(growth) > LEAP * abs(last - first):
+            return None, multiplier
+        used = finer or self.system.fourier
+        other = witness(used, told or used)
+        known = segment, located, moving, growth
+        error = partial(self._error, *known, other, precision)
+        return Crossing(crossed(multiplier), located, error), multiplier
+
+    def _error(
+        self,
+        segment: Segment,
+        located: Correction,
+        moving: MovingMultiplier,
+        growth: float,
+        other: FourierBasis,
+        precision: float,
+    ) -> float:
+        """Return how far aside a crossing may lie, by an orbit of another resolution.
+
+        ``growth`` is that of the orbit with which it was located.
+        """
+        orbit = self.multipliers.finer(located.point, other)
+        if orbit is None:
+            return math.nan
+        doubt = abs(moving.growth(self.multipliers.at(orbit, other)) - growth)
+        return crossing_error(segment, located, moving.ends, doubt, precision)
 
     def _along(
         self,

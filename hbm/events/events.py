@@ -5,7 +5,6 @@ Each is located on the curve, and settled as accurately as its points (theory §
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -162,7 +161,7 @@ class Events:
     ) -> Event | None:
         """Return a settled event with its errors; None if it is no event."""
         error: float | None
-        error, aside, bend = math.nan, 0.0, found.bend
+        error, aside, bend = found.error(), 0.0, found.bend
         if found.name == "fold":
             settled, aside = self._placed(found, settled, segment, metric)
             error = fold_error(self.system, segment, settled, bend)
@@ -178,9 +177,9 @@ class Events:
     ) -> Iterator[Found]:
         """Yield where stability changes."""
         crossings = Crossings(self.system, self.multipliers, self.recalls)
-        for name, located in crossings.between(segment, before, after):
-            place = segment.place(located.point)
-            yield Found(place, name, located, self.system.fourier)
+        for name, located, error in crossings.between(segment, before, after):
+            place, fourier = segment.place(located.point), self.system.fourier
+            yield Found(place, name, located, fourier, error=error)
 
 
 def _zero(growth: tuple[float, float]) -> float:

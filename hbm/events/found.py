@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from hbm.continuation.correction import Correction
@@ -32,6 +32,8 @@ class Found(NamedTuple):
     aside: float = 0.0
     """error of the parameter, if points between do not converge: the event is at the
     nearer end then"""
+    error: Callable[[], float] = lambda: math.nan
+    """of the parameter, of a change of stability"""
 
 
 def found_between(

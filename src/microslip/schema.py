@@ -42,7 +42,7 @@ CURVE: Schema = {
     "unstable": (("point",), "1", "Floquet multipliers outside the unit circle"),
     "event": (("point", "name"), "", "what the point is located as"),
     "parameter": (("point",), "SI", "what the curve is followed along"),
-    "parameter_error": (("point",), "SI", "estimated error of a peak or fold"),
+    "parameter_error": (("point",), "SI", "estimated error of an event"),
     "probes": (("probe", "name"), "", "what is watched"),
     "contacts": (("contact", "name"), "", "contact points"),
 }

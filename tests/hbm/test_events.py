@@ -10,9 +10,10 @@ import pytest
 from numpy.polynomial import polynomial
 
 from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.segment import ROUGH
 from hbm.continuation.step_control import StepControl
 from hbm.events.amplitude_growth import AmplitudeGrowth
-from hbm.events.events import Events
+from hbm.events.events import Event, Events
 from hbm.events.settled import Settled
 from hbm.forces.fourier import FourierBasis
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -100,16 +101,25 @@ class Known:
         ordered: ComplexArray = found[np.argsort(-np.abs(found))]
         return ordered
 
+    def finer(self, point: Array, _: FourierBasis) -> Array:
+        """Return the point with another resolution: it is known without any."""
+        return point
+
 
 class Passing(Known):
     """Real multipliers that pass +1 at given places."""
 
-    def __init__(self, *places: float) -> None:
-        self.places = places
+    def __init__(self, *places: float, truncated: float = 0.0) -> None:
+        self.places, self.truncated = places, truncated
 
-    def at(self, point: Array, _: object = None) -> ComplexArray:
-        """Return the multipliers at a point, the largest first."""
+    def at(self, point: Array, fourier: FourierBasis = FOURIER) -> ComplexArray:
+        """Return the multipliers at a point, the largest first.
+
+        By more harmonics than the curve has they come to 1 elsewhere.
+        """
         away = point[self.component] - np.array(self.places)
+        if fourier.harmonics > FOURIER.harmonics:
+            away -= self.truncated
         falling: ComplexArray = np.sort(1.0 + 0.3 * away)[::-1].astype(complex)
         return falling
 
@@ -133,10 +143,16 @@ def amplitudes(points: Sequence[Array]) -> Array:
     return np.abs([point[:1] for point in points])
 
 
-def found(
+def found(known: Known, line: Line, **more: bool) -> list[tuple[str, float]]:
+    """Return the events between the places 0 and 1, and where they are."""
+    told = happening(known, line, **more)
+    return [(each.name, each.correction.point[line.component]) for each in told]
+
+
+def happening(
     known: Known, line: Line, *, owes: bool = False, recalls: bool = False
-) -> list[tuple[str, float]]:
-    """Return the events between the places 0 and 1, and where they are.
+) -> list[Event]:
+    """Return the events between the places 0 and 1.
 
     ``owes`` says that no multiplier has crossed for a fold before 0, ``recalls`` that
     there are sliders.
@@ -168,8 +184,7 @@ def found(
             solved, known.at(point), FOURIER, False, solved, FOURIER, owes=owes
         )
         ends.append(events.directed(settled, np.ones_like))
-    between = events.between(ends[0], ends[1], np.ones_like)
-    return [(name, located.point[line.component]) for located, name, *_ in between]
+    return list(events.between(ends[0], ends[1], np.ones_like))
 
 
 def test_rounding_is_no_growth_of_an_amplitude() -> None:
@@ -302,3 +317,11 @@ def test_a_branch_point_is_told_unless_it_is_the_folds(
     for name, place in events:
         known = (fold,) if name == "fold" else places
         assert np.abs(place - np.array(known)).min() < 2e-3
+
+
+def test_a_crossing_errs_by_what_more_harmonics_change() -> None:
+    (event,) = happening(Passing(0.5, truncated=0.01), Line(0.0))
+
+    assert abs(event.correction.point[-1] - 0.5) < 1e-4
+    # twice the change, and the precision of the place
+    assert event.error == pytest.approx(2 * 0.01 + ROUGH, rel=1e-3)

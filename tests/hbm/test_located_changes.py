@@ -1,4 +1,4 @@
-"""Changes of stability between which few harmonics have other multipliers."""
+"""Changes of stability: where few harmonics mislead, and how far aside they may lie."""
 
 import math
 
@@ -7,7 +7,10 @@ import pytest
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from rigs import rig_problem
 from small_problems import between_stops
 
 HERTZ = 2.0 * math.pi
@@ -34,3 +37,48 @@ def test_a_mass_between_stops_has_a_branch_point_where_its_stability_changes(
     assert told.event == "branch point"
     assert np.abs(told.multipliers - 1.0).min() < 1e-3
     assert sorted([*below, *above]) == [0, 1]
+
+
+def changes(problem: Problem, options: CurveOptions) -> list[PeriodicResponse]:
+    """Return where the stability of a curve changes."""
+    curve = frequency_response(problem, static_equilibrium(problem), options)
+    return [each for each in curve if each.event not in ("", "peak", "fold")]
+
+
+@pytest.mark.parametrize(
+    ("problem", "lowest", "highest", "harmonics", "known"),
+    [
+        (between_stops(), 1.64, 1.70, 255, 1),
+        (between_stops(), 4.0, 7.0, 127, 2),
+        pytest.param(
+            rig_problem(model="A", friction__law="gkf"),
+            134.3,
+            135.7,
+            255,
+            4,
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            rig_problem(friction__law="gkf"),
+            134.5,
+            135.5,
+            127,
+            4,
+            marks=pytest.mark.long,
+        ),
+    ],
+    ids=["between stops", "loud between stops", "A", "full"],
+)
+def test_told_errors_bound_the_true_ones(
+    problem: Problem, lowest: float, highest: float, harmonics: int, known: int
+) -> None:
+    ends = lowest * HERTZ, highest * HERTZ
+    fine = CurveOptions(*ends, harmonics=harmonics, samples=16 * (harmonics + 1))
+
+    told, true = changes(problem, CurveOptions(*ends)), changes(problem, fine)
+
+    assert len(told) == known
+    for each in told:
+        places = [other.frequency for other in true if other.event == each.event]
+        aside = min(abs(place - each.frequency) for place in places)
+        assert aside <= each.parameter_error < 2e-3 * each.frequency

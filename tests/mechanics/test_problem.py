@@ -39,7 +39,7 @@ def test_parts_that_fit_make_a_problem() -> None:
 def test_a_problem_equals_itself_and_is_a_key() -> None:
     one, other = problem(), problem()
 
-    assert one == one  # noqa: PLR0124
+    assert one == one
     assert one != other
     assert {one: "curve"}[one] == "curve"
 

@@ -94,7 +94,7 @@ class Known:
         places = np.linspace(0.0, 1.0, len(ways))
         self.path = polynomial.polyfit(places, np.array(ways), len(ways) - 1)
 
-    def at(self, point: Array, _: object = None) -> ComplexArray:
+    def at(self, point: Array, fourier: FourierBasis = FOURIER) -> ComplexArray:  # noqa: ARG002
         """Return the multipliers at a point, the largest first."""
         total, product = polynomial.polyval(point[self.component], self.path)
         found = np.roots([1.0, -total, product]).astype(complex)
@@ -130,7 +130,7 @@ class Leaping(Known):
     def __init__(self, leap: float) -> None:
         self.leap = leap
 
-    def at(self, point: Array, _: object = None) -> ComplexArray:
+    def at(self, point: Array, fourier: FourierBasis = FOURIER) -> ComplexArray:  # noqa: ARG002
         """Return the multiplier at a point, and another one."""
         away = point[self.component] - 0.5
         value = 1.0 + (0.4 - self.leap) * away + 0.5 * self.leap * np.sign(away)

@@ -1,4 +1,4 @@
-"""Structure and loads in the balance, without contacts (theory, eqs. 17–19)."""
+"""Structure and loads in the balance, without contacts (theory, eqs. 17–18)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a function changes its sign, by few of its values (theory §6.2)."""
+"""Where a function changes its sign, by few of its values (theory §6.4)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A trace that leaps over what resists: small jumps of a sampled residual (§6.2).
+"""A trace that leaps over what resists: small jumps of a sampled residual (§6.8).
 
 Where a contact opens or turns over at a sample, the residual may jump by a little, and
 the curve has a gap too small to matter. A leap along the tangent passes it.

@@ -1,4 +1,4 @@
-"""Newton corrector on a bordered system; knows no physics."""
+"""Newton corrector on a bordered system; knows no physics (theory §6.2)."""
 
 from __future__ import annotations
 

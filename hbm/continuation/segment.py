@@ -2,7 +2,7 @@
 
 It is parametrised by the distance along the tangent at the first point; a sign change
 of a test function is refined by Brent's method, or by one that hardly takes more values
-than bisection where it may leap, each of them being at a corrected point (theory §6.2).
+than bisection where it may leap, each of them being at a corrected point (theory §6.4).
 """
 
 from __future__ import annotations

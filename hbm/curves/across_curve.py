@@ -1,4 +1,4 @@
-"""Responses with more and more harmonics in the plane across a curve (theory §6.3)."""
+"""Responses with more and more harmonics in the plane across a curve (theory §6.7)."""
 
 from __future__ import annotations
 

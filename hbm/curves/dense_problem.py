@@ -1,4 +1,4 @@
-"""A problem with a dense structure in place of a sparse one."""
+"""A problem with a dense structure in place of a sparse one (theory §6.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tangent of a force that jumps where contact begins or ends (theory §6.1)."""
+"""The tangent of a force that jumps where contact begins or ends (theory §8)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What contact forces look like half a period later (theory §6.6)."""
+"""What contact forces look like half a period later (theory §6.1, §6.6)."""
 
 from __future__ import annotations
 

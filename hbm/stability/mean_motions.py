@@ -1,4 +1,4 @@
-"""Free motions of the structure on mean tangents, step by step (theory §6.4).
+"""Free motions of the structure on mean tangents, step by step (theory §6.5).
 
 With constant tangents the structure is one matrix A, diagonal in its own motions.
 """

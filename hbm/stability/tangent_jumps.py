@@ -1,4 +1,4 @@
-"""Steps of next to no length in which contact forces jump (theory §6.4)."""
+"""Steps of next to no length in which contact forces jump (theory §8)."""
 
 from __future__ import annotations
 

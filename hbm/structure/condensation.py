@@ -112,7 +112,7 @@ class CondensedStructure:
     def dynamic_stiffness(
         self, variable: ComplexArray, wanted: NDArray[np.bool_] | None = None
     ) -> ComplexArray:
-        """Return S(s), shape ``(orders, rank, rank)`` (theory, eqs. 15–16).
+        """Return S(s), shape ``(orders, rank, rank)`` (theory, eq. 15).
 
         Parameters
         ----------

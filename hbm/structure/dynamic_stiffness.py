@@ -23,7 +23,7 @@ def dynamic_stiffness(
     wanted: NDArray[np.bool_],
     gyroscopic: bool,
 ) -> ComplexArray:
-    """Return S(s) of the coordinates wanted, (orders, rank, rank) (theory, eqs. 15–16).
+    """Return S(s) of the coordinates wanted, (orders, rank, rank) (theory, eq. 15).
 
     Arguments are those of a :class:`~hbm.structure.condensation.CondensedStructure`,
     couplings by rows of y, shape (rank, poles); ``variable`` is s, ``wanted`` (orders,

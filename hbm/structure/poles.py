@@ -1,4 +1,4 @@
-"""Complex eigenvalues of linear structures, and how they move (theory §6.1)."""
+"""Complex eigenvalues of linear structures, and how they move (theory §6.1, §6.7)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Poles of a structure whose contacts all stick."""
+"""Poles of a structure whose contacts all stick (theory §6.1)."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ load = 1
 mu = 0.1
 threshold_velocity = 1
 """
-"""A slider beside regularised friction: the stability is not known (theory §6)."""
+"""A slider beside regularised friction: the stability is not known (theory §6.5)."""
 
 
 def test_a_sticking_rig_answers_in_proportion_to_the_drive() -> None:

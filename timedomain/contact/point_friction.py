@@ -1,4 +1,4 @@
-"""Friction of one point as a projection, with its derivatives.
+"""Friction of one point as a projection, with its derivatives (theory, eq. 26c).
 
 Regularised friction is the projection of a trial force on a disc. With the sliding
 velocity v, the friction f, the radius R = µ N and the dashpot ε = V_lim / R,

@@ -1,4 +1,4 @@
-"""The contact laws as the fast march linearises them: friction as a projection."""
+"""Contact laws as the fast march linearises them, friction as a projection (§7.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Damping and gyroscopic forces of the other modes, over a step of the fast march.
+"""Damping and gyroscopic forces of the other modes, over a step (theory, §7.2).
 
 Modes are marched exactly one by one; what couples them through their velocities is a
 force ``p`` on each. It is linear over a step but for its mean, C Δq/h, which the motion

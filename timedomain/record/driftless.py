@@ -1,4 +1,4 @@
-"""The velocity with which what nothing holds does not drift away under its loads."""
+"""The velocity with which what nothing holds does not drift under its loads (§6.1)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def driftless(problem: Problem, history: LoadHistory) -> Array:
 
     A free body that begins at rest under a sine drifts away with the velocity that its
     first half cycle leaves. With this one the mean of its velocity vanishes over the
-    time in which it is driven. It moves on its own (§7.1), so that its loads tell.
+    time in which it is driven. It moves on its own, so that its loads tell.
     """
     motions = undragged_motions(problem)
     if not motions.size:

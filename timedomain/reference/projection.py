@@ -1,4 +1,4 @@
-"""Newton's method of a step whose friction is needed to stick, as a projection (§7.1).
+"""Newton's method of a step whose friction is needed to stick, as a projection (§7.2).
 
 Where the threshold velocity is far below what a step changes, Newton's iteration on
 the law itself jumps from one sliding direction to the other. Here stick or slip follows

@@ -1,4 +1,4 @@
-"""What a period of the march does to a small change, with what contacts remember."""
+"""What a period of the march does to a small change, with memory (theory §7.3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Floquet multipliers of maps over a period, by two sizes of steps."""
+"""Floquet multipliers of maps over a period, by two sizes of steps (theory §7.3)."""
 
 from __future__ import annotations
 

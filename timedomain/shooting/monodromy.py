@@ -1,4 +1,4 @@
-"""What a period of the reference march does to a small motion, without memory.
+"""What a period of the march does to a small motion, without memory (theory §7.3).
 
 With φ the contact force, of tangents D at the new and at the old time, a step is
 

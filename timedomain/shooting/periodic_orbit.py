@@ -1,4 +1,4 @@
-"""A periodic motion found in time, and how far it may be wrong."""
+"""A periodic motion found in time, and how far it may be wrong (theory §7.3)."""
 
 from __future__ import annotations
 

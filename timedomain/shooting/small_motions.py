@@ -1,4 +1,4 @@
-"""Small motions over a period in which points touch or lift off."""
+"""Small motions over a period in which points touch or lift off (theory §7.3)."""
 
 from __future__ import annotations
 

@@ -135,3 +135,36 @@ def test_rows_of_records_have_a_column_for_each_field(
         own = [field.name for field in fields(record) if field.name != "case"]
         first = columns.index(own[0])
         assert list(columns[first : first + len(own)]) == own
+
+
+THEORY = (DOCS / "theory.md").read_text(encoding="utf-8")
+ROOT = DOCS.parent
+CITING = [
+    path
+    for folder in ("src", "hbm", "timedomain", "tests")
+    for path in sorted((ROOT / folder).rglob("*.py"))
+]
+
+
+def test_parts_and_equations_that_are_cited_are_there() -> None:
+    parts = set(re.findall(r"^##+ (\d(?:\.\d)?) ", THEORY, re.MULTILINE))
+    divided = {part.split(".")[0] for part in parts if "." in part}
+    equations = set(re.findall(r"\\tag\{(\w+)\}", THEORY))
+
+    for path in CITING:
+        text = path.read_text(encoding="utf-8")
+        for part in re.findall(r"§(\d(?:\.\d)?)(?!\d)", text):
+            assert part in parts - divided, f"{path}: §{part}"
+        for cited in re.findall(r"\beqs?\. ([\d\w]+(?:(?:–|, )\d+\w?)*)", text):
+            for equation in re.split(r"–|, ", cited):
+                assert equation in equations, f"{path}: eq. {equation}"
+
+
+def test_files_that_theory_names_are_there() -> None:
+    named = re.findall(
+        r"`((?:tests|hbm|timedomain|microslip_mechanics)/[\w/.]*)", THEORY
+    )
+
+    assert len(named) > 20
+    for name in named:
+        assert (ROOT / name).exists() or (ROOT / "src" / name).exists(), name

@@ -10,7 +10,7 @@ from hbm.forces.cell import Samples, Work, share_out, write_motion
 from hbm.forces.contact_jump import jump
 from hbm.forces.symmetry import Symmetry
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force, edge
+from microslip_mechanics.contact.law import contact_force, edge, sudden
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel, inner_kernel
 
@@ -44,7 +44,7 @@ def refine(
     graded towards the edge by a root of order ``grade``; ``part`` is the part of the
     rule that is replaced.
     """
-    if points.damping[point] != 0.0 and grade == 1:
+    if sudden(points, point) and grade == 1:
         jump(
             points, point, displacement, velocity, work, made, first, last, place,
             after, symmetry,

@@ -6,7 +6,7 @@ import numpy as np
 
 from hbm.forces.contact_path import ContactPath, place
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force, edge
+from microslip_mechanics.contact.law import contact_force, edge, sudden
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 
@@ -36,9 +36,7 @@ def add_jump(
     length, found = SUDDEN * path.length, False
     jump, work = np.zeros(3), np.zeros((4, 3))
     for point in range(points.load.size):
-        if points.damping[point] == 0.0 or not _jump(
-            points, point, path, at, work, jump
-        ):
+        if not (sudden(points, point) and _jump(points, point, path, at, work, jump)):
             continue
         found = True
         for row in range(basis.shape[1]):

@@ -1,18 +1,28 @@
-"""A damper in a stop: its force jumps as the faces touch, and the tangents know it."""
+"""Forces that jump as faces touch, of a damper or viscous friction; tangents know."""
 
 import functools
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from hbm.balance.relative import relative_problem
+from hbm.balance.residual import HarmonicBalance
+from hbm.forces.fourier import FourierBasis
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
 from microslip.studies.curve import Traced, trace_curve
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.gkf import GeneralKineticFriction
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 
 
 @functools.cache
@@ -41,11 +51,22 @@ def flight(problem: Problem, frequency: float, start: Array) -> Array:
     def touch(_: float, state: Any, closed: bool) -> Any:  # noqa: ARG001
         return state[0] - gap
 
-    touch.terminal = True  # type: ignore[attr-defined]
+    return between_touches(rate, touch, frequency, start, closed=bool(start[0] > gap))
+
+
+def between_touches(
+    rate: Callable[..., Any],
+    touch: Any,
+    frequency: float,
+    start: Array,
+    *,
+    closed: bool,
+) -> Array:
+    """Return the state a period later; ``touch`` is zero where faces touch or part."""
+    touch.terminal = True
     time, end, state = 0.0, 2.0 * np.pi / frequency, start
-    closed = bool(start[0] > gap)
     while time < end:
-        touch.direction = -1.0 if closed else 1.0  # type: ignore[attr-defined]
+        touch.direction = -1.0 if closed else 1.0
         made = solve_ivp(  # type: ignore[call-overload]
             rate, (time, end), state, "DOP853", args=(closed,), events=touch,
             rtol=1e-11, atol=1e-15, max_step=end / 50,
@@ -102,3 +123,83 @@ def test_multipliers_are_those_of_integrated_flights() -> None:
         expected = multipliers(problem, response)
         own = np.abs(response.multipliers)
         np.testing.assert_allclose(own, expected, atol=2e-3)
+
+
+COUPLED = np.array([[1e3, -300.0], [-300.0, 1.2e3]])
+
+
+def lifting(viscous: float) -> Problem:
+    """Return two motions that springs couple; one rubs while the other is closed."""
+    law = GeneralKineticFriction(
+        normal_stiffness=2e3,
+        mu_dynamic=0.0,
+        mu_static=0.0,
+        stribeck_velocity=1.0,
+        threshold_velocity=1.0,
+        viscous=viscous,
+    )
+    return system(
+        names=["x", "z"],
+        mass=[1.0, 1.0],
+        stiffness=COUPLED,
+        rayleigh_damping=(2.0, 0.0),
+        elements=[Element(law, normal=("z", "ground"), tangents=[("x", "ground")])],
+        drive={"x": 3.0, "z": 2.0},
+    )
+
+
+def slides(viscous: float, frequency: float, start: Array) -> Array:
+    """Return (x, z) and velocities a period later, integrated between touches."""
+
+    def rate(time: float, state: Any, closed: bool) -> Any:
+        force = COUPLED @ state[:2] + 2.0 * state[2:]
+        if closed:
+            force = force + np.array([viscous * state[2], 2e3 * state[1]])
+        load = np.array([3.0, 2.0]) * np.sin(frequency * time)
+        return np.concatenate([state[2:], load - force])
+
+    def touch(_: float, state: Any, closed: bool) -> Any:  # noqa: ARG001
+        return state[1]
+
+    return between_touches(rate, touch, frequency, start, closed=bool(start[1] > 0.0))
+
+
+def test_viscous_friction_that_begins_as_faces_touch_is_in_the_derivatives() -> None:
+    problem, fourier = lifting(4.0), FourierBasis(3, 512)
+    balance = HarmonicBalance(
+        relative_problem(problem, static_equilibrium(problem)), fourier
+    )
+    motion = np.random.default_rng(1).normal(size=(7, 2)) * 1e-3
+    point = np.append(motion.ravel(), 30.0)
+
+    _, linearised = balance(point)
+
+    for column in range(point.size - 1):
+        step = 1e-8 * np.eye(point.size)[column]
+        change = balance(point + step)[0] - balance(point - step)[0]
+        own = linearised.jacobian[:, column]
+        away = np.abs(own - change / 2e-8).max()
+        assert away < 1e-4 * np.abs(own).max()  # 0.1 without the jump
+
+
+@pytest.mark.parametrize("frequency", [25.0, 32.0, 38.0])
+def test_multipliers_know_of_viscous_friction_that_begins_as_faces_touch(
+    frequency: float,
+) -> None:
+    problem = lifting(4.0)
+    options = CurveOptions(frequency, 1.02 * frequency, error=1e-4, events=False)
+    rest = static_equilibrium(problem)
+
+    response = next(iter(frequency_response(problem, rest, options)))
+
+    displacement, velocity = response.at(np.zeros(1))
+    start = np.concatenate([displacement[0], velocity[0]])
+    changes = 1e-7 * np.diag([1.0, 1.0, frequency, frequency])
+    carried = [
+        slides(4.0, frequency, start + change) - slides(4.0, frequency, start - change)
+        for change in changes
+    ]
+    exact = np.linalg.eigvals(np.array(carried).T / (2.0 * changes.diagonal()))
+    expected = np.sort(np.abs(exact))[::-1]
+    # without the jump they are off by up to 0.04
+    np.testing.assert_allclose(np.abs(response.multipliers), expected, atol=1e-3)

@@ -102,6 +102,17 @@ def edge(points: ContactPoints, point: int) -> float:
 
 
 @bare_kernel
+def sudden(points: ContactPoints, point: int) -> bool:
+    """Return whether a force may jump where contact begins or ends.
+
+    Damping may, and viscous friction does, unless it is always there.
+    """
+    if points.damping[point] != 0.0:
+        return True
+    return bool(points.viscous[point] != 0.0 and not points.constant_load[point])
+
+
+@bare_kernel
 def contact_power(
     points: ContactPoints,
     point: int,
@@ -156,7 +167,8 @@ def tangent_pattern(
     Returns
     -------
     by displacement, by velocity
-        Shape ``(3, 3)``: what the solvers need not carry for this point's laws.
+        Shape ``(3, 3)``: what the solvers need not carry for this point's laws. Where
+        a force jumps as faces touch, that is a tangent by displacement there alone.
     """
     by_displacement, by_velocity = np.zeros((2, 3, 3), dtype=bool)
     by_displacement[0, 0] = points.stiffness[point] != 0.0
@@ -164,6 +176,7 @@ def tangent_pattern(
     by_displacement[0, 0] |= by_velocity[0, 0] and points.normal[point] == ONE_SIDED
     if points.friction[point] >= ELASTIC:
         by_velocity[1, 1] = by_velocity[2, 2] = points.viscous[point] != 0.0
+        by_displacement[1:, 0] = by_velocity[1, 1] and not points.constant_load[point]
     elif points.friction[point] != FRICTIONLESS:
         by_velocity[1:, 1:] = True
         if not points.constant_load[point]:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import ONE_SIDED, RIGID
+from timedomain.shooting.contact_jumps import contact_jumps
 from timedomain.shooting.monodromy import monodromy_of
 from timedomain.shooting.period_map import Period, PeriodMap
 
@@ -19,8 +20,8 @@ def small_motions(period_map: PeriodMap, period: Period) -> Array | None:
 
     The march's own derivative knows the time that a stop is touched to whole steps
     only. Here the tangents of steps in which a point touches or parts are means over
-    them, along a motion that is linear from sample to sample. None where no point
-    does, or contacts remember or are rigid.
+    them, along a motion that is linear from sample to sample, and what jumps there is
+    counted. None where no point does, or contacts remember or are rigid.
     """
     rigid = (period_map.problem.interface.points.friction == RIGID).any()
     if rigid or period_map.sliders.count:
@@ -62,5 +63,8 @@ def _mean_tangents(
         found = period_map.tangents(*period_map.points(*between))
         half[passed] = found.reshape(parts.size, passed.size, *own.shape[1:]).sum(0)
         half[passed] /= PARTS
+    for step, share, stiffness in contact_jumps(period_map, period):
+        halves[0][step] += (1.0 - share) * stiffness
+        halves[1][step] += share * stiffness
     mean = halves[0] + np.roll(halves[1], 1, axis=0)
     return np.concatenate([mean, mean[:1]])

@@ -1,0 +1,64 @@
+"""What a force that jumps as faces touch does to small motions (theory §7.3)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.law import contact_force, sudden
+from microslip_mechanics.contact.points import ONE_SIDED, ContactPoints
+from timedomain.shooting.period_map import Period, PeriodMap
+
+BESIDE = 1e-9
+"""of the way of a step: how far from the edge both sides of it are looked at"""
+
+
+class ContactJump(NamedTuple):
+    """A force that jumps where a point touches or parts."""
+
+    step: int
+    share: float
+    """of the step, before it"""
+    stiffness: Array
+    """mean over the step of what it is like, by (y, ẏ/ω), shape (rank, 2 rank)"""
+
+
+def contact_jumps(period_map: PeriodMap, period: Period) -> list[ContactJump]:
+    """Return where forces jump in a period.
+
+    The moment of a jump moves by −δw/ẇ with the normal motion w: it changes the
+    momentum like a stiffness of jump/|ẇ| that acts at that moment alone.
+    """
+    points, basis = period_map.problem.interface.points, period_map.sliders.basis
+    moved, moving = period_map.points(period.displacement, period.velocity)
+    length = 2.0 * np.pi / (period_map.frequency * period_map.steps)
+    closed = moved[:, :, 0] > points.gap
+    passes = (closed[1:] != closed[:-1]) & (points.normal == ONE_SIDED)
+    found = []
+    for step, point in np.argwhere(passes):
+        if not sudden(points, point):
+            continue
+        ends, speeds = moved[step : step + 2, point], moving[step : step + 2, point]
+        way = ends[1, 0] - ends[0, 0]
+        share = float((points.gap[point] - ends[0, 0]) / way)
+        velocity = (1.0 - share) * speeds[0] + share * speeds[1]
+        if velocity[0] == 0.0:
+            continue
+        jump = _jump(points, int(point), BESIDE * abs(way), velocity)
+        rows = basis[3 * point : 3 * point + 3]
+        elastic = np.outer(rows.T @ jump, rows[0]) / (abs(velocity[0]) * length)
+        made = np.hstack([elastic, np.zeros_like(elastic)])
+        found.append(ContactJump(int(step), share, made))
+    return found
+
+
+def _jump(points: ContactPoints, point: int, beside: float, velocity: Array) -> Array:
+    """Return the force of a point just closed less that of one just open [N], (3,)."""
+    forces, tangents = np.zeros((2, 3)), np.zeros((2, 3, 3))
+    for side, force in zip((-beside, beside), forces, strict=True):
+        place = np.array([points.gap[point] + side, 0.0, 0.0])
+        contact_force(points, point, place, velocity, force, *tangents)
+    jump: Array = forces[1] - forces[0]
+    return jump

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from microslip.schema import Result
+    from microslip.files.schema import Result
     from microslip.studies.modes import FollowedMode
 
 REST = "microslip.curve, microslip.follow, microslip.sweep or microslip.load"
@@ -33,8 +33,8 @@ def save(result: Result, path: str | PathLike[str]) -> None:
     MicroslipError
         If the file cannot be written or is to be a picture, or the result is none.
     """
-    from microslip import store
     from microslip.errors import GivenError
+    from microslip.files import store
 
     _check(result, "microslip.save")
     place = _path(path, "microslip.save")
@@ -54,7 +54,7 @@ def load(path: str | PathLike[str]) -> Result:
     MicroslipError
         If there is no such file, or it is not a result.
     """
-    from microslip import result_file
+    from microslip.files import result_file
 
     return result_file.load(_path(path, "microslip.load")).result
 
@@ -137,7 +137,7 @@ def _check(result: Result, function: str) -> None:
         If it is none.
     """
     from microslip.errors import GivenError
-    from microslip.schema import SCHEMAS
+    from microslip.files.schema import SCHEMAS
 
     if not isinstance(result, tuple(made for made, _ in SCHEMAS.values())):
         raise GivenError(f"{function}: {result!r}: give what {REST} returns")

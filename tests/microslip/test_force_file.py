@@ -7,9 +7,9 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
+from microslip.files.result_file import load
 from microslip.force_file import read_force
 from microslip.quantity import SceneError
-from microslip.result_file import load
 from microslip.scene_file import load_scene
 from microslip.studies.loads import load_history
 from microslip_mechanics.loads.segments import factors_over

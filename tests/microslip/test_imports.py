@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from microslip.store import Stored, save
+from microslip.files.store import Stored, save
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 SCREEN = {"matplotlib.pyplot", "tkinter"}

@@ -24,9 +24,9 @@ import pytest
 
 from hbm.errors import ContinuationError
 from hbm.solve import frequency_response
+from microslip.files.result_file import load
 from microslip.interruption import heeded, unmasked
 from microslip.progress import shown
-from microslip.result_file import load
 from microslip.studies.curve import gathered
 from microslip.studies.sweep import kept
 from microslip_mechanics.arrays import Array

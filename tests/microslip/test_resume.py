@@ -10,11 +10,11 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.recording import Recording, last_state
-from microslip.result_file import load
+from microslip.files.recording import Recording, last_state
+from microslip.files.result_file import load
+from microslip.files.store import StoreError
 from microslip.rigs import problem_of
 from microslip.scene_file import load_scene
-from microslip.store import StoreError
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.time_history import TimeHistory

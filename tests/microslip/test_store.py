@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.io import netcdf_file
 
-from microslip.result_file import load
-from microslip.schema import SCHEMAS, Result
-from microslip.store import Stored, StoreError, save
+from microslip.files.result_file import load
+from microslip.files.schema import SCHEMAS, Result
+from microslip.files.store import Stored, StoreError, save
 from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.results.thinning import thinned
 from microslip_mechanics.results.time_history import TimeHistory
@@ -307,7 +307,7 @@ def test_result_that_cannot_be_written_is_told_in_words(
 def test_a_long_history_is_read_thinned(
     small_history: TimeHistory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("microslip.result_file.CHUNK", 100)
+    monkeypatch.setattr("microslip.files.result_file.CHUNK", 100)
     rows = 1000
     many: dict[str, Any] = {
         field.name: np.resize(values, (rows, *values.shape[1:]))

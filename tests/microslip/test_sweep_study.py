@@ -184,7 +184,7 @@ def test_a_sweep_tells_what_its_rows_miss_however_many_a_picture_shows(
 
     _, whole, _ = run(*words)
     monkeypatch.setattr("microslip.commands.arguments.MOST_ROWS", 100)
-    monkeypatch.setattr("microslip.result_file.CHUNK", 64)
+    monkeypatch.setattr("microslip.files.result_file.CHUNK", 64)
     _, thinned, _ = run(*words)
 
     # closing errors between the rows of a picture are not looked at

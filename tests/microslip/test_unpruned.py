@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.result_file import load
+from microslip.files.result_file import load
 from microslip.rigs import problem_of, unpruned_of
 from microslip.scene_file import BUILT_IN, load_scene
 from microslip.studies.unpruned import (

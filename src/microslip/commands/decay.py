@@ -64,9 +64,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.decay import decay_figure
+    from microslip.files.store import save_figure, save_table
     from microslip.rigs import problem_of
     from microslip.scene_file import load_scene
-    from microslip.store import save_figure, save_table
     from microslip.studies.decay import liveliest, measured, unmeasured
 
     data, picture = arguments.outputs(options, "decay", ".nc", ".csv", ".png")
@@ -118,7 +118,7 @@ def _driven(
     options: argparse.Namespace, scene: Scene, problem: Problem, data: Path
 ) -> tuple[Checkpoint, float]:
     """Return the state in which the drive is let go, and its frequency [rad/s]."""
-    from microslip.recording import last_state
+    from microslip.files.recording import last_state
 
     if options.file is not None:
         return last_state(options.file, scene.text)

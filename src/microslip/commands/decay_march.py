@@ -25,7 +25,7 @@ def recorded(
     data: Path,
 ) -> TimeHistory:
     """March the decay into a file; return it, and in it how it ended."""
-    from microslip.recording import Recording
+    from microslip.files.recording import Recording
 
     with Recording(data, scene.text, options.command) as recording:
         history = marched(

@@ -66,9 +66,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.curve import curve_figure
+    from microslip.files.store import Stored, save, save_figure
     from microslip.quantity import SceneError
     from microslip.scene_file import load_scene
-    from microslip.store import Stored, save, save_figure
 
     data, picture = arguments.outputs(options, "frc")
     if options.tolerance is not None:

@@ -146,7 +146,7 @@ def _draw(
     import numpy as np
 
     from microslip.figures.jumps import JumpLine, jumps_figure
-    from microslip.store import save_figure
+    from microslip.files.store import save_figure
 
     lines = [
         JumpLine(

@@ -173,8 +173,8 @@ def _keep(
 ) -> None:
     """Write table and picture."""
     from microslip.figures.modes import modes_figure
+    from microslip.files.store import save_figure, save_table
     from microslip.mode_lines import mode_lines
-    from microslip.store import save_figure, save_table
 
     rows = [
         (

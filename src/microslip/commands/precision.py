@@ -86,7 +86,7 @@ def _keep(
 ) -> None:
     """Print the summary, write table and picture."""
     from microslip.figures.precision import precision_figure
-    from microslip.store import save_figure, save_table
+    from microslip.files.store import save_figure, save_table
     from microslip.studies.orbit import QUANTITIES
 
     print(precision_tables.summary(found, exact))

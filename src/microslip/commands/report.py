@@ -161,7 +161,7 @@ def _write(folder: Path, options: argparse.Namespace, sections: list[Section]) -
     StoreError
         If it cannot be written.
     """
-    from microslip.store import told
+    from microslip.files.store import told
 
     path = folder / PAGE
     made = time.strftime("%Y-%m-%d %H:%M %Z")

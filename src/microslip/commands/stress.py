@@ -133,7 +133,7 @@ def _write(
     """Write table and picture of what there is."""
     from dataclasses import astuple
 
-    from microslip.store import save_table
+    from microslip.files.store import save_table
 
     rows = [
         (
@@ -158,7 +158,7 @@ def _draw(
     found: Sequence[Tried],
 ) -> None:
     from microslip.figures.stress import Cell, stress_figure
-    from microslip.store import save_figure
+    from microslip.files.store import save_figure
     from microslip.studies.stress_finding import Outcome
 
     known = {each.case: each.finding for each in found}

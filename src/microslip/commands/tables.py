@@ -121,7 +121,7 @@ def _jamming(row: Row) -> str:
 
 
 def _write(path: Path, found: list[Row]) -> None:
-    from microslip.store import save_table
+    from microslip.files.store import save_table
 
     save_table(path, COLUMNS, [_cells(row) for row in found])
 

@@ -95,7 +95,7 @@ def _keep(
     options: argparse.Namespace, found: list[Tracked], table: Path, picture: Path
 ) -> None:
     """Write table and picture."""
-    from microslip.store import save_table
+    from microslip.files.store import save_table
 
     rows = [
         (
@@ -116,8 +116,8 @@ def _keep(
 
 def _draw(options: argparse.Namespace, found: list[Tracked], picture: Path) -> None:
     from microslip.figures.track import track_figure
+    from microslip.files.store import save_figure
     from microslip.scene_file import load_scene
-    from microslip.store import save_figure
     from microslip.studies.axis import axis
 
     values = [each.value for each in found]

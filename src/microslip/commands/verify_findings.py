@@ -48,7 +48,7 @@ def draw(found: Findings, curve: ResponseCurve, picture: Path, title: str) -> No
     import numpy as np
 
     from microslip.figures.agreement import agreement_figure
-    from microslip.store import save_figure
+    from microslip.files.store import save_figure
 
     made = [each.comparison for each in found.orbits if each.comparison is not None]
     rubbing = [each for each in found.sweeps if each.rubs]

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 
-FRC = ("microslip.studies.curve", "microslip.figures.curve", "microslip.store")
+FRC = ("microslip.studies.curve", "microslip.figures.curve", "microslip.files.store")
 """what ``microslip frc`` loads"""
 PROBE = """
 import importlib, json, pkgutil, sys, time

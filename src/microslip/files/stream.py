@@ -9,9 +9,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from microslip.record_file import RecordFile
-from microslip.record_layout import Layout, Value, Variable, layout
-from microslip.schema import GROWS, SCHEMAS, Growing, Schema, columns, flat, kind_of
+from microslip.files.record_file import RecordFile
+from microslip.files.record_layout import Layout, Value, Variable, layout
+from microslip.files.schema import (
+    GROWS,
+    SCHEMAS,
+    Growing,
+    Schema,
+    columns,
+    flat,
+    kind_of,
+)
 
 if TYPE_CHECKING:
     from scipy.io import netcdf_file

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.io import netcdf_file
 
-from microslip.schema import CURVE, names_of
+from microslip.files.schema import CURVE, names_of
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 LATER = ("parameter_error",)

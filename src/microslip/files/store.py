@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING
 from scipy.io import netcdf_file
 
 from microslip.errors import GivenError
-from microslip.record_layout import Value
-from microslip.schema import (
+from microslip.files.record_layout import Value
+from microslip.files.schema import (
     Growing,
     Result,
     attributes,
     columns,
     kind_of,
 )
-from microslip.stream import ORIGIN, RESERVED, Head, Stream
+from microslip.files.stream import ORIGIN, RESERVED, Head, Stream
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.results.response_curve import ResponseCurve
 

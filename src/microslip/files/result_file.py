@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from scipy.io import netcdf_file
 
-from microslip.schema import GROWS, SCHEMAS, Growing, checkpoint_of, names_of
-from microslip.store import Stored, WrongFileError
-from microslip.stored_curve import stored_curve
-from microslip.stream import Head, rows_of
+from microslip.files.schema import GROWS, SCHEMAS, Growing, checkpoint_of, names_of
+from microslip.files.store import Stored, WrongFileError
+from microslip.files.stored_curve import stored_curve
+from microslip.files.stream import Head, rows_of
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.joined import joined
 from microslip_mechanics.results.thinning import thinned

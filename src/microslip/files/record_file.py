@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from microslip.record_layout import Layout
+from microslip.files.record_layout import Layout
 from microslip_mechanics.arrays import Array
 
 RECORDS = 4

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from microslip.files.result_file import end_of
+from microslip.files.schema import Growing
+from microslip.files.store import WrongFileError, begin, told
+from microslip.files.stream import Head, Stream, rows_of
 from microslip.quantity import SceneError
-from microslip.result_file import end_of
-from microslip.schema import Growing
-from microslip.store import WrongFileError, begin, told
-from microslip.stream import Head, Stream, rows_of
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.cycle_rows import parted
 from microslip_mechanics.results.envelope import Envelope

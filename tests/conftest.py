@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from microslip.cli import main
 from microslip.files.schema import Result
-from microslip.scene_file import built_in_text
+from microslip.scenes.scene_file import built_in_text
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.response_curve import ResponseCurve

@@ -14,7 +14,7 @@ import pytest
 from microslip.files.result_file import load
 from microslip.files.schema import Result
 from microslip.files.store import Stored, save
-from microslip.scene_file import built_in_text
+from microslip.scenes.scene_file import built_in_text
 from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.results.time_history import TimeHistory
 

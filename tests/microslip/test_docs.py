@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import microslip
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.laws.catalogue import LAWS
 from microslip_mechanics.laws.page import laws_page
 

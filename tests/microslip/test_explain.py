@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import pytest
 
-from microslip.scene_file import built_in_text, load_scene
+from microslip.scenes.scene_file import built_in_text, load_scene
 from microslip.studies.explain import pruned
 from microslip.studies.imported import FRC, imported
 from microslip.studies.pruned import Pruned

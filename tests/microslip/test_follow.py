@@ -11,7 +11,7 @@ from hbm.curves.detached import Sought
 from hbm.errors import PLACE, ContinuationError
 from microslip.cli import main
 from microslip.files.result_file import load
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip.studies.curve import trace_curve
 from microslip.studies.follow import follow
 from microslip.studies.parameter import parameter, told_along

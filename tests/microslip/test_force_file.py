@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from microslip.files.result_file import load
-from microslip.force_file import read_force
-from microslip.quantity import SceneError
-from microslip.scene_file import load_scene
+from microslip.scenes.force_file import read_force
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.loads import load_history
 from microslip_mechanics.loads.segments import factors_over
 from microslip_mechanics.results.time_history import TimeHistory

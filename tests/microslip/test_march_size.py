@@ -7,7 +7,7 @@ from typing import TypeAlias
 import pytest
 import scipy.sparse
 
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip.studies.march_size import demand_end, turns
 from microslip_mechanics.loads.excitation import SweptSine
 from timedomain.options import MarchOptions

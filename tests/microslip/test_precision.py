@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from microslip.cli import main
-from microslip.scene_file import load_scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies import precision
 from microslip.studies.orbit import PHASES, Orbit
 from microslip.studies.precision import Run, runs

@@ -13,8 +13,8 @@ import pytest
 from microslip.files.recording import Recording, last_state
 from microslip.files.result_file import load
 from microslip.files.store import StoreError
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.time_history import TimeHistory

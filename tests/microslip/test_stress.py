@@ -10,9 +10,9 @@ from typing import TypeAlias
 import pytest
 
 from hbm.errors import ContinuationError
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies import stress, stress_curve
 from microslip.studies.clock import LATE, Clock, OutOfTimeError, limited
 from microslip.studies.curve import curve_options, trace_curve

@@ -10,9 +10,9 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies import tables
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.tables import PAPER, SENSITIVITIES, Row, Variant, rows

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from microslip.files.result_file import load
-from microslip.rigs import problem_of, unpruned_of
-from microslip.scene_file import BUILT_IN, load_scene
+from microslip.scenes.rigs import problem_of, unpruned_of
+from microslip.scenes.scene_file import BUILT_IN, load_scene
 from microslip.studies.unpruned import (
     Timed,
     difference,

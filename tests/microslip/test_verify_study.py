@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from microslip.commands.verify_tables import sweep_rows
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import Traced, trace_curve
 from microslip.studies.orbits import spread
 from microslip.studies.quasi_static import quasi_static_energy

@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from microslip.experiments import March
-    from microslip.scene_tables import Scene
+    from microslip.scenes.experiments import March
+    from microslip.scenes.scene import Scene
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.results.checkpoint import Checkpoint
     from microslip_mechanics.results.time_history import TimeHistory

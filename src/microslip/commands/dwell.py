@@ -13,7 +13,7 @@ from microslip.commands.written import written
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
     from microslip.studies.dwell import Period
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.results.time_history import TimeHistory
@@ -72,8 +72,8 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.dwell import dwell_figure
     from microslip.files.store import save_figure
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip_mechanics.results.extremes import extremes
     from timedomain.record.closure import OPEN, closes
 
@@ -107,7 +107,7 @@ def dwelled(
     """
     from microslip.files.recording import Recording
     from microslip.progress import shown
-    from microslip.quantity import SceneError
+    from microslip.scenes.quantity import SceneError
     from microslip.studies.dwell import dwelling
     from microslip.studies.sweep import kept
     from microslip_mechanics.results.joined import joined

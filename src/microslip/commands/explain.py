@@ -44,7 +44,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.scene_file import load_scene
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.explain import obeyed, pruned
 
     scene = load_scene(options.scene, options.overrides)

@@ -51,7 +51,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.scene_file import load_scene
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.grid import QUICK, attempts, cases
 
     table = arguments.table(options)

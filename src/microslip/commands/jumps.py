@@ -60,9 +60,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.quantity import SceneError
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
+    from microslip.scenes.quantity import SceneError
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.curve import trace_curve
     from microslip.studies.jump_folds import folds_of
     from microslip.studies.jumps import LEAST, jumps

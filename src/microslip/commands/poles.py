@@ -68,7 +68,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.rigs import solvable
+    from microslip.scenes.rigs import solvable
     from microslip.studies.pole_question import Question
     from microslip.studies.poles import linearised
 

@@ -46,7 +46,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.scene_file import load_scene
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.precision import BUDGET, QUICK, runs
     from microslip.studies.precision_case import case_of
     from microslip.studies.precision_methods import settings

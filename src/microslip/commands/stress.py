@@ -59,7 +59,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.scene_file import load_scene
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.stress import tried
     from microslip.studies.stress_budget import Budget
     from microslip.studies.stress_cases import cases

@@ -20,7 +20,7 @@ from microslip.commands.written import written
 if TYPE_CHECKING:
     from microslip.files.recording import Recording
     from microslip.progress import Watch
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.results.checkpoint import Checkpoint
     from microslip_mechanics.results.envelope import Envelope
@@ -62,8 +62,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
     from timedomain.record.closure import OPEN
@@ -117,7 +117,7 @@ def _places(options: argparse.Namespace) -> tuple[Path, Path]:
     SceneError
         If a march is to go on in another file.
     """
-    from microslip.quantity import SceneError
+    from microslip.scenes.quantity import SceneError
 
     if options.resume is None:
         return arguments.outputs(options, "sweep")
@@ -143,7 +143,7 @@ def _begun(
         If the file has rows in time, and an envelope is asked for.
     """
     from microslip.files.recording import Recording, resumed
-    from microslip.quantity import SceneError
+    from microslip.scenes.quantity import SceneError
     from microslip_mechanics.results.envelope import Envelope
 
     if options.resume is None:

@@ -9,7 +9,7 @@ from microslip.commands import sweep
 
 if TYPE_CHECKING:
     from microslip.commands.verify_findings import Findings
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
     from microslip.studies.curve import Traced
     from microslip.studies.verify import SweepAgreement
     from microslip_mechanics.problem import Problem

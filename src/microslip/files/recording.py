@@ -9,7 +9,7 @@ from microslip.files.result_file import end_of
 from microslip.files.schema import Growing
 from microslip.files.store import WrongFileError, begin, told
 from microslip.files.stream import Head, Stream, rows_of
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.cycle_rows import parted
 from microslip_mechanics.results.envelope import Envelope

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from microslip.key_path import key_path
-from microslip.scene_tables import Scene
+from microslip.scenes.key_path import key_path
+from microslip.scenes.scene import Scene
 from microslip.studies import numbers
 
 

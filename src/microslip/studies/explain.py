@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from microslip.rigs import problem_of, sector_of, unpruned_of
-from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
+from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
+from microslip.scenes.scene import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.imported import FRC, imported
 from microslip.studies.pruned import Pruned

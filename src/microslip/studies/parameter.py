@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from hbm.errors import placed
-from microslip.experiments import APART
-from microslip.key_path import key_path
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.experiments import APART
+from microslip.scenes.key_path import key_path
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies import numbers
 from microslip_mechanics.problem import Problem
 
@@ -66,7 +66,7 @@ def parameter(
     Parameters
     ----------
     scene, overrides
-        As for :func:`~microslip.scene_file.load_scene`.
+        As for :func:`~microslip.scenes.scene_file.load_scene`.
     name
         Table and key.
     first, last

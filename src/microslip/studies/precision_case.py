@@ -12,9 +12,9 @@ import numpy as np
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_tables import Scene
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
 from microslip.studies.curve import trace_curve
 from microslip.studies.march_size import demand_dense
 from microslip.studies.orbit import PHASES

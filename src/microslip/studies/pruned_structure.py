@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from microslip.rigs import sector_of
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import sector_of
+from microslip.scenes.scene import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.pruned import Pruned
 from microslip_mechanics.problem import Problem

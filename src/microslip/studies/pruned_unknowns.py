@@ -9,7 +9,7 @@ import numpy as np
 from hbm.forces.fourier import FourierBasis, usual_samples
 from hbm.forces.memory import marched
 from hbm.paths.path import AlongFrequency
-from microslip.scene_tables import Scene
+from microslip.scenes.scene import Scene
 from microslip.studies.pruned import Pruned, part
 from microslip_mechanics.problem import Problem
 

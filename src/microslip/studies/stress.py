@@ -11,8 +11,8 @@ from functools import partial
 from itertools import islice
 
 from hbm.errors import ContinuationError
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.bounded import bounded
 from microslip.studies.clock import Clock, OutOfTimeError
 from microslip.studies.curve import trace_curve

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import typing
 
-from microslip.experiments import Curve, March, Sweep
+from microslip.scenes.experiments import Curve, March, Sweep
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.stress_case import Case
 

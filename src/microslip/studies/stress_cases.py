@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from microslip.quantity import SceneError
-from microslip.scene_tables import Scene
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene import Scene
 from microslip.scenes.two_blades.tables import Blade, FrictionElement, TwoBlades
 from microslip.studies.stress_bad_values import bad_values
 from microslip.studies.stress_case import Case, row

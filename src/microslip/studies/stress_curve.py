@@ -10,7 +10,7 @@ from typing import NamedTuple
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.experiments import Curve
+from microslip.scenes.experiments import Curve
 from microslip.studies.clock import LATE, Clock, OutOfTimeError
 from microslip.studies.curve import Traced, curve_options, trace_curve, traced_of
 from microslip_mechanics.problem import Problem

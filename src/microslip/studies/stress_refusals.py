@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.clock import OutOfTimeError, limited
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress_case import Case

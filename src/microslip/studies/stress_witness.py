@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.curves.periodic_response import with_multipliers
-from microslip.scene_tables import Scene
+from microslip.scenes.scene import Scene
 from microslip.studies.clock import Clock, OutOfTimeError
 from microslip.studies.dwell import dwelling
 from microslip.studies.stress_condition import condition

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium

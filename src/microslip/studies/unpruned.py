@@ -17,8 +17,8 @@ from hbm.options import CurveOptions
 from hbm.paths.path import AlongFrequency, along_frequency
 from hbm.solve import frequency_response
 from microslip.progress import Watch
-from microslip.rigs import problem_of, sector_of, unpruned_of
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
+from microslip.scenes.scene import Scene
 from microslip.studies.curve import curve_options, gathered
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction.reduction import reduced

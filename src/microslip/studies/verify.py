@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.progress import Watch
-from microslip.scene_tables import Scene
+from microslip.scenes.scene import Scene
 from microslip.studies.quasi_static import followed_by, quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.arrays import Array

@@ -5,9 +5,9 @@ from __future__ import annotations
 import tomllib
 import typing
 
-from microslip.key_path import key_path
-from microslip.quantity import SceneError
-from microslip.table import meant, shown
+from microslip.scenes.key_path import key_path
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.table import meant, shown
 
 NESTED = (["element"], ["drive"], ["structure"])
 """tables of a system with tables in them"""

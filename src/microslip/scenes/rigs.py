@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from microslip.quantity import SceneError
-from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene import Scene
 from microslip.scenes.two_blades import build
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.cyclic import CyclicProblem

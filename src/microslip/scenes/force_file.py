@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 
 if TYPE_CHECKING:
     from microslip_mechanics.arrays import Array

@@ -5,9 +5,9 @@ from __future__ import annotations
 import typing
 from dataclasses import dataclass, field
 
-from microslip.experiments import Curve, March, Sweep
-from microslip.force_file import Force
-from microslip.quantity import SceneError
+from microslip.scenes.experiments import Curve, March, Sweep
+from microslip.scenes.force_file import Force
+from microslip.scenes.quantity import SceneError
 
 Table = typing.TypeVar("Table")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typing
 from dataclasses import dataclass
 
-from microslip.quantity import SceneError, quantity
+from microslip.scenes.quantity import SceneError, quantity
 
 HERTZ = 1e-12, 1e12
 """between which frequencies lie, so that periods and their steps can be counted"""

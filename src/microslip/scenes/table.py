@@ -8,7 +8,7 @@ import types
 import typing
 from collections.abc import Mapping
 
-from microslip.quantity import Quantity, SceneError
+from microslip.scenes.quantity import Quantity, SceneError
 
 
 def read_table(

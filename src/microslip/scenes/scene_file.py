@@ -8,14 +8,14 @@ import typing
 from importlib import resources
 from pathlib import Path
 
-from microslip.experiments import Curve, March, Sweep, check_curve, check_sweep
-from microslip.force_file import read_force
-from microslip.override import apply_override
-from microslip.quantity import SceneError
-from microslip.scene_tables import Experiments, Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
+from microslip.scenes.experiments import Curve, March, Sweep, check_curve, check_sweep
+from microslip.scenes.force_file import read_force
+from microslip.scenes.override import apply_override
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene import Experiments, Scene
+from microslip.scenes.table import meant, read_table, shown
 from microslip.scenes.two_blades.tables import TwoBlades
-from microslip.table import meant, read_table, shown
 
 KINDS = ("two-blades", "system", "bladed-disk")
 """what ``scene = "…"`` may name"""

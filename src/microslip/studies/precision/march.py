@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip.studies.orbit import PHASES, Orbit
+from microslip.studies.precision.orbit import PHASES, Orbit
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem

@@ -17,8 +17,8 @@ from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
 from microslip.studies.curve import trace_curve
 from microslip.studies.march_size import demand_dense
-from microslip.studies.orbit import PHASES
-from microslip.studies.precision_march import PERIODS, Carried, fixed_step, march
+from microslip.studies.precision.march import PERIODS, Carried, fixed_step, march
+from microslip.studies.precision.orbit import PHASES
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse

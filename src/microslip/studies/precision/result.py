@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from microslip.studies.orbit import Orbit
-from microslip.studies.precision_case import Case
-from microslip.studies.precision_march import PERIODS, Carried
+from microslip.studies.precision.case import Case
+from microslip.studies.precision.march import PERIODS, Carried
+from microslip.studies.precision.orbit import Orbit
 from timedomain.record.start import Start
 from timedomain.shooting.steady import steady
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip.studies.orbit import QUANTITIES
-from microslip.studies.precision_case import Case
-from microslip.studies.precision_methods import Setting
-from microslip.studies.precision_outsiders import OverBudgetError
-from microslip.studies.precision_reference import Reference
-from microslip.studies.precision_result import Result
+from microslip.studies.precision.case import Case
+from microslip.studies.precision.methods import Setting
+from microslip.studies.precision.orbit import QUANTITIES
+from microslip.studies.precision.outsiders import OverBudgetError
+from microslip.studies.precision.reference import Reference
+from microslip.studies.precision.result import Result
 from microslip_mechanics.errors import MicroslipError
 
 ASKED = (1e-2, 1e-3, 1e-6)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import partial
 
 from hbm.curves.periodic_response import periodic_response
-from microslip.studies.orbit import Orbit, orbit_of
-from microslip.studies.precision_case import Case
-from microslip.studies.precision_march import PERIODS, fixed_step
-from microslip.studies.precision_methods import shot
+from microslip.studies.precision.case import Case
+from microslip.studies.precision.march import PERIODS, fixed_step
+from microslip.studies.precision.methods import shot
+from microslip.studies.precision.orbit import Orbit, orbit_of
 from microslip_mechanics.contact.memory import beyond_motion
 from timedomain.shooting.steady import steady
 

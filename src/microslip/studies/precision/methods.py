@@ -11,11 +11,17 @@ from functools import partial
 import numpy as np
 
 from hbm.curves.periodic_response import periodic_response, settled_response
-from microslip.studies.orbit import PHASES, Orbit, drive_work, orbit_of, samples
-from microslip.studies.precision_case import Case
-from microslip.studies.precision_march import fixed_step
-from microslip.studies.precision_outsiders import Outsiders
-from microslip.studies.precision_result import Result, steady_result
+from microslip.studies.precision.case import Case
+from microslip.studies.precision.march import fixed_step
+from microslip.studies.precision.orbit import (
+    PHASES,
+    Orbit,
+    drive_work,
+    orbit_of,
+    samples,
+)
+from microslip.studies.precision.outsiders import Outsiders
+from microslip.studies.precision.result import Result, steady_result
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.results.response import PeriodicResponse

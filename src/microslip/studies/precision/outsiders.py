@@ -11,10 +11,10 @@ from functools import partial
 import numpy as np
 from scipy.integrate import odeint, solve_ivp
 
-from microslip.studies.orbit import PHASES, Orbit, drive_work
-from microslip.studies.precision_case import Case
-from microslip.studies.precision_march import PERIODS, Carried
-from microslip.studies.precision_result import Result, steady_result
+from microslip.studies.precision.case import Case
+from microslip.studies.precision.march import PERIODS, Carried
+from microslip.studies.precision.orbit import PHASES, Orbit, drive_work
+from microslip.studies.precision.result import Result, steady_result
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.loads.excitation import Dwell

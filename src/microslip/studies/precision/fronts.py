@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from microslip.studies.precision import SURE, Run
+from microslip.studies.precision.precision import SURE, Run
 
 LARGE = 0.1
 """error from which on nothing is said of convergence"""

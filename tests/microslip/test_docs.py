@@ -121,7 +121,7 @@ def test_every_column_of_a_table_is_documented_in_its_order(command: str) -> Non
 @pytest.mark.parametrize(
     ("command", "kinds"),
     [
-        ("stress", ["stress_finding.Finding"]),
+        ("stress", ["stress.finding.Finding"]),
         ("grid", ["grid.Case", "grid.Attempt"]),
     ],
 )
@@ -130,7 +130,7 @@ def test_rows_of_records_have_a_column_for_each_field(
 ) -> None:
     columns = importlib.import_module(f"microslip.commands.{command}").COLUMNS
     for kind in kinds:
-        file, name = kind.split(".")
+        file, _, name = kind.rpartition(".")
         record = getattr(importlib.import_module(f"microslip.studies.{file}"), name)
         own = [field.name for field in fields(record) if field.name != "case"]
         first = columns.index(own[0])

@@ -19,7 +19,7 @@ from microslip.studies.bounded import bounded
 from microslip.studies.clock import LATE, OutOfTimeError, limited
 from microslip.studies.curve import trace_curve
 from microslip.studies.gaps import missing
-from microslip.studies.stress_finding import EXPECTED, line
+from microslip.studies.stress.finding import EXPECTED, line
 
 LAWS = ("coulomb", "gkf")
 SIGMAS = (3e-9, 3e-7)

@@ -13,8 +13,8 @@ from microslip.scenes.scene import Scene
 from microslip.scenes.scene_file import load_scene
 from microslip.studies.clock import OutOfTimeError, limited
 from microslip.studies.curve import trace_curve
-from microslip.studies.stress_case import Case
-from microslip.studies.stress_finding import EXPECTED, Finding, Outcome, line
+from microslip.studies.stress.case import Case
+from microslip.studies.stress.finding import EXPECTED, Finding, Outcome, line
 from microslip_mechanics.problem import Problem
 
 LARGE = "1e308"

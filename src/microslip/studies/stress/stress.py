@@ -16,10 +16,10 @@ from microslip.scenes.scene_file import load_scene
 from microslip.studies.bounded import bounded
 from microslip.studies.clock import Clock, OutOfTimeError
 from microslip.studies.curve import trace_curve
-from microslip.studies.stress_budget import Budget
-from microslip.studies.stress_case import Case
-from microslip.studies.stress_curve import Drawn, drawn
-from microslip.studies.stress_finding import (
+from microslip.studies.stress.budget import Budget
+from microslip.studies.stress.case import Case
+from microslip.studies.stress.curve import Drawn, drawn
+from microslip.studies.stress.finding import (
     EXPECTED,
     Finding,
     Outcome,
@@ -27,8 +27,8 @@ from microslip.studies.stress_finding import (
     causes,
     line,
 )
-from microslip.studies.stress_refusals import refusals
-from microslip.studies.stress_witness import from_rest, witnessed
+from microslip.studies.stress.refusals import refusals
+from microslip.studies.stress.witness import from_rest, witnessed
 from microslip.studies.worker import Ended
 from timedomain.shooting.period_map import BLOCK, PeriodMap
 from timedomain.shooting.whole_orbit import whole_orbit

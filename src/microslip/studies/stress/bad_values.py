@@ -7,7 +7,7 @@ import typing
 
 from microslip.scenes.experiments import Curve, March, Sweep
 from microslip.scenes.two_blades.tables import TwoBlades
-from microslip.studies.stress_case import Case
+from microslip.studies.stress.case import Case
 
 BAD = ("nan", "inf", "-inf", "1e999", "1e308")
 """the last is a number: the curve that is made of it must be finite, or one line"""

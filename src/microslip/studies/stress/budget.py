@@ -7,7 +7,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from microslip.studies.stress_case import Case
+from microslip.studies.stress.case import Case
 
 WHOLE = 550.0
 """seconds for all cases: a matrix takes ten minutes, its beginning and end included"""

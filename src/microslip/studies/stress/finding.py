@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from microslip.studies.stress_case import Case
+from microslip.studies.stress.case import Case
 from microslip_mechanics.errors import MicroslipError
 from timedomain.shooting.comparison import COVERAGE, Comparison
 

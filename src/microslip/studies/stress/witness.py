@@ -13,9 +13,9 @@ from hbm.curves.periodic_response import with_multipliers
 from microslip.scenes.scene import Scene
 from microslip.studies.clock import Clock, OutOfTimeError
 from microslip.studies.dwell import dwelling
-from microslip.studies.stress_condition import condition
-from microslip.studies.stress_curve import Drawn
-from microslip.studies.stress_finding import (
+from microslip.studies.stress.condition import condition
+from microslip.studies.stress.curve import Drawn
+from microslip.studies.stress.finding import (
     AGREED,
     EXPECTED,
     Finding,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from microslip.scenes.quantity import SceneError
 from microslip.scenes.scene import Scene
 from microslip.scenes.two_blades.tables import Blade, FrictionElement, TwoBlades
-from microslip.studies.stress_bad_values import bad_values
-from microslip.studies.stress_case import Case, row
+from microslip.studies.stress.bad_values import bad_values
+from microslip.studies.stress.case import Case, row
 
 SIGMAS = (3e-6, 3e-7, 3e-8, 3e-9, 3e-10, 3e-11)
 THRESHOLDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)

@@ -11,7 +11,7 @@ import pytest
 from microslip.files.result_file import load
 from microslip.scenes.rigs import problem_of, unpruned_of
 from microslip.scenes.scene_file import BUILT_IN, load_scene
-from microslip.studies.unpruned import (
+from microslip.studies.explain.unpruned import (
     Timed,
     difference,
     path_of,

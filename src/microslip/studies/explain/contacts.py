@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from microslip.studies.pruned import Pruned
+from microslip.studies.explain.pruned import Pruned
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import (
     BRISTLE,

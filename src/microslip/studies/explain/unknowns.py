@@ -10,7 +10,7 @@ from hbm.forces.fourier import FourierBasis, usual_samples
 from hbm.forces.memory import marched
 from hbm.paths.path import AlongFrequency
 from microslip.scenes.scene import Scene
-from microslip.studies.pruned import Pruned, part
+from microslip.studies.explain.pruned import Pruned, part
 from microslip_mechanics.problem import Problem
 
 HARMONICS = 63

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from microslip.scenes.rigs import sector_of
 from microslip.scenes.scene import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
-from microslip.studies.pruned import Pruned
+from microslip.studies.explain.pruned import Pruned
 from microslip_mechanics.problem import Problem
 
 if TYPE_CHECKING:

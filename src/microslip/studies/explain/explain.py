@@ -9,12 +9,12 @@ from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
 from microslip.scenes.scene import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
-from microslip.studies.imported import FRC, imported
-from microslip.studies.pruned import Pruned
-from microslip.studies.pruned_contacts import contacts
-from microslip.studies.pruned_structure import structure
-from microslip.studies.pruned_unknowns import balance, time_step
-from microslip.studies.unpruned import path_of, unpruned_path_of
+from microslip.studies.explain.contacts import contacts
+from microslip.studies.explain.imported import FRC, imported
+from microslip.studies.explain.pruned import Pruned
+from microslip.studies.explain.structure import structure
+from microslip.studies.explain.unknowns import balance, time_step
+from microslip.studies.explain.unpruned import path_of, unpruned_path_of
 
 if TYPE_CHECKING:
     from microslip_mechanics.reduction.reduced_problem import ReducedProblem

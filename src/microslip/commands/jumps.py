@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from microslip.studies.curve import Traced
-    from microslip.studies.jumps import Jump
+    from microslip.studies.jumps.jumps import Jump
 
 HEADER = """\
      fold  sweep     rate     jump  behind the fold
@@ -64,8 +64,8 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scenes.rigs import problem_of
     from microslip.scenes.scene_file import load_scene
     from microslip.studies.curve import trace_curve
-    from microslip.studies.jump_folds import folds_of
-    from microslip.studies.jumps import LEAST, jumps
+    from microslip.studies.jumps.folds import folds_of
+    from microslip.studies.jumps.jumps import LEAST, jumps
     from microslip_mechanics.contact.memory import beyond_motion
 
     if options.rates is not None and len(set(options.rates)) < LEAST:

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.interruption import unmasked
-from microslip.studies.jump_folds import Fold
-from microslip.studies.jump_sweeps import Envelope, Sweep, swept_through
+from microslip.studies.jumps.folds import Fold
+from microslip.studies.jumps.sweeps import Envelope, Sweep, swept_through
 from microslip.studies.verify import StudyError
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError

@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from microslip.studies.jump_folds import Fold
+from microslip.studies.jumps.folds import Fold
 from microslip.studies.march_size import demand_end
 from microslip.studies.verify import StudyError, envelope_of
 from microslip_mechanics.arrays import Array

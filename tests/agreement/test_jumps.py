@@ -7,7 +7,7 @@ import pytest
 
 from microslip.studies.jumps.folds import Fold, folds_of
 from microslip.studies.jumps.jumps import Jump, extrapolated, jumps
-from microslip.studies.verify import StudyError
+from microslip.studies.verify.verify import StudyError
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring

@@ -14,7 +14,7 @@ from microslip.scenes.scene_file import load_scene
 from microslip.studies import curve
 from microslip.studies.curve import Wanted, shown_points, trace_curve
 from microslip.studies.detached import Searched
-from microslip.studies.quasi_static import (
+from microslip.studies.verify.quasi_static import (
     followed_by,
     followed_upwards,
     quasi_static_energy,

@@ -16,7 +16,7 @@ from microslip.studies.curve import Traced
 from microslip.studies.jumps.folds import Fold, folds_of
 from microslip.studies.jumps.jumps import LEAST, Jump
 from microslip.studies.jumps.sweeps import Sweep
-from microslip.studies.verify import StudyError
+from microslip.studies.verify.verify import StudyError
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 from small_problems import cubic_oscillator

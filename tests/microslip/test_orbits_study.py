@@ -8,7 +8,7 @@ import pytest
 
 from contact_tables import contact_points
 from microslip.studies.curve import Traced
-from microslip.studies.orbits import (
+from microslip.studies.verify.orbits import (
     Verdict,
     beyond,
     spread,

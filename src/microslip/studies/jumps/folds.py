@@ -9,7 +9,7 @@ import numpy as np
 
 from hbm.curves.detached import MARKS
 from microslip.studies.curve import Traced
-from microslip.studies.verify import StudyError
+from microslip.studies.verify.verify import StudyError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 

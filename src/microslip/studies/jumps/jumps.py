@@ -17,7 +17,7 @@ import numpy as np
 from microslip.interruption import unmasked
 from microslip.studies.jumps.folds import Fold
 from microslip.studies.jumps.sweeps import Envelope, Sweep, swept_through
-from microslip.studies.verify import StudyError
+from microslip.studies.verify.verify import StudyError
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem

@@ -8,7 +8,7 @@ import numpy as np
 
 from microslip.studies.jumps.folds import Fold
 from microslip.studies.march_size import demand_end
-from microslip.studies.verify import StudyError, envelope_of
+from microslip.studies.verify.verify import StudyError, envelope_of
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.problem import Problem

@@ -9,8 +9,8 @@ import numpy as np
 
 from microslip.progress import Watch
 from microslip.scenes.scene import Scene
-from microslip.studies.quasi_static import followed_by, quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
+from microslip.studies.verify.quasi_static import followed_by, quasi_static_energy
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem

@@ -55,7 +55,9 @@ def test_example_in_toml_is_that_in_python(tmp_path: Path) -> None:
         np.testing.assert_array_equal(mine, other)
 
 
-@pytest.mark.parametrize("package", ["src/microslip_mechanics", "hbm", "timedomain"])
+@pytest.mark.parametrize(
+    "package", ["src/microslip", "src/microslip_mechanics", "hbm", "timedomain"]
+)
 def test_page_of_the_code_names_what_is_there(package: str) -> None:
     root = DOCS.parent / package
     page = (DOCS / "code.md").read_text(encoding="utf-8")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from microslip.errors import one_line
 from microslip.studies.precision.case import Case
 from microslip.studies.precision.methods import Setting
 from microslip.studies.precision.orbit import QUANTITIES
@@ -64,7 +65,7 @@ def runs(
             over.add(ladder)
             yield _failed(setting, f"left out: two periods take over {budget:g} s")
         except (MicroslipError, ValueError, ArithmeticError, RuntimeWarning) as cause:
-            yield _failed(setting, " ".join(str(cause).split()))
+            yield _failed(setting, one_line(cause))
         else:
             if time.process_time() - began > 2.0 * budget:
                 over.add(ladder)

@@ -8,13 +8,10 @@ from dataclasses import dataclass
 from enum import Enum
 
 from microslip.studies.stress.case import Case
-from microslip_mechanics.errors import MicroslipError
 from timedomain.shooting.comparison import COVERAGE, Comparison
 
 AGREED = 0.01
 """relative difference of amplitudes up to which the solvers agree"""
-EXPECTED = (MicroslipError, ValueError, ArithmeticError, RuntimeWarning, MemoryError)
-"""what ends a command in one line"""
 
 
 class Outcome(Enum):
@@ -88,11 +85,6 @@ def judged(comparison: Comparison) -> tuple[Outcome, str]:
             f"{comparison.found_multiplier:.5g}"
         )
     return Outcome.AGREES, ""
-
-
-def line(error: BaseException) -> str:
-    """Return an error's text in one line."""
-    return " ".join(str(error).split()) or type(error).__name__
 
 
 def causes(*each: str) -> str:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from microslip.errors import EXPECTED, one_line
 from microslip.scenes.quantity import SceneError
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
@@ -14,7 +15,7 @@ from microslip.scenes.scene_file import load_scene
 from microslip.studies.clock import OutOfTimeError, limited
 from microslip.studies.curve import trace_curve
 from microslip.studies.stress.case import Case
-from microslip.studies.stress.finding import EXPECTED, Finding, Outcome, line
+from microslip.studies.stress.finding import Finding, Outcome
 from microslip_mechanics.problem import Problem
 
 LARGE = "1e308"
@@ -36,7 +37,7 @@ def refusals(scene: str, overrides: tuple[str, ...], case: Case) -> Iterator[Fin
             if named and len(str(error).splitlines()) <= 1:
                 refused += 1
             else:
-                wrong.append(f"{each[0]}: {line(error)}")
+                wrong.append(f"{each[0]}: {one_line(error)}")
         else:
             computed += finite
             if not finite:

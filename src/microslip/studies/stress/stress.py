@@ -11,6 +11,7 @@ from functools import partial
 from itertools import islice
 
 from hbm.errors import ContinuationError
+from microslip.errors import EXPECTED, one_line
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import load_scene
 from microslip.studies.bounded import bounded
@@ -19,14 +20,7 @@ from microslip.studies.curve import trace_curve
 from microslip.studies.stress.budget import Budget
 from microslip.studies.stress.case import Case
 from microslip.studies.stress.curve import Drawn, drawn
-from microslip.studies.stress.finding import (
-    EXPECTED,
-    Finding,
-    Outcome,
-    Tried,
-    causes,
-    line,
-)
+from microslip.studies.stress.finding import Finding, Outcome, Tried, causes
 from microslip.studies.stress.refusals import refusals
 from microslip.studies.stress.witness import from_rest, witnessed
 from microslip.studies.worker import Ended
@@ -107,7 +101,7 @@ def _studied(
         problem = problem_of(loaded)
         made = drawn(problem, loaded.curve, clock)
     except (*EXPECTED, OutOfTimeError) as error:
-        told = f"harmonic balance: {line(error)}"
+        told = f"harmonic balance: {one_line(error)}"
         yield Finding(cause=told)
         if isinstance(error, (ContinuationError, OutOfTimeError)):
             also = from_rest(problem, loaded, clock)

@@ -10,20 +10,13 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.curves.periodic_response import with_multipliers
+from microslip.errors import EXPECTED, one_line
 from microslip.scenes.scene import Scene
 from microslip.studies.clock import Clock, OutOfTimeError
 from microslip.studies.dwell import dwelling
 from microslip.studies.stress.condition import condition
 from microslip.studies.stress.curve import Drawn
-from microslip.studies.stress.finding import (
-    AGREED,
-    EXPECTED,
-    Finding,
-    Outcome,
-    causes,
-    judged,
-    line,
-)
+from microslip.studies.stress.finding import AGREED, Finding, Outcome, causes, judged
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
@@ -90,7 +83,7 @@ def from_rest(problem: Problem, scene: Scene, clock: Clock) -> str:
     except OutOfTimeError:
         pass
     except EXPECTED as error:
-        return f"marching from rest: {line(error)}"
+        return f"marching from rest: {one_line(error)}"
     steady = "steady" if distances[-1] <= AGREED else "not steady"
     return f"a march from rest is {steady} there after {len(distances) - 1} periods"
 
@@ -134,10 +127,10 @@ def _beside(
         with shooting:
             comparison = compared(problem, response)
     except (ShootingError, OutOfTimeError) as error:
-        told = f"{where}: {line(error)}"
+        told = f"{where}: {one_line(error)}"
         return _marched(problem, response, finding, told, marching)
     except EXPECTED as error:
-        cause = causes(finding.cause, f"shooting {where}: {line(error)}")
+        cause = causes(finding.cause, f"shooting {where}: {one_line(error)}")
         return replace(finding, cause=cause), Outcome.HONEST
     outcome, cause = judged(comparison)
     return replace(
@@ -166,7 +159,7 @@ def _marched(
         with limit:
             found = agreement(problem, response, list(marching))
     except (*EXPECTED, OutOfTimeError) as error:
-        cause = causes(finding.cause, f"{said}; marching: {line(error)}")
+        cause = causes(finding.cause, f"{said}; marching: {one_line(error)}")
         return replace(finding, cause=cause), Outcome.HONEST
     size = max(float(found.predicted.max(initial=0.0)), 1e-300)
     apart = float(np.abs(found.marched - found.predicted).max(initial=0.0)) / size

@@ -32,7 +32,7 @@ SHORT = (
     "sweep.highest=140",
     "march.time_step=2e-4",
 )
-"""a sweep of the built-in scene that takes no time, and ends after two seconds"""
+"""a sweep of the built-in scene that takes no time"""
 COULOMB = Variant("coulomb, short", SHORT, 0.149)
 OURS = Variant("gkf, short", (*SHORT, "friction.law=gkf"), math.nan)
 

@@ -21,13 +21,13 @@ from microslip_mechanics.arrays import Array
 LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
 """shares of the range by which a restart passes what resists, tried in turn; from the
 first one again where the piece before has come nearer to the end"""
-TENTHS = 10
-"""units of a parameter in its range, or in the logarithm of that"""
 FIRST = (0.0, 1e-2)
 """the same where there is no curve yet"""
 FOLDED = (0.0, LEAPS[0], LEAPS[-1])
 """leaps behind which a first point is also sought through folds of the drive, which
 takes thousands of evaluations where there is none"""
+TENTHS = 10
+"""units of a parameter in its range, or in the logarithm of that"""
 
 
 @dataclass(frozen=True, slots=True)

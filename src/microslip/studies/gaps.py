@@ -1,4 +1,4 @@
-"""What lies between the pieces of a curve, where none was found (theory §6)."""
+"""What lies between the pieces of a curve, where none was found (theory §6.2)."""
 
 from __future__ import annotations
 

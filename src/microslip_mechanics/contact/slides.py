@@ -1,4 +1,4 @@
-"""What contacts remember along a motion, step by step, with its derivatives (§6, §7).
+"""What contacts remember along a motion, step by step, and its slope (§6.5, §7.3).
 
 The traction T of friction that remembers goes from one step to the next,
 

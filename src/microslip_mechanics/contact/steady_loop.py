@@ -1,4 +1,4 @@
-"""The traction of friction that remembers, over a period that repeats itself (§6)."""
+"""The traction of friction that remembers, over a period that repeats itself (§6.5)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A large sparse problem in few coordinates, and how much that leaves out (theory §6).
+"""A large sparse problem in few coordinates, and how much that leaves out (§6.1).
 
 Fixed-interface modes after Craig and Bampton (1968) with residual vectors.
 """
@@ -57,7 +57,7 @@ class Reduction:
         """Return a bound of what truncation changes at a frequency [rad/s].
 
         It is one where the damping does not couple the modes, an estimate otherwise;
-        infinite from the slowest mode left out on (theory §6).
+        infinite from the slowest mode left out on (theory §6.1).
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""Residual vectors: what modes miss of static responses (theory §6)."""
+"""Residual vectors: what modes miss of static responses (theory §6.1)."""
 
 from __future__ import annotations
 

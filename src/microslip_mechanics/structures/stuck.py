@@ -1,4 +1,4 @@
-"""A sparse structure whose contacts stick, and its static responses (theory §6)."""
+"""A sparse structure whose contacts stick, and its static responses (theory §6.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The slowest modes of a sparse structure whose contacts stick (theory §6)."""
+"""The slowest modes of a sparse structure whose contacts stick (theory §6.1)."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ def quasi_static_energy(
 
     Returns
     -------
-    ∫ E df / k [J] along the branch that an upward sweep follows (theory §6).
+    ∫ E df / k [J] along the branch that an upward sweep follows (theory §6.7).
     """
     upward = followed_upwards(curve) if upward is None else upward
     hertz = curve.frequency[upward] / (2.0 * np.pi)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from microslip.studies.precision.precision import SURE, Run
+from microslip_mechanics.arrays import TINY
 
 LARGE = 0.1
 """error from which on nothing is said of convergence"""
@@ -38,7 +39,7 @@ def cost_at(runs: Sequence[Run], quantity: int, asked: float, doubt: float) -> f
     if place == 0:
         return best[0].seconds
     pair = best[place], best[place - 1]
-    errors = np.log([max(run.errors[quantity], doubt, 1e-300) for run in pair])
+    errors = np.log([max(run.errors[quantity], doubt, TINY) for run in pair])
     costs = np.log([run.seconds for run in pair])
     return float(np.exp(np.interp(math.log(asked), errors, costs)))
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
@@ -55,10 +55,10 @@ class Orbit:
         The distance is the root mean square over time and probes.
         """
         away = float(np.linalg.norm(self.vibration - exact.vibration))
-        size = max(float(np.linalg.norm(exact.vibration)), 1e-300)
+        size = max(float(np.linalg.norm(exact.vibration)), TINY)
         return (
-            abs(self.peak - exact.peak) / max(exact.peak, 1e-300),
-            abs(self.energy - exact.energy) / max(abs(exact.energy), 1e-300),
+            abs(self.peak - exact.peak) / max(exact.peak, TINY),
+            abs(self.energy - exact.energy) / max(abs(exact.energy), TINY),
             away / size,
         )
 

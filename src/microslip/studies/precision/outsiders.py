@@ -15,7 +15,7 @@ from microslip.studies.precision.case import Case
 from microslip.studies.precision.march import PERIODS, Carried
 from microslip.studies.precision.orbit import PHASES, Orbit, drive_work
 from microslip.studies.precision.result import Result, steady_result
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.loads.excitation import Dwell
 from timedomain.first_order.first_order import FirstOrder, Flow, Jacobian, first_order
@@ -50,7 +50,7 @@ class Outsiders:
             If a contact has no first-order form.
         """
         energy = max(drive_work(case.problem, case.guess.seen(case.problem.loads[1:])),
-                     1e-300)  # fmt: skip
+                     TINY)  # fmt: skip
         dwell = Dwell(case.frequency, case.duration)
         form = first_order(
             case.problem, dwell, motion=case.slope.vibration, energy=energy

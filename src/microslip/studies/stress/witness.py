@@ -17,7 +17,7 @@ from microslip.studies.dwell import dwelling
 from microslip.studies.stress.condition import condition
 from microslip.studies.stress.curve import Drawn
 from microslip.studies.stress.finding import AGREED, Finding, Outcome, causes, judged
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.shooting.closed_march import ShootingError
@@ -161,7 +161,7 @@ def _marched(
     except (*EXPECTED, OutOfTimeError) as error:
         cause = causes(finding.cause, f"{said}; marching: {one_line(error)}")
         return replace(finding, cause=cause), Outcome.HONEST
-    size = max(float(found.predicted.max(initial=0.0)), 1e-300)
+    size = max(float(found.predicted.max(initial=0.0)), TINY)
     apart = float(np.abs(found.marched - found.predicted).max(initial=0.0)) / size
     stays = apart <= STAYS and found.last_distance <= AGREED
     told = f"{said}; a march of {PERIODS} periods is {apart:.1e} away"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.studies.curve import Traced
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.shooting.closed_march import ShootingError
@@ -143,7 +143,7 @@ def _side(folds: int, total: int) -> str:
 def _arc(values: Array) -> Array:
     """Return the share of the way that values have gone at each point."""
     way = np.cumsum(np.abs(np.diff(values, prepend=values[0])))
-    arc: Array = way / max(float(way[-1]), 1e-300)
+    arc: Array = way / max(float(way[-1]), TINY)
     return arc
 
 

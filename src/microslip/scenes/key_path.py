@@ -4,7 +4,9 @@ from __future__ import annotations
 
 OF_MOTIONS = ("drive", "preload", "probes")
 """tables whose keys are degrees of freedom, which may have dots in their names"""
-OF_WAVES = (".amplitude", ".phase")
+AMPLITUDE = "amplitude"
+"""of a harmonic force: a bare number stands for it"""
+OF_WAVES = (f".{AMPLITUDE}", ".phase")
 
 
 def key_path(name: str) -> tuple[str, ...]:

@@ -5,14 +5,12 @@ from __future__ import annotations
 import tomllib
 import typing
 
-from microslip.scenes.key_path import key_path
+from microslip.scenes.key_path import AMPLITUDE, key_path
 from microslip.scenes.quantity import SceneError
 from microslip.scenes.table import meant, shown
 
 NESTED = (["element"], ["drive"], ["structure"])
 """tables of a system with tables in them"""
-AMPLITUDE = "amplitude"
-"""what a bare number changes of a force whose table has it"""
 
 
 def apply_override(document: dict[str, typing.Any], override: str) -> None:

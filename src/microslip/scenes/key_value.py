@@ -1,4 +1,4 @@
-"""Numbers of a scene by their names: tables, elements and loads alike."""
+"""The value of a key in the tables of a rig: of elements and loads alike."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-AMPLITUDE = "amplitude"
-"""of a harmonic force, which its table may leave out"""
+from microslip.scenes.key_path import AMPLITUDE
 
 
 def reached(tables: Any, path: Sequence[str]) -> Any:  # noqa: ANN401  (dataclass or table)

@@ -175,7 +175,11 @@ def test_what_cannot_go_on_is_told_in_one_line(
     run("frc", scene, "-o", "curve")
     (tmp_path / "text.nc").write_text("no netCDF")
     for words, status, hint in (
-        (["--resume", "done.nc"], 2, "is complete"),
+        (
+            ["--resume", "done.nc"],
+            2,
+            "is complete: there is nothing to resume, leave --resume out",
+        ),
         (["--resume", "part.nc"], 2, "another scene"),
         ([*LONG, "--resume", "part.nc", "--envelope"], 2, "rows in time"),
         ([*LONG, "--resume", "part.nc", "-o", "new"], 2, "leave -o out"),

@@ -262,12 +262,12 @@ def unknown_kind(path: Path) -> None:
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (no_file, "there is no result file"),
+        (no_file, "there is no result file .*: give what frc, follow, "),
         (folder, "cannot be read: Is a directory"),
         (empty, "is not a result file"),
         (text, "is not a result file"),
         (other_netcdf, "is not a result file"),
-        (unknown_kind, "'mode shapes', which this version does not know"),
+        (unknown_kind, "'mode shapes', which this version does not know: give what"),
     ],
 )
 def test_file_that_is_no_result_is_told_in_words(

@@ -71,7 +71,9 @@ def resumed(path: Path, scene: str) -> tuple[Recording, Growing]:
     end, head = end_of(path)
     _demand_same(path, head, scene)
     if end.ending == "complete":
-        raise WrongFileError(f"{path} is complete: there is nothing to resume")
+        raise WrongFileError(
+            f"{path} is complete: there is nothing to resume, leave --resume out"
+        )
     return Recording(path, scene, head.text("command"), head), end
 
 

@@ -21,6 +21,7 @@ from microslip_mechanics.results.thinning import thinned
 from microslip_mechanics.results.time_history import TimeHistory
 
 TEXTS = ("kind", "scene", "command")
+REMEDY = "give what frc, follow, sweep, dwell or decay wrote"
 CHUNK = 50_000
 """rows that are read at a time"""
 SHARED = 6
@@ -109,22 +110,19 @@ def _told(path: Path) -> Iterator[None]:
     try:
         yield
     except FileNotFoundError:
-        raise WrongFileError(f"there is no result file {path}") from None
+        raise WrongFileError(f"there is no result file {path}: {REMEDY}") from None
     except OSError as error:
         raise WrongFileError(
             f"{path} cannot be read: {error.strerror or error}"
         ) from None
     except (TypeError, ValueError, KeyError, AttributeError, IndexError):
-        raise WrongFileError(
-            f"{path} is not a result file: give what frc, follow, "
-            "sweep, dwell or decay wrote"
-        ) from None
+        raise WrongFileError(f"{path} is not a result file: {REMEDY}") from None
 
 
 def _known(path: Path, kind: str) -> str:
     if kind not in SCHEMAS:
         raise WrongFileError(
-            f"{path} holds a {kind!r}, which this version does not know"
+            f"{path} holds a {kind!r}, which this version does not know: {REMEDY}"
         )
     return kind
 

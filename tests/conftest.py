@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.cli import main
-from microslip.scene_file import built_in_text
-from microslip.schema import Result
+from microslip.files.schema import Result
+from microslip.scenes.scene_file import built_in_text
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.response_curve import ResponseCurve
@@ -115,7 +115,7 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     # the first, when it is loaded, takes the second as it is then
     for name in ("figures.result.result_figure", "figures.curve.curve_figure"):
         monkeypatch.setattr(f"microslip.{name}", undrawn)
-    monkeypatch.setattr("microslip.store.save_figure", undrawn)
+    monkeypatch.setattr("microslip.files.store.save_figure", undrawn)
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.forces.sampled_orbit import SampledOrbit
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.law import edge
 from microslip_mechanics.contact.points import ELASTIC, ContactPoints
 from microslip_mechanics.contact.sliders import Sliders
@@ -68,7 +68,7 @@ def _settled(
         slides = slides_of(sliders, moved, moving, first, orbit.frequency)
         first = slides.traction[-1]
         change = np.abs(first - slides.traction[0]).max(initial=0.0)
-        if change <= STEADY * np.abs(slides.traction).max(initial=1e-300):
+        if change <= STEADY * np.abs(slides.traction).max(initial=TINY):
             break
     # the first time is the last one of the period before
     slides.limit[0] = slides.limit[-1]
@@ -164,7 +164,7 @@ class _Slider:
         linear = (old * slide).sum(axis=1) - limit * more
         room = np.maximum(limit**2 - (old**2).sum(axis=1), 0.0)
         root = np.sqrt(np.maximum(linear**2 + square * room, 0.0))
-        share = room / np.maximum(linear + root, 1e-300)
+        share = room / np.maximum(linear + root, TINY)
         length = np.diff(self.phase)[before]
         place = self.phase[before] + np.clip(share, 0.0, 1.0) * length
         return np.concatenate([place - around, place + around])
@@ -172,7 +172,7 @@ class _Slider:
     def ends(self) -> Array:
         """Return the phases at which a slip ends: it would go backwards."""
         (last,) = np.nonzero(self.slips[:-1] & ~self.slips[1:])
-        direction = self.traction / np.maximum(self.limit, 1e-300)[:, None]
+        direction = self.traction / np.maximum(self.limit, TINY)[:, None]
         growth = np.gradient(self.limit, self.phase)
         found = []
         for place in last:

@@ -15,6 +15,7 @@ from hbm.continuation.segment import PRECISION, Segment, folds
 from hbm.events.amplitude_growth import AmplitudeGrowth
 from hbm.resolution.adaptive import AdaptiveBalance
 from hbm.resolution.resolution_choice import MARKED
+from microslip_mechanics.arrays import TINY
 
 NEAR = 1e-4
 """part of a step by which a reported fold may be aside"""
@@ -70,7 +71,7 @@ def placed_fold(
     estimate = system.estimate
     if estimate is None:
         return place.settled, math.inf
-    rest = min(1.0, estimate.error / max(estimate.change, 1e-300))
+    rest = min(1.0, estimate.error / max(estimate.change, TINY))
     point, _, _ = system.report.kept(place.settled.point)
     change = abs(growth(place.settled)) / float(growth.largest(point)[0])
     return place.settled, change * (place.left + rest * abs(place.moved))

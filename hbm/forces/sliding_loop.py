@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.rigid import slide
@@ -96,7 +96,7 @@ def _begun(
     step: Step,
 ) -> tuple[Array, Array]:
     """Return the momentum that a period repeats, and (1 − Φ)⁻¹ of its map Φ."""
-    start, largest = np.zeros(2), 1e-300
+    start, largest = np.zeros(2), TINY
     steady: Array = np.eye(2)
     for _ in range(TRIALS):
         _hand_over(start, step.old)

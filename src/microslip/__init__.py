@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from microslip.api.curve import curve
     from microslip.api.follow import follow
     from microslip.api.modes import modes
+    from microslip.api.results import figure, load, save
     from microslip.api.scene import scene
     from microslip.api.sweep import sweep
-    from microslip.results import figure, load, save
     from microslip_mechanics.element import Element
     from microslip_mechanics.errors import MicroslipError
     from microslip_mechanics.laws.catalogue import LAWS
@@ -46,9 +46,9 @@ HOMES = {
     "modes": "microslip.api.modes",
     "scene": "microslip.api.scene",
     "sweep": "microslip.api.sweep",
-    "figure": "microslip.results",
-    "load": "microslip.results",
-    "save": "microslip.results",
+    "figure": "microslip.api.results",
+    "load": "microslip.api.results",
+    "save": "microslip.api.results",
     "system": "microslip_mechanics.system",
     "reduced_problem": "microslip_mechanics.reduction.reduced_problem",
     "BaseMotion": "microslip_mechanics.loads.given_loads",

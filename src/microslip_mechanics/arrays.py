@@ -13,6 +13,8 @@ ComplexArray: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 """always complex128 at run time"""
 Matrix: TypeAlias = Any
 """an :data:`Array` of two axes, or the like of scipy.sparse"""
+TINY = 1e-300
+"""in place of a size of zero, by which nothing can be divided"""
 
 
 def largest(values: Array | ComplexArray) -> float:

@@ -64,16 +64,20 @@ class CyclicProblem:
             if block.shape != (dofs, dofs):
                 raise ValueError(
                     f"coupling.{name} has shape {block.shape}, but a sector has {dofs} "
-                    "degrees of freedom"
+                    "degrees of freedom: give a row and a column for each"
                 )
         if self.to_next.shape != self.interface.displacement.shape:
             raise ValueError(
                 f"to_next has shape {self.to_next.shape}, but the contacts see the "
-                f"sector by {self.interface.displacement.shape}"
+                f"sector by {self.interface.displacement.shape}: give the same"
             )
         for name in ("preload", "drive"):
-            if getattr(self, name).shape != (dofs,):
-                raise ValueError(f"{name} does not have one load per degree of freedom")
+            load = getattr(self, name)
+            if load.shape != (dofs,):
+                raise ValueError(
+                    f"{name} has shape {load.shape}, but a sector has {dofs} degrees "
+                    "of freedom: give a load for each"
+                )
 
     @property
     def lead(self) -> float:

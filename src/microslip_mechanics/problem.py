@@ -47,19 +47,23 @@ class Problem:
     def __post_init__(self) -> None:
         """Check that everything speaks of the same degrees of freedom."""
         dofs = self.structure.dofs
-        for name, shape in (
-            ("preload", self.preload.shape),
-            ("drive", self.drive.shape),
-            ("interface.displacement", self.interface.displacement.shape[1:]),
-            ("probes.rows", self.probes.rows.shape[1:]),
+        for name, array, entry in (
+            ("preload", self.preload, "number"),
+            ("drive", self.drive, "number"),
+            ("interface.displacement", self.interface.displacement, "column"),
+            ("probes.rows", self.probes.rows, "column"),
         ):
-            if shape != (dofs,):
+            axes = 1 if entry == "number" else 2
+            if array.ndim != axes or array.shape[-1] != dofs:
                 raise ValueError(
-                    f"{name} has {shape} columns, but the structure has {dofs} "
-                    "degrees of freedom"
+                    f"{name} has shape {array.shape}, but the structure has {dofs} "
+                    f"degrees of freedom: give a {entry} for each"
                 )
-        if not (np.all(np.isfinite(self.preload)) and np.all(np.isfinite(self.drive))):
-            raise ValueError("a load holds a value that is not finite")
+        for name in ("preload", "drive"):
+            if not np.isfinite(getattr(self, name)).all():
+                raise ValueError(
+                    f"{name} holds a value that is not finite: give finite forces"
+                )
 
     def __repr__(self) -> str:
         """Return what kind of problem it is, in a line."""

@@ -12,6 +12,10 @@ from microslip_mechanics.potential import potential
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction.reduction import reduced
 
+TOLERANCE = 1e-10
+"""largest unbalanced force over the largest load"""
+BEGIN, STEPS = 1e-5, 400
+"""pseudo-time with which a descent begins [s], and steps after which it is given up"""
 FAR = 1.0
 """displacement [m or rad] from which a body that only contact holds is driven away"""
 NEAR, ENDLESS = 1e-12, 1e12
@@ -41,7 +45,7 @@ class StaticState:
     iterations: int
 
 
-def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticState:
+def static_equilibrium(problem: Problem) -> StaticState:
     """Return the frictionless equilibrium under the preload.
 
     Regularised friction carries no load at rest, so the normal forces alone balance
@@ -63,31 +67,31 @@ def static_equilibrium(problem: Problem, *, tolerance: float = 1e-10) -> StaticS
     """
     if problem.structure.sparse:
         reduction = reduced(problem, 0.0)
-        small = static_equilibrium(reduction.problem, tolerance=tolerance)
+        small = static_equilibrium(reduction.problem)
         return replace(small, displacement=reduction.shapes @ small.displacement)
     state = np.zeros(problem.structure.dofs)
     at_zero = potential(problem, state)
     load = max(np.abs(problem.preload).max(initial=0.0), np.abs(at_zero.gradient).max())
     found = StaticState(state, at_zero.normal_force, 0.0, 0)
     if load > 0.0:
-        found = _descended(problem, state, load, _limit(problem), tolerance)
+        found = _descended(problem, state, load, _limit(problem))
     for _ in range(HILLTOPS):
         lower = _below(problem, found.displacement)
         if lower is None:
             return found
-        found = _descended(problem, lower, load, np.inf, tolerance)
+        found = _descended(problem, lower, load, np.inf)
     raise StaticError("rest is unstable wherever it is sought: check the springs")
 
 
 def _descended(
-    problem: Problem, state: Array, load: float, limit: float, tolerance: float
+    problem: Problem, state: Array, load: float, limit: float
 ) -> StaticState:
     """Return where the potential energy has no slope, from a place at least as high.
 
     ``load`` is what forces are compared with [N], besides what springs hold there.
     """
-    here, pseudo_time = potential(problem, state), 1e-5
-    for iteration in range(1, 400):
+    here, pseudo_time = potential(problem, state), BEGIN
+    for iteration in range(1, STEPS):
         matrix = problem.structure.mass / pseudo_time**2 + here.hessian
         step = np.linalg.solve(matrix, -here.gradient)
         trial = potential(problem, state + step)
@@ -99,7 +103,7 @@ def _descended(
         state, here, pseudo_time = state + step, trial, pseudo_time * 2.0
         size = load or _held(problem, state)
         residual = float(np.abs(here.gradient).max()) / size
-        if residual <= tolerance + _rounding(problem, state) / size:
+        if residual <= TOLERANCE + _rounding(problem, state) / size:
             return StaticState(state, here.normal_force, residual, iteration)
         if not np.abs(state).max() <= limit or not np.isfinite(here.energy):
             break

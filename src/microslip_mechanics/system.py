@@ -66,7 +66,7 @@ def system(
     loss_factor
         η of the stiffness, in place of C: the ratio η/2 of all modes, the same at
         resonance and nowhere off by more than η (:func:`~microslip_mechanics.\
-hysteretic.equivalent_viscous`).
+structures.hysteretic.equivalent_viscous`).
     names
         Of the degrees of freedom; x1, x2, … if left out.
     elements

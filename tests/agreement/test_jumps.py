@@ -5,9 +5,9 @@ import functools
 import numpy as np
 import pytest
 
-from microslip.studies.jump_folds import Fold, folds_of
-from microslip.studies.jumps import Jump, extrapolated, jumps
-from microslip.studies.verify import StudyError
+from microslip.studies.jumps.folds import Fold, folds_of
+from microslip.studies.jumps.jumps import Jump, extrapolated, jumps
+from microslip.studies.verify.verify import StudyError
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring

@@ -9,8 +9,8 @@ from scipy.optimize import root
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium

@@ -32,8 +32,8 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from honesty import amplitudes
 from law_examples import CASES, driven
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

@@ -26,8 +26,8 @@ from hbm.curves.periodic_response import periodic_response
 from hbm.forces.fourier import to_complex, to_real
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.scene_file import load_scene
 from microslip.scenes.bladed_disk.build import sector
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem

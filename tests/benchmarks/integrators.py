@@ -22,8 +22,8 @@ sys.path.append(str(Path(__file__).parents[1]))
 
 import numpy as np
 
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.sweep import swept_sine
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface

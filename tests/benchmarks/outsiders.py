@@ -37,8 +37,8 @@ from benchmarks.outside_methods import (
 from benchmarks.work_precision import OURS, Run, cost_at, drawn, row, written
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import SweptSine
 from microslip_mechanics.static import static_equilibrium

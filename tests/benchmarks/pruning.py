@@ -14,10 +14,15 @@ import time
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import trace_curve
-from microslip.studies.unpruned import difference, path_of, timed, unpruned_path_of
+from microslip.studies.explain.unpruned import (
+    difference,
+    path_of,
+    timed,
+    unpruned_path_of,
+)
 
 MODELS = ("A", "B", "full")
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.elastic_friction import ElasticFriction

@@ -23,8 +23,8 @@ import numpy as np
 from hbm.curves.periodic_response import periodic_response, with_multipliers
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem

@@ -23,9 +23,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 
 from hbm.solve import frequency_response
-from microslip.experiments import Curve
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.experiments import Curve
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import curve_options
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem

@@ -76,6 +76,7 @@ def test_continuation_passes_both_folds_of_a_cubic() -> None:
 def test_every_point_of_a_curve_solves_the_system() -> None:
     curve = traced(cubic, np.array([-1.3, -1.0]), 1.0)
 
+    assert curve[-1, 1] == 1.0
     for point in curve:
         assert abs(cubic(point)[0][0]) <= CONTROL.tolerance
 
@@ -86,6 +87,7 @@ def test_points_let_go_of_their_factors(monkeypatch: pytest.MonkeyPatch) -> None
 
     *points, _ = trace(cubic, np.array([-1.3, -1.0]), 1.0, metric=even, control=CONTROL)
 
+    assert len(points) > 10
     assert all(each.linearised in forgotten for each in points)
 
 

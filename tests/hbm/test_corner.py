@@ -12,8 +12,8 @@ from hbm.continuation.step_control import StepControl
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.static import static_equilibrium
 from systems import Dense

@@ -18,8 +18,8 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from hbm.structure.poles import damping_ratios, frequencies, poles
 from honesty import falling
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse

@@ -15,8 +15,8 @@ from hbm.events.found import found_between
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
@@ -125,7 +125,10 @@ def test_amplitudes_err_by_no_more_than_is_told(
 def test_errors_with_fixed_harmonics_bound_the_true_ones(harmonics: int) -> None:
     finest = marked("gap", error=FINEST)
 
-    for each in marked("gap", error=1e-3, harmonics=harmonics):
+    found = marked("gap", error=1e-3, harmonics=harmonics)
+
+    assert {each.event for each in found} == set(MARKS)
+    for each in found:
         alike = [known for known in finest if known.event == each.event]
         true = min(abs(known.frequency - each.frequency) for known in alike)
         assert 0.0 < true <= each.parameter_error
@@ -151,8 +154,9 @@ def test_other_points_have_no_such_error() -> None:
     scene = load_scene("gap")
     problem = problem_of(scene)
     options = CurveOptions(2.0 * np.pi * 5.4, 2.0 * np.pi * 5.7)
-    points = frequency_response(problem, static_equilibrium(problem), options)
+    points = list(frequency_response(problem, static_equilibrium(problem), options))
 
+    assert {each.event for each in points} > {"", "fold"}
     for each in points:
         assert np.isfinite(each.parameter_error) == (each.event in MARKS)
 

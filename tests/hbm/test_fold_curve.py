@@ -116,7 +116,10 @@ def test_a_fold_has_one_multiplier_at_one_and_the_other_inside() -> None:
     upper = located(driven(1.0), 0.5, 3.0, 9, 1024)[0]
     options = CurveOptions(1.0, 0.7, harmonics=9, samples=1024)
 
-    for point in fold_curve(driven, upper, options):
+    points = list(fold_curve(driven, upper, options))
+
+    assert points[-1].response.parameter == 0.7
+    for point in points:
         own, other = sorted(point.response.multipliers, key=lambda each: abs(each - 1))
         assert own == pytest.approx(1.0, abs=1e-4)
         # Both shrink volumes like the damping.
@@ -147,6 +150,7 @@ def test_folds_of_whole_curves_lie_on_the_tracked_folds_of_the_rig() -> None:
     )
     options = CurveOptions(1.8, 1.7, harmonics=15, samples=512)
 
+    assert len(begins) == 2
     for begun, ended in zip(begins, ends, strict=True):
         points = list(fold_curve(problem_at, begun, options))
 

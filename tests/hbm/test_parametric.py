@@ -11,7 +11,7 @@ from hbm.curves.parameter_curves import parameter_response
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.paths.along_parameter import AlongParameter
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip.studies.curve import gathered
 from microslip.studies.parameter import parameter
 from microslip_mechanics.arrays import Array

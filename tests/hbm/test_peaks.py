@@ -10,8 +10,8 @@ import scipy.optimize
 from hbm.curves.periodic_response import settled_response
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium

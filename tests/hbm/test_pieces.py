@@ -23,8 +23,8 @@ from hbm.options import CurveOptions
 from hbm.paths.along_parameter import AlongParameter
 from hbm.paths.path import along_frequency
 from hbm.solve import frequency_response
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

@@ -11,8 +11,8 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import Traced, trace_curve
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium

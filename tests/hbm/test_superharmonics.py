@@ -9,8 +9,8 @@ from hbm.forces.fourier import to_complex
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from hbm.structure.superharmonics import FAINT, Superharmonics
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import curve_options
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem

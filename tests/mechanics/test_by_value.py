@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from microslip.result_file import load
-from microslip.store import Stored, save
+from microslip.files.result_file import load
+from microslip.files.store import Stored, save
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 

@@ -20,8 +20,8 @@ from microslip_mechanics.contact.memory import pressed
 
 INTERRUPTED = """
 import signal, time
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.loads.excitation import Dwell
 from timedomain.record.start import Start, first_state
 import numpy as np

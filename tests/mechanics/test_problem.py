@@ -45,16 +45,28 @@ def test_a_problem_equals_itself_and_is_a_key() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "parts"),
+    ("told", "entry", "parts"),
     [
-        ("preload", {"preload": np.ones(5)}),
-        ("drive", {"drive": np.ones(5)}),
-        ("interface.displacement", {"interface": interface(5)}),
-        ("probes.rows", {"probes": Probes(("tip",), np.ones((1, 5)))}),
+        ("preload has shape (5,)", "number", {"preload": np.ones(5)}),
+        ("drive has shape (4, 1)", "number", {"drive": np.ones((DOFS, 1))}),
+        (
+            "interface.displacement has shape (3, 5)",
+            "column",
+            {"interface": interface(5)},
+        ),
+        (
+            "probes.rows has shape (1, 5)",
+            "column",
+            {"probes": Probes(("tip",), np.ones((1, 5)))},
+        ),
     ],
 )
-def test_part_of_another_size_is_refused(name: str, parts: dict[str, Any]) -> None:
-    message = f"{name} has (5,) columns, but the structure has 4 degrees of freedom"
+def test_part_of_another_size_is_refused(
+    told: str, entry: str, parts: dict[str, Any]
+) -> None:
+    message = (
+        f"{told}, but the structure has 4 degrees of freedom: give a {entry} for each"
+    )
 
     with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
         problem(**parts)
@@ -68,7 +80,8 @@ def test_load_with_a_value_that_is_not_finite_is_refused(
     load = np.ones(DOFS)
     load[2] = value
 
-    with pytest.raises(ValueError, match=r"^a load holds a value that is not finite$"):
+    message = f"{name} holds a value that is not finite: give finite forces"
+    with pytest.raises(ValueError, match=f"^{message}$"):
         problem(**{name: load})
 
 

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of, sector_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of, sector_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import Wanted, trace_curve, trace_sector
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.cyclic import CyclicProblem

@@ -11,10 +11,10 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.result_file import load
-from microslip.scene_file import built_in_text
-from microslip.schema import Result
-from microslip.store import Stored, save
+from microslip.files.result_file import load
+from microslip.files.schema import Result
+from microslip.files.store import Stored, save
+from microslip.scenes.scene_file import built_in_text
 from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.results.time_history import TimeHistory
 

@@ -8,13 +8,13 @@ import pytest
 from numpy.typing import ArrayLike
 
 from microslip.commands.frc_tables import barren
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies import curve
 from microslip.studies.curve import Wanted, shown_points, trace_curve
 from microslip.studies.detached import Searched
-from microslip.studies.quasi_static import (
+from microslip.studies.verify.quasi_static import (
     followed_by,
     followed_upwards,
     quasi_static_energy,

@@ -13,11 +13,11 @@ import pytest
 from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import modes_in_range, nonlinear_mode
 from microslip.commands.decay_tables import cycles
-from microslip.experiments import March
-from microslip.quantity import SceneError
-from microslip.result_file import load
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.files.result_file import load
+from microslip.scenes.experiments import March
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.decay import (
     liveliest,
     measured,

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import microslip
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.laws.catalogue import LAWS
 from microslip_mechanics.laws.page import laws_page
 
@@ -55,7 +55,9 @@ def test_example_in_toml_is_that_in_python(tmp_path: Path) -> None:
         np.testing.assert_array_equal(mine, other)
 
 
-@pytest.mark.parametrize("package", ["src/microslip_mechanics", "hbm", "timedomain"])
+@pytest.mark.parametrize(
+    "package", ["src/microslip", "src/microslip_mechanics", "hbm", "timedomain"]
+)
 def test_page_of_the_code_names_what_is_there(package: str) -> None:
     root = DOCS.parent / package
     page = (DOCS / "code.md").read_text(encoding="utf-8")
@@ -121,7 +123,7 @@ def test_every_column_of_a_table_is_documented_in_its_order(command: str) -> Non
 @pytest.mark.parametrize(
     ("command", "kinds"),
     [
-        ("stress", ["stress_finding.Finding"]),
+        ("stress", ["stress.finding.Finding"]),
         ("grid", ["grid.Case", "grid.Attempt"]),
     ],
 )
@@ -130,7 +132,7 @@ def test_rows_of_records_have_a_column_for_each_field(
 ) -> None:
     columns = importlib.import_module(f"microslip.commands.{command}").COLUMNS
     for kind in kinds:
-        file, name = kind.split(".")
+        file, _, name = kind.rpartition(".")
         record = getattr(importlib.import_module(f"microslip.studies.{file}"), name)
         own = [field.name for field in fields(record) if field.name != "case"]
         first = columns.index(own[0])

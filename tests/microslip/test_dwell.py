@@ -12,9 +12,9 @@ import pytest
 from figure_checks import check_labels
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip.experiments import March
 from microslip.figures.dwell import dwell_figure
-from microslip.result_file import load
+from microslip.files.result_file import load
+from microslip.scenes.experiments import March
 from microslip.studies.dwell import _left, amplitudes, dwelling
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.joined import joined

@@ -6,10 +6,10 @@ from typing import TypeAlias
 
 import pytest
 
-from microslip.scene_file import built_in_text, load_scene
-from microslip.studies.explain import pruned
-from microslip.studies.imported import FRC, imported
-from microslip.studies.pruned import Pruned
+from microslip.scenes.scene_file import built_in_text, load_scene
+from microslip.studies.explain.explain import pruned
+from microslip.studies.explain.imported import FRC, imported
+from microslip.studies.explain.pruned import Pruned
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 COARSE = ("curve.harmonics=3", "curve.samples=64")
@@ -211,7 +211,9 @@ def test_command_times_the_curve_with_and_without_pruning(
 def test_command_says_so_if_pruning_changes_the_curve(
     run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("microslip.studies.unpruned.difference", lambda *_: 2e-6)
+    monkeypatch.setattr(
+        "microslip.studies.explain.unpruned.difference", lambda *_: 2e-6
+    )
 
     status, output, _ = run("explain", str(quick_scene), "--time")
 
@@ -225,7 +227,7 @@ def test_interrupted_while_it_traces_it_names_no_file(
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("microslip.studies.unpruned.timed", interrupted)
+    monkeypatch.setattr("microslip.studies.explain.unpruned.timed", interrupted)
 
     status, _, error = run("explain", str(quick_scene), "--time")
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from microslip.store import StoreError, save_figure, save_table
+from microslip.files.store import StoreError, save_figure, save_table
 
 
 @pytest.mark.parametrize("name", ["nowhere/picture.png", "folder.png"])

@@ -7,10 +7,10 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.force_file import read_force
-from microslip.quantity import SceneError
-from microslip.result_file import load
-from microslip.scene_file import load_scene
+from microslip.files.result_file import load
+from microslip.scenes.force_file import read_force
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.loads import load_history
 from microslip_mechanics.loads.segments import factors_over
 from microslip_mechanics.results.time_history import TimeHistory

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from microslip.cli import main
-from microslip.scene_file import load_scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.grid import (
     FRICTIONS,
     LAWS,

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import pytest
 from matplotlib.figure import Figure
 
-from microslip.store import Stored, save, save_figure
+from microslip.files.store import Stored, save, save_figure
 from microslip_mechanics.results.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -47,7 +47,7 @@ def test_an_interrupted_picture_leaves_tables_and_names_of_files(
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("microslip.store.save_figure", interrupted)
+    monkeypatch.setattr("microslip.files.store.save_figure", interrupted)
     words, told, table = CASES[case]
 
     status, output, error = run(*words, "-o", "it")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from microslip.store import Stored, save
+from microslip.files.store import Stored, save
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 SCREEN = {"matplotlib.pyplot", "tkinter"}
@@ -115,8 +115,8 @@ def test_a_problem_loads_what_its_scene_has(
     scene: str, overrides: tuple[str, ...], needed: tuple[str, ...], tmp_path: Path
 ) -> None:
     modules = loaded_with(
-        "from microslip.rigs import problem_of; "
-        "from microslip.scene_file import load_scene; "
+        "from microslip.scenes.rigs import problem_of; "
+        "from microslip.scenes.scene_file import load_scene; "
         f"problem_of(load_scene({scene!r}, {overrides!r}))",
         folder=tmp_path,
     )

@@ -110,7 +110,9 @@ def test_a_comparison_does_not_trace_the_other_curve(
         if options.samples != 32:  # type: ignore[attr-defined]
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("microslip.studies.unpruned.frequency_response", interrupted)
+    monkeypatch.setattr(
+        "microslip.studies.explain.unpruned.frequency_response", interrupted
+    )
 
     status, _, error = run("explain", str(quick_scene), "--time")
 

@@ -24,9 +24,9 @@ import pytest
 
 from hbm.errors import ContinuationError
 from hbm.solve import frequency_response
+from microslip.files.result_file import load
 from microslip.interruption import heeded, unmasked
 from microslip.progress import shown
-from microslip.result_file import load
 from microslip.studies.curve import gathered
 from microslip.studies.sweep import kept
 from microslip_mechanics.arrays import Array
@@ -92,7 +92,6 @@ def test_points_before_the_end_of_a_curve_are_kept(
     assert ended == status
     assert error == f"microslip: {ending}; what was computed is kept\n"
     assert f"{points} points in quick-frc.nc" in output
-    assert "truncation error" not in output
     curve = load(tmp_path / "quick-frc.nc").result
     assert isinstance(curve, ResponseCurve)
     assert curve.ending == ending

@@ -13,10 +13,10 @@ import traced_curves
 from microslip.commands.verify_tables import HELD
 from microslip.figures.jumps import JumpLine, jumps_figure
 from microslip.studies.curve import Traced
-from microslip.studies.jump_folds import Fold, folds_of
-from microslip.studies.jump_sweeps import Sweep
-from microslip.studies.jumps import LEAST, Jump
-from microslip.studies.verify import StudyError
+from microslip.studies.jumps.folds import Fold, folds_of
+from microslip.studies.jumps.jumps import LEAST, Jump
+from microslip.studies.jumps.sweeps import Sweep
+from microslip.studies.verify.verify import StudyError
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 from small_problems import cubic_oscillator
@@ -167,9 +167,9 @@ def test_jumps_far_from_their_folds_decide_the_status(
 
     monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
     monkeypatch.setattr(
-        "microslip.studies.jump_folds.folds_of", lambda *_, **__: [1, 2]
+        "microslip.studies.jumps.folds.folds_of", lambda *_, **__: [1, 2]
     )
-    monkeypatch.setattr("microslip.studies.jumps.jumps", marched)
+    monkeypatch.setattr("microslip.studies.jumps.jumps.jumps", marched)
 
     ended, output, error = run("jumps", str(quick_scene))
 
@@ -202,9 +202,9 @@ def test_jumps_beside_folds_of_contacts_that_hold_a_force_are_explained(
     jumps = made(traced, away)
     monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
     monkeypatch.setattr(
-        "microslip.studies.jump_folds.folds_of", lambda *_, **__: [1, 2]
+        "microslip.studies.jumps.folds.folds_of", lambda *_, **__: [1, 2]
     )
-    monkeypatch.setattr("microslip.studies.jumps.jumps", lambda *_: iter(jumps))
+    monkeypatch.setattr("microslip.studies.jumps.jumps.jumps", lambda *_: iter(jumps))
 
     _, output, error = run("jumps", scene)
 
@@ -232,9 +232,9 @@ def test_jumps_found_before_one_fails_are_drawn(
         raise stops
 
     monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
-    monkeypatch.setattr("microslip.studies.jumps.jumps", marched)
+    monkeypatch.setattr("microslip.studies.jumps.jumps.jumps", marched)
     monkeypatch.setattr(
-        "microslip.studies.jump_folds.folds_of", lambda *_, **__: [1, 2]
+        "microslip.studies.jumps.folds.folds_of", lambda *_, **__: [1, 2]
     )
 
     ended, output, error = run("jumps", str(quick_scene))
@@ -334,8 +334,10 @@ def test_sweeps_before_one_fails_are_kept(
 
     folds = folds_of(cubic_oscillator(drive=0.3, damping=0.1), traced, lead=0.1)
     monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
-    monkeypatch.setattr("microslip.studies.jump_folds.folds_of", lambda *_, **__: folds)
-    monkeypatch.setattr("microslip.studies.jumps.swept_through", swept)
+    monkeypatch.setattr(
+        "microslip.studies.jumps.folds.folds_of", lambda *_, **__: folds
+    )
+    monkeypatch.setattr("microslip.studies.jumps.jumps.swept_through", swept)
 
     rates = ("--rates", *(f"{rate:g}" for rate in RATES))
     ended, output, error = run("jumps", "jenkins", *rates)

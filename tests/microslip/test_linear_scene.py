@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.result_file import load
+from microslip.files.result_file import load
 from microslip_mechanics.results.response_curve import ResponseCurve
 from scene_texts import EXPERIMENTS
 

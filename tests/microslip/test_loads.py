@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from microslip.quantity import SceneError
-from microslip.scene_file import load_scene
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.loads import load_history
 from microslip.studies.sweep import swept_sine
 from microslip_mechanics.loads.segments import clock, factors_over

@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import pytest
 
-from microslip.scene_file import built_in_text
+from microslip.scenes.scene_file import built_in_text
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 TEXT = built_in_text("two-blades")

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import pytest
 import scipy.sparse
 
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip.studies.march_size import demand_end, turns
 from microslip_mechanics.loads.excitation import SweptSine
 from timedomain.options import MarchOptions
@@ -123,7 +123,7 @@ def test_a_sparse_structure_is_refused_before_its_curve_is_traced(
         raise AssertionError("traced")
 
     monkeypatch.setattr("microslip.studies.curve.trace_curve", untraced)
-    monkeypatch.setattr("microslip.studies.precision_case.trace_curve", untraced)
+    monkeypatch.setattr("microslip.studies.precision.case.trace_curve", untraced)
     one = scipy.sparse.eye_array(401, format="csc")
     scipy.sparse.save_npz(tmp_path / "m.npz", one)
     (tmp_path / "large.toml").write_text(

@@ -347,6 +347,10 @@ TEXTS = [
      ", line 2: '1', '7' are no node and direction from 0 to 6: "
      "punch the matrix again"),
     ("a.pch", "DMIG    K              0       6       2       0\n"
+     "DMIG*   K                              1              12\n",
+     ", line 2: '1', '12' are no node and direction from 0 to 6: "
+     "punch the matrix again"),
+    ("a.pch", "DMIG    K              0       6       2       0\n"
      "DMIG*   K                              1               1\n"
      "*                      1               1             abc\n",
      ", line 3: 'abc' is no number: punch the matrix again"),

@@ -12,7 +12,7 @@ import pytest
 from hbm.errors import ContinuationError
 from hbm.one_harmonic import one_harmonic_response
 from hbm.structure.poles import damping_ratios, frequencies
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip.studies import poles as study
 from microslip.studies.pole_question import FRICTION, SHARES, Question
 from microslip.studies.poles import (

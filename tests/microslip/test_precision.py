@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from microslip.cli import main
-from microslip.scene_file import load_scene
-from microslip.studies import precision
-from microslip.studies.orbit import PHASES, Orbit
-from microslip.studies.precision import Run, runs
-from microslip.studies.precision_case import Case, case_of
-from microslip.studies.precision_fronts import cost_at, front, slope
-from microslip.studies.precision_methods import settings
-from microslip.studies.precision_reference import Reference, reference
+from microslip.scenes.scene_file import load_scene
+from microslip.studies.precision import precision
+from microslip.studies.precision.case import Case, case_of
+from microslip.studies.precision.fronts import cost_at, front, slope
+from microslip.studies.precision.methods import settings
+from microslip.studies.precision.orbit import PHASES, Orbit
+from microslip.studies.precision.precision import Run, runs
+from microslip.studies.precision.reference import Reference, reference
 from microslip_mechanics.arrays import Array
 
 PHASE = 2.0 * np.pi * np.arange(PHASES) / PHASES

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from microslip.quantity import UNITS, Quantity, SceneError
-from microslip.scene_file import load_scene
+from microslip.scenes.quantity import UNITS, Quantity, SceneError
+from microslip.scenes.scene_file import load_scene
 
 LENGTH = Quantity("m", 0.0, 10.0, positive=True)
 RATIO = Quantity("", 0.0, 0.5, positive=False)

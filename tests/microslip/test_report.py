@@ -14,7 +14,7 @@ import pytest
 from microslip.commands.report_parts import PARTS, Part
 from microslip.commands.report_sections import words_of
 from microslip.page import DONE, FAILED, LEFT_OUT, Section, page
-from microslip.scene_file import BUILT_IN, load_scene
+from microslip.scenes.scene_file import BUILT_IN, load_scene
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 PICTURE = b"\x89PNG\r\n\x1a\n" + bytes(range(64))

@@ -10,11 +10,11 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.recording import Recording, last_state
-from microslip.result_file import load
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.store import StoreError
+from microslip.files.recording import Recording, last_state
+from microslip.files.result_file import load
+from microslip.files.store import StoreError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.time_history import TimeHistory
@@ -175,7 +175,11 @@ def test_what_cannot_go_on_is_told_in_one_line(
     run("frc", scene, "-o", "curve")
     (tmp_path / "text.nc").write_text("no netCDF")
     for words, status, hint in (
-        (["--resume", "done.nc"], 2, "is complete"),
+        (
+            ["--resume", "done.nc"],
+            2,
+            "is complete: there is nothing to resume, leave --resume out",
+        ),
         (["--resume", "part.nc"], 2, "another scene"),
         ([*LONG, "--resume", "part.nc", "--envelope"], 2, "rows in time"),
         ([*LONG, "--resume", "part.nc", "-o", "new"], 2, "leave -o out"),

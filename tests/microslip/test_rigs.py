@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import rigs
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.contact.points import COULOMB, FRICTIONLESS, GENERAL_KINETIC
 from microslip_mechanics.static import static_equilibrium
 

@@ -9,9 +9,9 @@ from typing import TypeAlias
 import pytest
 
 import rigs
-from microslip.quantity import SceneError
-from microslip.scene_file import BUILT_IN, built_in_text, load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import BUILT_IN, built_in_text, load_scene
 from microslip.scenes.two_blades.tables import TwoBlades
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]

@@ -57,7 +57,7 @@ def test_poles_of_named_values_stand_at_their_names() -> None:
     frequency, damping, path = figure.axes
     for axes in (frequency, damping):
         assert [label.get_text() for label in axes.get_xticklabels()] == ["A", "B"]
-    assert all(line.get_linestyle() == "None" for line in path.lines)
+    assert [line.get_linestyle() for line in path.lines] == ["None"]
     drawn = [line for line in frequency.lines if line.get_color() == "0.35"]
     for line, ends in zip(drawn, [(-0.3, 0.3), (0.7, 1.3)] * 2, strict=True):
         assert np.asarray(line.get_xdata()).tolist() == pytest.approx(list(ends))

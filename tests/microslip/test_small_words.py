@@ -50,7 +50,7 @@ def test_a_report_goes_into_no_file(run: Run, quick_scene: Path) -> None:
 def test_modes_stick_where_there_is_friction(
     name: str, run: Run, monkeypatch: pytest.MonkeyPatch, *, sticks: bool
 ) -> None:
-    monkeypatch.setattr("microslip.store.save_figure", lambda *_: None)
+    monkeypatch.setattr("microslip.files.store.save_figure", lambda *_: None)
     few = ("--amplitudes", "0.001", "0.002", "--range", "1", "100")
 
     status, output, _ = run("modes", name, *few)
@@ -122,7 +122,7 @@ samples = 64
 def test_forces_at_rest_are_those_of_contacts_that_have_some(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("microslip.store.save_figure", lambda *_: None)
+    monkeypatch.setattr("microslip.files.store.save_figure", lambda *_: None)
     (tmp_path / "both.toml").write_text(PRESSED_AND_LOADED)
 
     status, output, _ = run("frc", str(tmp_path / "both.toml"))

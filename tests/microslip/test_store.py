@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.io import netcdf_file
 
-from microslip.result_file import load
-from microslip.schema import SCHEMAS, Result
-from microslip.store import Stored, StoreError, save
+from microslip.files.result_file import load
+from microslip.files.schema import SCHEMAS, Result
+from microslip.files.store import Stored, StoreError, save
 from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.results.thinning import thinned
 from microslip_mechanics.results.time_history import TimeHistory
@@ -262,12 +262,12 @@ def unknown_kind(path: Path) -> None:
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (no_file, "there is no result file"),
+        (no_file, "there is no result file .*: give what frc, follow, "),
         (folder, "cannot be read: Is a directory"),
         (empty, "is not a result file"),
         (text, "is not a result file"),
         (other_netcdf, "is not a result file"),
-        (unknown_kind, "'mode shapes', which this version does not know"),
+        (unknown_kind, "'mode shapes', which this version does not know: give what"),
     ],
 )
 def test_file_that_is_no_result_is_told_in_words(
@@ -307,7 +307,7 @@ def test_result_that_cannot_be_written_is_told_in_words(
 def test_a_long_history_is_read_thinned(
     small_history: TimeHistory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("microslip.result_file.CHUNK", 100)
+    monkeypatch.setattr("microslip.files.result_file.CHUNK", 100)
     rows = 1000
     many: dict[str, Any] = {
         field.name: np.resize(values, (rows, *values.shape[1:]))

@@ -10,18 +10,19 @@ from typing import TypeAlias
 import pytest
 
 from hbm.errors import ContinuationError
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.studies import stress, stress_curve
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.clock import LATE, Clock, OutOfTimeError, limited
 from microslip.studies.curve import curve_options, trace_curve
-from microslip.studies.stress import tried
-from microslip.studies.stress_bad_values import BAD, bad_values
-from microslip.studies.stress_budget import Budget
-from microslip.studies.stress_case import Case
-from microslip.studies.stress_cases import cases
-from microslip.studies.stress_finding import Finding, Outcome, Tried
+from microslip.studies.stress import curve as stress_curve
+from microslip.studies.stress import stress
+from microslip.studies.stress.bad_values import BAD, bad_values
+from microslip.studies.stress.budget import Budget
+from microslip.studies.stress.case import Case
+from microslip.studies.stress.cases import cases
+from microslip.studies.stress.finding import Finding, Outcome, Tried
+from microslip.studies.stress.stress import tried
 from microslip.studies.worker import Ended
 from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.shooting.closed_march import ShootingError

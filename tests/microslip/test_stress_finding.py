@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from hbm.options import CurveOptions
-from microslip.studies import stress_witness
 from microslip.studies.clock import Clock
 from microslip.studies.curve import Traced
-from microslip.studies.stress_case import Case
-from microslip.studies.stress_curve import Drawn
-from microslip.studies.stress_finding import Finding, Outcome, Tried, judged, rate
+from microslip.studies.stress import witness as stress_witness
+from microslip.studies.stress.case import Case
+from microslip.studies.stress.curve import Drawn
+from microslip.studies.stress.finding import Finding, Outcome, Tried, judged, rate
 from microslip_mechanics.results.response import PeriodicResponse
 from small_problems import prescribed
 from timedomain.shooting.closed_march import ShootingError

@@ -12,8 +12,8 @@ import pytest
 
 from microslip.studies.bounded import bounded
 from microslip.studies.clock import Clock, OutOfTimeError, limited
-from microslip.studies.stress_budget import LEAST, MOST, WHOLE, Budget
-from microslip.studies.stress_case import Case
+from microslip.studies.stress.budget import LEAST, MOST, WHOLE, Budget
+from microslip.studies.stress.case import Case
 
 
 def test_cases_share_what_is_left_of_ten_minutes(

@@ -9,11 +9,11 @@ import scipy.linalg
 import scipy.sparse
 
 import microslip
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_file import built_in_text, load_scene
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import built_in_text, load_scene
 from microslip.scenes.systems.build import reduction
-from microslip.studies.explain import pruned
+from microslip.studies.explain.explain import pruned
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction.reduced_problem import (
     Method,

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from microslip.commands.sweep_tables import estimates
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.sweep import march_sweep, march_whole, swept_sine
 from microslip_mechanics.results.extremes import extremes
 from microslip_mechanics.results.time_history import TimeHistory
@@ -184,7 +184,7 @@ def test_a_sweep_tells_what_its_rows_miss_however_many_a_picture_shows(
 
     _, whole, _ = run(*words)
     monkeypatch.setattr("microslip.commands.arguments.MOST_ROWS", 100)
-    monkeypatch.setattr("microslip.result_file.CHUNK", 64)
+    monkeypatch.setattr("microslip.files.result_file.CHUNK", 64)
     _, thinned, _ = run(*words)
 
     # closing errors between the rows of a picture are not looked at

@@ -7,10 +7,10 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_file import SYSTEMS, built_in_text, load_scene
-from microslip.studies.explain import obeyed
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import SYSTEMS, built_in_text, load_scene
+from microslip.studies.explain.explain import obeyed
 from microslip.studies.parameter import parameter
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem

@@ -10,9 +10,9 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies import tables
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.tables import PAPER, SENSITIVITIES, Row, Variant, rows
@@ -32,7 +32,7 @@ SHORT = (
     "sweep.highest=140",
     "march.time_step=2e-4",
 )
-"""a sweep of the built-in scene that takes no time, and ends after two seconds"""
+"""a sweep of the built-in scene that takes no time"""
 COULOMB = Variant("coulomb, short", SHORT, 0.149)
 OURS = Variant("gkf, short", (*SHORT, "friction.law=gkf"), math.nan)
 

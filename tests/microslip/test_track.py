@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from microslip.cli import main
-from microslip.scene_file import load_scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.axis import axis
 from microslip.studies.track import tracked
 

@@ -8,10 +8,10 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.result_file import load
-from microslip.rigs import problem_of, unpruned_of
-from microslip.scene_file import BUILT_IN, load_scene
-from microslip.studies.unpruned import (
+from microslip.files.result_file import load
+from microslip.scenes.rigs import problem_of, unpruned_of
+from microslip.scenes.scene_file import BUILT_IN, load_scene
+from microslip.studies.explain.unpruned import (
     Timed,
     difference,
     path_of,

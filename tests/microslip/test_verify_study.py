@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from microslip.commands.verify_tables import sweep_rows
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import Traced, trace_curve
-from microslip.studies.orbits import spread
-from microslip.studies.quasi_static import quasi_static_energy
 from microslip.studies.sweep import march_whole, swept_sine
-from microslip.studies.verify import (
+from microslip.studies.verify.orbits import spread
+from microslip.studies.verify.quasi_static import quasi_static_energy
+from microslip.studies.verify.verify import (
     SweepAgreement,
     falls,
     orbits,
@@ -245,7 +245,7 @@ def test_verdict_of_the_sweeps_decides_the_status_too(
             made, energy=made.quasi_static * (1.0 + error), envelope_error=error
         )
 
-    monkeypatch.setattr("microslip.studies.verify.sweep_agreement", found)
+    monkeypatch.setattr("microslip.studies.verify.verify.sweep_agreement", found)
     few = ("--frequencies", "1", "--periods", "2", "--slower", "2", "1")
 
     ended, output, _ = run("verify", str(quick_scene), *sets(*BAND, *SWEEP), *few)

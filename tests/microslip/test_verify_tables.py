@@ -16,8 +16,8 @@ from microslip.commands.verify_tables import (
     sweeps_said,
 )
 from microslip.studies.curve import Traced
-from microslip.studies.orbits import Verdict
-from microslip.studies.verify import SweepAgreement
+from microslip.studies.verify.orbits import Verdict
+from microslip.studies.verify.verify import SweepAgreement
 from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.static import StaticState
 from small_problems import prescribed

@@ -131,7 +131,7 @@ def test_what_is_no_scene_or_path_is_told(
 
 
 def test_a_scene_may_be_a_path(tmp_path: Path) -> None:
-    from microslip.scene_file import built_in_text
+    from microslip.scenes.scene_file import built_in_text
 
     path = tmp_path / "mine.toml"
     path.write_text(built_in_text("duffing"), encoding="utf-8")

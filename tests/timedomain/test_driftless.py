@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from free_structures import DRIVE, MASSES, chain
-from microslip.experiments import March
+from microslip.scenes.experiments import March
 from microslip.studies.decay import measured, released
 from microslip.studies.dwell import amplitudes, dwelling
 from microslip_mechanics.arrays import Array

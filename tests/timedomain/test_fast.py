@@ -7,8 +7,8 @@ import pytest
 
 from contact_tables import contact_points
 from convergence import observed_order
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.loads import load_history
 from microslip_mechanics.loads.excitation import Dwell, SweptSine
 from microslip_mechanics.problem import Problem

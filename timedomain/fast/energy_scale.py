@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.loads.segments import Segments
 from timedomain.contact.state import State
 from timedomain.fast.coordinates import Modes
@@ -39,7 +39,7 @@ def least_energy(
     unbalanced, velocity = inverse @ state.acceleration, inverse @ state.velocity
     begun = float((unbalanced**2 * flexibility + velocity**2).sum())
     grows = preload if segments.preload[0, 1] != 0.0 else 0.0
-    return float(max(*drives, begun) or grows) or 1e-300
+    return float(max(*drives, begun) or grows) or TINY
 
 
 def settled(segments: Segments) -> float:

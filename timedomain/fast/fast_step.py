@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from microslip_mechanics.arrays import TINY
 from microslip_mechanics.jit import bare_kernel, inner_kernel
 from microslip_mechanics.loads.segments import Segments
 from timedomain.contact.dense import copy, copy_rows
@@ -172,7 +173,7 @@ def _floor(control: Control, modes: Modes, answer: Answer, motion: Motion) -> fl
         for j in range(motion.displacement.size):
             size += abs(modes.selection[i, j] * motion.displacement[j])
         # compliance is that of the mean velocity: half the step makes displacements
-        force = DIGITS * size / max(answer.scalar, 1e-300) * answer.stiffness[i, i]
+        force = DIGITS * size / max(answer.scalar, TINY) * answer.stiffness[i, i]
         floor = max(floor, force)
     return floor
 

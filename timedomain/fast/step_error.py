@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from microslip_mechanics.arrays import TINY
 from microslip_mechanics.jit import bare_kernel, inner_kernel
 from timedomain.fast.coordinates import Modes
 from timedomain.fast.coupling import coupling_error
@@ -59,7 +60,7 @@ def _rounding(modes: Modes, motion: Motion, length: float) -> float:
         size = 0.0
         for j in range(motion.displacement.size):
             size += abs(modes.selection[i, j] * motion.displacement[j])
-        energy += (DIGITS * size / length) ** 2 / max(modes.mobility[i, i], 1e-300)
+        energy += (DIGITS * size / length) ** 2 / max(modes.mobility[i, i], TINY)
     return energy
 
 

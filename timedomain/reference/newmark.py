@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.points import ELASTIC, FRICTIONLESS, ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
 from timedomain.contact.dense import copy, copy_rows, eliminate, norm
@@ -143,7 +143,7 @@ def _newton(
     tangent, reaction = np.empty_like(compliance), np.empty_like(free)
     guess = free - np.dot(compliance, state.reaction)
     change = np.zeros_like(guess)
-    scale, size = norm(free) + 1e-300, np.inf
+    scale, size = norm(free) + TINY, np.inf
     for iteration in range(NEWTON_LIMIT + 1):
         shrink, reached = 1.0, np.inf
         for _ in range(HALVINGS):

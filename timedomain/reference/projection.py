@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
 from timedomain.contact.dense import copy_rows, dot, eliminate, norm
@@ -83,7 +83,7 @@ def projected(
     )  # fmt: skip
     reaction = np.dot(forces.ravel(), basis)
     guess = start[2] - np.dot(compliance, reaction)
-    scale = norm(start[2]) + 1e-300
+    scale = norm(start[2]) + TINY
     for iteration in range(1, NEWTON_LIMIT + 1):
         _see(basis, half, start, guess, gaps, slips)
         tangent = _linearised(basis, points, half, iteration, gaps, slips, lines)

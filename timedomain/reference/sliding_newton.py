@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.rigid import slide
@@ -65,7 +65,7 @@ def solve_sliding(
     guess: Array = start[2] - np.dot(operators.compliance, state.reaction)
     pushed = made.push.copy()
     change: Array = np.zeros(made.residual.size)
-    scale, size = norm(start[2]) + 1e-300, np.inf
+    scale, size = norm(start[2]) + TINY, np.inf
     smooth: Array = np.zeros(rank)
     for iteration in range(NEWTON_LIMIT + 1):
         shrink, reached = 1.0, np.inf
@@ -155,7 +155,7 @@ def _slide(
     load = 0.5 * (made.loads[place] + load)
     slope = 0.5 * points.dynamic[point] * half * (half * stiff + viscous)
     momentum = np.dot(sliders.rows[one : two + 1], start[3])
-    momentum /= max(2.0 * half * compliance, 1e-300)
+    momentum /= max(2.0 * half * compliance, TINY)
     limit = points.dynamic[point] * load
     slide(made.push[one : two + 1], limit, 0.0, momentum, made.slid, made.by)
     share, by = 2.0 * compliance, made.by

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.errors import MicroslipError
 from timedomain.integrate import IntegrationError
 from timedomain.shooting.gap_slope import GapSlope
@@ -165,7 +165,7 @@ def _unit(carried: PeriodMap, state: Array, period: Period) -> float:
     to_modes = np.kron(np.eye(2), carried.structure.inverse)
     size = np.linalg.norm(states @ to_modes.T, axis=1)
     rounded = ROUNDING / CLOSED * float(np.linalg.norm(state))
-    return max(float(np.sqrt(np.mean(size**2))) + rounded, 1e-300)
+    return max(float(np.sqrt(np.mean(size**2))) + rounded, TINY)
 
 
 def _at(carried: PeriodMap) -> str:

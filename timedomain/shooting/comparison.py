@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array, largest
+from microslip_mechanics.arrays import TINY, Array, largest
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import MARGIN, PeriodicResponse
 from timedomain.record.start import on_orbit
@@ -51,7 +51,7 @@ class Comparison:
     def difference(self) -> float:
         """Largest difference of the probes' amplitudes, over the largest amplitude."""
         away = np.abs(self.found - self.predicted).max(initial=0.0)
-        return float(away / max(self.found.max(initial=0.0), 1e-300))
+        return float(away / max(self.found.max(initial=0.0), TINY))
 
     @property
     def estimated(self) -> float:
@@ -131,7 +131,7 @@ def _by_order(predicted: Array, found: Array) -> Array:
     away = found.copy()
     shared = min(len(predicted), len(found))
     away[:shared] -= predicted[:shared]
-    size = max(float(np.hypot(found[1], found[2]).max(initial=0.0)), 1e-300)
+    size = max(float(np.hypot(found[1], found[2]).max(initial=0.0)), TINY)
     by_order = np.vstack([np.abs(away[:1]), np.hypot(away[1::2], away[2::2])])
     differences: Array = by_order.max(axis=1, initial=0.0) / size
     return differences

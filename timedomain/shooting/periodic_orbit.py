@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.arrays import TINY, Array, ComplexArray
 from timedomain.record.start import Start
 from timedomain.shooting.closed_march import ClosedMarch
 from timedomain.shooting.floquet import extrapolated_multipliers
@@ -94,7 +94,7 @@ def amplitude_error(coarse: ClosedMarch, fine: ClosedMarch) -> float:
     )
     amplitude = _amplitude(coefficients, rows)
     away = np.abs(amplitude - _amplitude(coefficients - moved, rows)).max(initial=0.0)
-    steps = float(away / max(amplitude.max(initial=0.0), 1e-300))
+    steps = float(away / max(amplitude.max(initial=0.0), TINY))
     return 3.0 * (steps + max(coarse.left, fine.left))
 
 

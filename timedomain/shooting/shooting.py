@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.memory import beyond_motion, remembers
 from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
@@ -181,4 +181,4 @@ def _away(marched: ClosedMarch, near: PeriodicResponse) -> float:
     rows = marched.map.problem.probes.rows
     wanted = near.coefficients[1:3] @ rows.T
     away = float(np.linalg.norm(first_harmonic(marched) @ rows.T - wanted))
-    return away / max(float(np.linalg.norm(wanted)), 1e-300)
+    return away / max(float(np.linalg.norm(wanted)), TINY)

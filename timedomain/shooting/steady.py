@@ -15,7 +15,7 @@ from typing import Generic, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
 from timedomain.record.start import Start
@@ -61,7 +61,7 @@ class Coordinates:
         """Return coordinates in which a vibration has about this norm."""
         points = problem.interface.points
         sliders = np.flatnonzero(remembers(points))
-        unit = problem.force_scale / max(vibration, 1e-300)
+        unit = problem.force_scale / max(vibration, TINY)
         root = np.linalg.cholesky(problem.structure.dense.mass).T
         return cls(root, frequency, sliders, unit, points.load.size)
 
@@ -186,7 +186,7 @@ def _updated(inverse: Array, change: Array, answer: Array) -> Array:
     """Return the inverse after Broyden's update: it takes ``answer`` to ``change``."""
     row = change @ inverse
     size = float(row @ answer)
-    if abs(size) < 1e-300:
+    if abs(size) < TINY:
         return inverse
     changed: Array = inverse + np.outer(change - inverse @ answer, row) / size
     return changed

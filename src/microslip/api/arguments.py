@@ -9,9 +9,9 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from microslip.errors import GivenError
-from microslip.experiments import APART, check_samples
-from microslip.quantity import SceneError
-from microslip.table import read_table
+from microslip.scenes.experiments import APART, check_samples
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.table import read_table
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from microslip.api.arguments import check_apart, checked, named, resolved
-from microslip.experiments import Curve
+from microslip.scenes.experiments import Curve
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem

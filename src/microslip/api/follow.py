@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from microslip.api.arguments import checked, named, resolved
 from microslip.errors import GivenError
-from microslip.experiments import APART, HERTZ, Resolution
-from microslip.quantity import quantity
+from microslip.scenes.experiments import APART, HERTZ, Resolution
+from microslip.scenes.quantity import quantity
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem

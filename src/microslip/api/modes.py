@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from microslip.api.arguments import check_apart, check_single, checked, named, read
 from microslip.errors import GivenError
-from microslip.experiments import HERTZ
-from microslip.quantity import quantity
+from microslip.scenes.experiments import HERTZ
+from microslip.scenes.quantity import quantity
 
 if TYPE_CHECKING:
     from microslip.studies.modes import FollowedMode

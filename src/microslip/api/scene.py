@@ -29,8 +29,8 @@ def scene(source: str | PathLike[str], overrides: Sequence[str] = ()) -> Problem
     SceneError
         With file, table, key, value and remedy.
     """
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
 
     several = texts_of(NAME, source, overrides)
     return problem_of(load_scene(str(source), several))

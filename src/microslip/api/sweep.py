@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from microslip.api.arguments import check_apart, checked, named, read
-from microslip.experiments import HERTZ, LONGEST, March
-from microslip.quantity import quantity
+from microslip.scenes.experiments import HERTZ, LONGEST, March
+from microslip.scenes.quantity import quantity
 
 if TYPE_CHECKING:
     from microslip_mechanics.problem import Problem

@@ -159,7 +159,7 @@ def whole(lowest: int, highest: int) -> Callable[[str], int]:
 
 def hertz(text: str) -> float:
     """Read a frequency from the command line [Hz]; it may have a unit."""
-    from microslip.experiments import HERTZ
+    from microslip.scenes.experiments import HERTZ
 
     return _quantity("Hz", text, *HERTZ)
 
@@ -172,7 +172,7 @@ def millimetres(text: str) -> float:
 def _quantity(
     unit: str, text: str, lowest: float = 0.0, highest: float = math.inf
 ) -> float:
-    from microslip.quantity import Quantity
+    from microslip.scenes.quantity import Quantity
 
     try:
         value: float | str = float(text)

@@ -16,7 +16,7 @@ from microslip.commands.written import written
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.results.checkpoint import Checkpoint
     from microslip_mechanics.results.time_history import TimeHistory
@@ -64,9 +64,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.decay import decay_figure
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
-    from microslip.store import save_figure, save_table
+    from microslip.files.store import save_figure, save_table
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.decay import liveliest, measured, unmeasured
 
     data, picture = arguments.outputs(options, "decay", ".nc", ".csv", ".png")
@@ -104,7 +104,7 @@ def _chosen(options: argparse.Namespace, problem: Problem) -> int | None:
     SceneError
         If there is no such probe.
     """
-    from microslip.quantity import SceneError
+    from microslip.scenes.quantity import SceneError
 
     names = problem.probes.names
     if options.probe is None:
@@ -118,7 +118,7 @@ def _driven(
     options: argparse.Namespace, scene: Scene, problem: Problem, data: Path
 ) -> tuple[Checkpoint, float]:
     """Return the state in which the drive is let go, and its frequency [rad/s]."""
-    from microslip.recording import last_state
+    from microslip.files.recording import last_state
 
     if options.file is not None:
         return last_state(options.file, scene.text)

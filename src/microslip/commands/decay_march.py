@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from microslip.experiments import March
-    from microslip.scene_tables import Scene
+    from microslip.scenes.experiments import March
+    from microslip.scenes.scene import Scene
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.results.checkpoint import Checkpoint
     from microslip_mechanics.results.time_history import TimeHistory
@@ -25,7 +25,7 @@ def recorded(
     data: Path,
 ) -> TimeHistory:
     """March the decay into a file; return it, and in it how it ended."""
-    from microslip.recording import Recording
+    from microslip.files.recording import Recording
 
     with Recording(data, scene.text, options.command) as recording:
         history = marched(

@@ -13,7 +13,7 @@ from microslip.commands.written import written
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
     from microslip.studies.dwell import Period
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.results.time_history import TimeHistory
@@ -71,9 +71,9 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.dwell import dwell_figure
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
-    from microslip.store import save_figure
+    from microslip.files.store import save_figure
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip_mechanics.results.extremes import extremes
     from timedomain.record.closure import OPEN, closes
 
@@ -105,9 +105,9 @@ def dwelled(
     SceneError
         If the scene has no drive: what rounding moves is never steady.
     """
+    from microslip.files.recording import Recording
     from microslip.progress import shown
-    from microslip.quantity import SceneError
-    from microslip.recording import Recording
+    from microslip.scenes.quantity import SceneError
     from microslip.studies.dwell import dwelling
     from microslip.studies.sweep import kept
     from microslip_mechanics.results.joined import joined

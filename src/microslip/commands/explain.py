@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments, frc
 
 if TYPE_CHECKING:
-    from microslip.studies.unpruned import Timed
+    from microslip.studies.explain.unpruned import Timed
 
 IMPORTS = """\
 imports, by command (those that it does not need are never loaded):
@@ -44,8 +44,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.scene_file import load_scene
-    from microslip.studies.explain import obeyed, pruned
+    from microslip.scenes.scene_file import load_scene
+    from microslip.studies.explain.explain import obeyed, pruned
 
     scene = load_scene(options.scene, options.overrides)
     counts = pruned(scene)
@@ -57,7 +57,7 @@ def _run(options: argparse.Namespace) -> int:
     print(IMPORTS)
     if not options.time:
         return 0
-    from microslip.studies.unpruned import timed
+    from microslip.studies.explain.unpruned import timed
 
     try:
         some, every = timed(scene, frc.watched(scene.curve))
@@ -68,7 +68,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _compared(some: Timed, every: Timed) -> int:
     """Print both curves side by side; return the exit status."""
-    from microslip.studies.unpruned import difference
+    from microslip.studies.explain.unpruned import difference
 
     harmonics, samples = some.curve.harmonics[0], some.curve.samples[0]
     title = f"curve with {harmonics:.0f} harmonics, {samples:.0f} samples"

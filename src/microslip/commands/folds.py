@@ -125,7 +125,7 @@ def _keep(
 ) -> None:
     """Write table and picture."""
     from microslip.figures.folds import folds_figure
-    from microslip.store import save_figure, save_table
+    from microslip.files.store import save_figure, save_table
 
     table, picture = paths
     rows = [

@@ -41,8 +41,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.curve import curve_figure
+    from microslip.files.store import Stored, save, save_figure
     from microslip.progress import shown
-    from microslip.store import Stored, save, save_figure
     from microslip.studies.follow import follow
     from microslip.studies.parameter import parameter
 

@@ -10,9 +10,9 @@ from microslip.commands import arguments, frc_tables
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
-    from microslip.experiments import Curve
     from microslip.progress import Watch
-    from microslip.scene_tables import Scene
+    from microslip.scenes.experiments import Curve
+    from microslip.scenes.scene import Scene
     from microslip.studies.curve import Traced
 
 
@@ -66,9 +66,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.curve import curve_figure
-    from microslip.quantity import SceneError
-    from microslip.scene_file import load_scene
-    from microslip.store import Stored, save, save_figure
+    from microslip.files.store import Stored, save, save_figure
+    from microslip.scenes.quantity import SceneError
+    from microslip.scenes.scene_file import load_scene
 
     data, picture = arguments.outputs(options, "frc")
     if options.tolerance is not None:
@@ -94,7 +94,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     """Print the curve, its events, its errors, and what was sought."""
-    from microslip.rigs import sector_of
+    from microslip.scenes.rigs import sector_of
 
     print(frc_tables.table(traced))
     if traced.rest.normal_force.any():
@@ -111,7 +111,7 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
 
 def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
     """Return the curve of a scene, or of one sector that stands for a disk."""
-    from microslip.rigs import problem_of, sector_of, unpruned_of
+    from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
     from microslip.studies.curve import Wanted, trace_curve, trace_sector
 
     wanted = Wanted(options.branches, options.detached, options.effort or 1.0)

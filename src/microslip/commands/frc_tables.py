@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from microslip.commands.columns import about, decimal, headed, tabled, titled
 
 if TYPE_CHECKING:
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
     from microslip.studies.curve import Traced
     from microslip_mechanics.results.response_curve import ResponseCurve
     from microslip_mechanics.static import StaticState

@@ -51,7 +51,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.scene_file import load_scene
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.grid import QUICK, attempts, cases
 
     table = arguments.table(options)
@@ -97,7 +97,7 @@ def _line(attempt: Attempt) -> str:
 def _write(path: Path, found: list[Attempt]) -> None:
     from dataclasses import astuple
 
-    from microslip.store import save_table
+    from microslip.files.store import save_table
 
     rows = [(*astuple(each.case), *astuple(each)[1:]) for each in found]
     save_table(path, COLUMNS, rows)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from microslip.studies.curve import Traced
-    from microslip.studies.jumps import Jump
+    from microslip.studies.jumps.jumps import Jump
 
 HEADER = """\
      fold  sweep     rate     jump  behind the fold
@@ -60,12 +60,12 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.quantity import SceneError
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
+    from microslip.scenes.quantity import SceneError
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.curve import trace_curve
-    from microslip.studies.jump_folds import folds_of
-    from microslip.studies.jumps import LEAST, jumps
+    from microslip.studies.jumps.folds import folds_of
+    from microslip.studies.jumps.jumps import LEAST, jumps
     from microslip_mechanics.contact.memory import beyond_motion
 
     if options.rates is not None and len(set(options.rates)) < LEAST:
@@ -146,7 +146,7 @@ def _draw(
     import numpy as np
 
     from microslip.figures.jumps import JumpLine, jumps_figure
-    from microslip.store import save_figure
+    from microslip.files.store import save_figure
 
     lines = [
         JumpLine(

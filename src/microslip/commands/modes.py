@@ -92,8 +92,8 @@ def _tolerance(text: str) -> float:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.modes import ModeError, followed
 
     data, picture = arguments.outputs(options, "modes", ".csv", ".png")
@@ -150,7 +150,7 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
         If they make no sense.
     """
     from hbm.modes.mode_options import ModeOptions
-    from microslip.quantity import SceneError
+    from microslip.scenes.quantity import SceneError
 
     if options.range and not options.range[0] < options.range[1]:
         low, high = options.range
@@ -173,8 +173,8 @@ def _keep(
 ) -> None:
     """Write table and picture."""
     from microslip.figures.modes import modes_figure
+    from microslip.files.store import save_figure, save_table
     from microslip.mode_lines import mode_lines
-    from microslip.store import save_figure, save_table
 
     rows = [
         (

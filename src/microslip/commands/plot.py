@@ -31,8 +31,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.result import result_figure
-    from microslip.result_file import load
-    from microslip.store import save_figure
+    from microslip.files.result_file import load
+    from microslip.files.store import save_figure
 
     stored = load(options.file, arguments.MOST_ROWS)
     picture = options.output or options.file.with_suffix(".png")

@@ -68,7 +68,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.rigs import solvable
+    from microslip.scenes.rigs import solvable
     from microslip.studies.pole_question import Question
     from microslip.studies.poles import linearised
 
@@ -151,7 +151,7 @@ def _draw(
     picture: Path,
 ) -> None:
     from microslip.figures.poles import poles_figure
-    from microslip.store import save_figure
+    from microslip.files.store import save_figure
     from microslip.studies.axis import axis
     from microslip.studies.poles import limit_lines, limits_of
 
@@ -168,7 +168,7 @@ def _draw(
 
 def _write(path: Path, key: str, found: list[Linearised], lines: ComplexArray) -> None:
     """Write a row for each pole of each value."""
-    from microslip.store import save_table
+    from microslip.files.store import save_table
 
     pairs = zip(found, lines, strict=True)
     rows = (row for pair in pairs for row in _rows(*pair))

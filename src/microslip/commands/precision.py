@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from microslip.figures.precision import Line
-    from microslip.studies.precision import Run
-    from microslip.studies.precision_reference import Reference
+    from microslip.studies.precision.precision import Run
+    from microslip.studies.precision.reference import Reference
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -46,11 +46,11 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.scene_file import load_scene
-    from microslip.studies.precision import BUDGET, QUICK, runs
-    from microslip.studies.precision_case import case_of
-    from microslip.studies.precision_methods import settings
-    from microslip.studies.precision_reference import reference
+    from microslip.scenes.scene_file import load_scene
+    from microslip.studies.precision.case import case_of
+    from microslip.studies.precision.methods import settings
+    from microslip.studies.precision.precision import BUDGET, QUICK, runs
+    from microslip.studies.precision.reference import reference
 
     data, picture = arguments.outputs(options, "precision", ".csv", ".png")
     case = case_of(load_scene(options.scene, options.overrides), options.frequency)
@@ -86,8 +86,8 @@ def _keep(
 ) -> None:
     """Print the summary, write table and picture."""
     from microslip.figures.precision import precision_figure
-    from microslip.store import save_figure, save_table
-    from microslip.studies.orbit import QUANTITIES
+    from microslip.files.store import save_figure, save_table
+    from microslip.studies.precision.orbit import QUANTITIES
 
     print(precision_tables.summary(found, exact))
     save_table(table, precision_tables.COLUMNS, precision_tables.rows(found))
@@ -103,7 +103,7 @@ def _lines(found: list[Run], exact: Reference) -> dict[str, Line]:
     import numpy as np
 
     from microslip.figures.precision import Line
-    from microslip.studies.precision_fronts import front, slope
+    from microslip.studies.precision.fronts import front, slope
 
     made: dict[str, Line] = {}
     for method in dict.fromkeys(run.method for run in found):

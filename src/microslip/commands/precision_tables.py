@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from microslip.studies.precision import Run
-    from microslip.studies.precision_reference import Reference
+    from microslip.studies.precision.precision import Run
+    from microslip.studies.precision.reference import Reference
     from timedomain.shooting.steady import Slope
 
 RUNS = """\
@@ -69,7 +69,7 @@ def rows(found: list[Run]) -> Iterator[tuple[object, ...]]:
 
 def summary(found: list[Run], exact: Reference) -> str:
     """Return what each method costs at some errors, and the speed-up."""
-    from microslip.studies.orbit import QUANTITIES
+    from microslip.studies.precision.orbit import QUANTITIES
 
     parts = [
         part
@@ -83,8 +83,8 @@ def _costs(
     found: list[Run], exact: Reference, quantity: int, name: str
 ) -> Iterator[str]:
     """Yield a line for each method, and one of the speed-up."""
-    from microslip.studies.precision import ASKED
-    from microslip.studies.precision_fronts import cost_at
+    from microslip.studies.precision.fronts import cost_at
+    from microslip.studies.precision.precision import ASKED
 
     doubt = exact.spread[quantity]
     costs = {

@@ -15,7 +15,7 @@ from microslip.commands.report_sections import section_of, words_of
 from microslip.page import DONE, LEFT_OUT, STOPPED, Section, page
 
 if TYPE_CHECKING:
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
 
 LIBRARIES = ("numpy", "scipy", "numba", "pyfftw", "matplotlib")
 PAGE = "index.html"
@@ -48,7 +48,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import shown
-    from microslip.scene_file import load_scene
+    from microslip.scenes.scene_file import load_scene
 
     scene = load_scene(options.scene, options.overrides)
     folder = _folder(options)
@@ -161,7 +161,7 @@ def _write(folder: Path, options: argparse.Namespace, sections: list[Section]) -
     StoreError
         If it cannot be written.
     """
-    from microslip.store import told
+    from microslip.files.store import told
 
     path = folder / PAGE
     made = time.strftime("%Y-%m-%d %H:%M %Z")

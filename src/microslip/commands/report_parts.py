@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)

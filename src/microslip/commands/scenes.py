@@ -46,9 +46,9 @@ def _run(options: argparse.Namespace) -> int:
     if options.scene is None:
         print(VARIANTS)
         return 0
-    from microslip.quantity import SceneError
-    from microslip.scene_file import BUILT_IN, built_in_text
-    from microslip.table import meant
+    from microslip.scenes.quantity import SceneError
+    from microslip.scenes.scene_file import BUILT_IN, built_in_text
+    from microslip.scenes.table import meant
 
     if options.scene not in BUILT_IN:
         raise SceneError(

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from microslip.studies.stress_case import Case
-    from microslip.studies.stress_finding import Tried
+    from microslip.studies.stress.case import Case
+    from microslip.studies.stress.finding import Tried
 
 COLUMNS = (
     *("parameter", "value", "outcome", "cause", "points", "harmonics", "iterations"),
@@ -59,10 +59,10 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.scene_file import load_scene
-    from microslip.studies.stress import tried
-    from microslip.studies.stress_budget import Budget
-    from microslip.studies.stress_cases import cases
+    from microslip.scenes.scene_file import load_scene
+    from microslip.studies.stress.budget import Budget
+    from microslip.studies.stress.cases import cases
+    from microslip.studies.stress.stress import tried
 
     _, picture = arguments.outputs(options, "stress", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
@@ -102,7 +102,7 @@ def _line(tried: Tried) -> str:
 
 def _verdict(found: Sequence[Tried], share: float) -> int:
     """Print the rates and each case that falls short; return the exit status."""
-    from microslip.studies.stress_finding import Outcome, rate
+    from microslip.studies.stress.finding import Outcome, rate
 
     good, solved = rate(found)
     bad = [each for each in found if each.finding.outcome is Outcome.DISAGREES]
@@ -133,7 +133,7 @@ def _write(
     """Write table and picture of what there is."""
     from dataclasses import astuple
 
-    from microslip.store import save_table
+    from microslip.files.store import save_table
 
     rows = [
         (
@@ -158,8 +158,8 @@ def _draw(
     found: Sequence[Tried],
 ) -> None:
     from microslip.figures.stress import Cell, stress_figure
-    from microslip.store import save_figure
-    from microslip.studies.stress_finding import Outcome
+    from microslip.files.store import save_figure
+    from microslip.studies.stress.finding import Outcome
 
     known = {each.case: each.finding for each in found}
     cells = []

@@ -18,9 +18,9 @@ from microslip.commands.sweep_tables import (
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
+    from microslip.files.recording import Recording
     from microslip.progress import Watch
-    from microslip.recording import Recording
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.results.checkpoint import Checkpoint
     from microslip_mechanics.results.envelope import Envelope
@@ -62,8 +62,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
     from timedomain.record.closure import OPEN
@@ -117,7 +117,7 @@ def _places(options: argparse.Namespace) -> tuple[Path, Path]:
     SceneError
         If a march is to go on in another file.
     """
-    from microslip.quantity import SceneError
+    from microslip.scenes.quantity import SceneError
 
     if options.resume is None:
         return arguments.outputs(options, "sweep")
@@ -142,8 +142,8 @@ def _begun(
     SceneError
         If the file has rows in time, and an envelope is asked for.
     """
-    from microslip.quantity import SceneError
-    from microslip.recording import Recording, resumed
+    from microslip.files.recording import Recording, resumed
+    from microslip.scenes.quantity import SceneError
     from microslip_mechanics.results.envelope import Envelope
 
     if options.resume is None:
@@ -165,8 +165,8 @@ def _show(
 ) -> bool:
     """Print and draw what the file holds; return whether its energies balance."""
     from microslip.figures.result import result_figure
-    from microslip.result_file import load, stretches
-    from microslip.store import save_figure
+    from microslip.files.result_file import load, stretches
+    from microslip.files.store import save_figure
     from microslip_mechanics.contact.memory import beyond_motion
     from microslip_mechanics.results.extremes import extremes, of_all
     from timedomain.record.closure import closes

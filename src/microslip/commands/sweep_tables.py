@@ -20,13 +20,15 @@ are too sparse to tell how much it is"""
 
 def energy_table(result: TimeHistory | Envelope) -> str:
     """Return energies and the closing error of their balance."""
+    from microslip_mechanics.arrays import TINY
+
     lines = [f"energy until {result.time[-1]:g} s [J]"]
     lines += [
         f"  {name.replace('_', ' '):20s} {result.of(name)[-1]:12.6g}"
         for name in result.energies
     ]
     closing = float(abs(result.closing_error).max())
-    share = closing / max(float(abs(result.of("input")).max()), 1e-300)
+    share = closing / max(float(abs(result.of("input")).max()), TINY)
     lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")
     return "\n".join(lines)
 

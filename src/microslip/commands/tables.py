@@ -112,7 +112,7 @@ def _jamming(row: Row) -> str:
         "  point   at rest     least      most   share of the time out of contact"
     )
     for place, name in enumerate(history.contacts):
-        force = history.normal_force[history.time > 2.0, place]
+        force = history.normal_force[history.time > row.begin, place]
         lines.append(
             f"  {name:5s} {row.rest[place]:9.3f} {force.min():9.3f} {force.max():9.3f}"
             f" {100.0 * (force == 0.0).mean():9.1f} %"
@@ -121,7 +121,7 @@ def _jamming(row: Row) -> str:
 
 
 def _write(path: Path, found: list[Row]) -> None:
-    from microslip.store import save_table
+    from microslip.files.store import save_table
 
     save_table(path, COLUMNS, [_cells(row) for row in found])
 

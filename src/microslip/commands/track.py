@@ -44,8 +44,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.rigs import solvable
-    from microslip.scene_file import load_scene
+    from microslip.scenes.rigs import solvable
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.track import tracked
 
     data, picture = arguments.outputs(options, "track", ".csv", ".png")
@@ -95,7 +95,7 @@ def _keep(
     options: argparse.Namespace, found: list[Tracked], table: Path, picture: Path
 ) -> None:
     """Write table and picture."""
-    from microslip.store import save_table
+    from microslip.files.store import save_table
 
     rows = [
         (
@@ -116,8 +116,8 @@ def _keep(
 
 def _draw(options: argparse.Namespace, found: list[Tracked], picture: Path) -> None:
     from microslip.figures.track import track_figure
-    from microslip.scene_file import load_scene
-    from microslip.store import save_figure
+    from microslip.files.store import save_figure
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.axis import axis
 
     values = [each.value for each in found]

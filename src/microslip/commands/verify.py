@@ -15,7 +15,7 @@ from microslip.commands.verify_checks import (
 from microslip.commands.verify_findings import Findings, draw, report, verdict
 
 if TYPE_CHECKING:
-    from microslip.experiments import Curve, Sweep
+    from microslip.scenes.experiments import Curve, Sweep
     from microslip.studies.curve import Traced
     from microslip_mechanics.problem import Problem
 
@@ -88,9 +88,9 @@ def _slowness(text: str) -> float:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from microslip.quantity import SceneError
-    from microslip.rigs import problem_of
-    from microslip.scene_file import load_scene
+    from microslip.scenes.quantity import SceneError
+    from microslip.scenes.rigs import problem_of
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.march_size import demand_dense
     from microslip_mechanics.contact.memory import beyond_motion
 
@@ -132,7 +132,7 @@ def _check_asked(options: argparse.Namespace) -> None:
     SceneError
         If it does not.
     """
-    from microslip.quantity import SceneError
+    from microslip.scenes.quantity import SceneError
 
     if options.steps is not None and not options.periods:
         raise SceneError(
@@ -149,7 +149,7 @@ def _check_covered(options: argparse.Namespace, curve: Curve, swept: Sweep) -> N
     SceneError
         If it is not.
     """
-    from microslip.quantity import SceneError
+    from microslip.scenes.quantity import SceneError
 
     if not (curve.lowest <= swept.lowest and swept.highest <= curve.highest):
         raise SceneError(

@@ -9,9 +9,9 @@ from microslip.commands import sweep
 
 if TYPE_CHECKING:
     from microslip.commands.verify_findings import Findings
-    from microslip.scene_tables import Scene
+    from microslip.scenes.scene import Scene
     from microslip.studies.curve import Traced
-    from microslip.studies.verify import SweepAgreement
+    from microslip.studies.verify.verify import SweepAgreement
     from microslip_mechanics.problem import Problem
 
 STEPS = 600
@@ -23,7 +23,7 @@ def check_orbits(
 ) -> None:
     """Shoot; print what is found at once."""
     from microslip.progress import collected
-    from microslip.studies.orbits import spread, verdicts
+    from microslip.studies.verify.orbits import spread, verdicts
 
     places = spread(traced, options.frequencies)
     found.places.extend(places)
@@ -42,7 +42,7 @@ def check_marches(
 ) -> None:
     """March from the same orbits; what is found stays when the march is stopped."""
     from microslip.progress import collected
-    from microslip.studies.verify import orbits
+    from microslip.studies.verify.verify import orbits
 
     if options.periods == 0:
         return
@@ -66,7 +66,7 @@ def check_sweeps(
 ) -> None:
     """March the sweeps; what is found stays when a march is stopped."""
     from microslip.studies.sweep import swept_sine
-    from microslip.studies.verify import sweep_agreement
+    from microslip.studies.verify.verify import sweep_agreement
 
     for slower in sorted(set(options.slower)):
         length = swept_sine(scene.sweep, slower=slower).duration

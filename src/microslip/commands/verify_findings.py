@@ -11,8 +11,8 @@ from microslip.commands import verify_tables
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from microslip.studies.orbits import Verdict
-    from microslip.studies.verify import SweepAgreement
+    from microslip.studies.verify.orbits import Verdict
+    from microslip.studies.verify.verify import SweepAgreement
     from microslip_mechanics.results.response_curve import ResponseCurve
     from timedomain.verify import Agreement
 
@@ -48,7 +48,7 @@ def draw(found: Findings, curve: ResponseCurve, picture: Path, title: str) -> No
     import numpy as np
 
     from microslip.figures.agreement import agreement_figure
-    from microslip.store import save_figure
+    from microslip.files.store import save_figure
 
     made = [each.comparison for each in found.orbits if each.comparison is not None]
     rubbing = [each for each in found.sweeps if each.rubs]
@@ -77,8 +77,8 @@ def draw(found: Findings, curve: ResponseCurve, picture: Path, title: str) -> No
 
 def verdict(found: Findings, tolerance: float) -> int:
     """Print whether the solvers agree; return the exit status."""
-    from microslip.studies.orbits import too_many
-    from microslip.studies.verify import falls
+    from microslip.studies.verify.orbits import too_many
+    from microslip.studies.verify.verify import falls
 
     print(verify_tables.orbits_said(found.orbits))
     agrees = not (too_many(found.orbits) or any(each.cause for each in found.orbits))

@@ -10,8 +10,8 @@ from microslip.commands.columns import SHOWN, headed, titled
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from microslip.studies.orbits import Verdict
-    from microslip.studies.verify import SweepAgreement
+    from microslip.studies.verify.orbits import Verdict
+    from microslip.studies.verify.verify import SweepAgreement
     from timedomain.verify import Agreement
 
 ORBITS = """\
@@ -69,7 +69,7 @@ def march_rows(marches: Sequence[Agreement], probes: Sequence[str]) -> str:
 
 def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
     """Return the sweeps as a table, and how fast their difference falls."""
-    from microslip.studies.verify import rate_of
+    from microslip.studies.verify.verify import rate_of
 
     rubs = any(sweep.rubs for sweep in sweeps)
     lines = [SWEEPS, SLOWER + (ENERGY if rubs else "") + ENVELOPE]
@@ -143,7 +143,7 @@ def orbits_said(verdicts: Sequence[Verdict]) -> str:
 
 def _shared(verdicts: Sequence[Verdict]) -> list[str]:
     """Return what is said of all orbits together."""
-    from microslip.studies.orbits import beyond, too_many
+    from microslip.studies.verify.orbits import beyond, too_many
 
     count, most = len(verdicts), beyond(verdicts)
     if too_many(verdicts):

@@ -34,7 +34,7 @@ class LabelledMatrix:
             rows, or a name twice.
         """
         if not np.isfinite(self.matrix.data).all():
-            raise ValueError("the matrix holds a value that is not finite")
+            raise ValueError("a value is not finite: export the matrix again")
         rows, columns = self.matrix.shape
         if rows != columns:
             raise ValueError(

@@ -9,6 +9,7 @@ from pathlib import Path
 import scipy.io
 import scipy.sparse
 
+from microslip.errors import one_line
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
 from microslip.matrices.sparse_kind import either_kind
@@ -69,7 +70,7 @@ def _check_entries(
 
 def _malformed(path: Path, error: Exception) -> MatrixFileError:
     """Return the error in one line; scipy's reader begins with the line's number."""
-    text = " ".join(str(error).split())
+    text = one_line(error)
     found = re.match(r"Line (\d+): (.*)", text)
     line, cause = (int(found[1]), found[2]) if found else (None, text)
     return MatrixFileError(

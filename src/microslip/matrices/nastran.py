@@ -99,7 +99,7 @@ def _fields(line: str) -> list[str]:
 def _dof(path: Path, number: int, node: str, direction: str) -> tuple[int, int]:
     """Return node and direction."""
     direction = direction or "0"
-    if not (node.isdecimal() and direction in "0123456"):
+    if not (node.isdecimal() and direction in tuple("0123456")):
         raise MatrixFileError(
             path,
             f"{node!r}, {direction!r} are no node and direction from 0 to 6: "

@@ -1,1 +1,1 @@
-"""Built-in scenes, one folder each."""
+"""Scenes: files that are read and checked, and what their rigs are built of."""

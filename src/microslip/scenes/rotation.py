@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from microslip.quantity import quantity
+from microslip.scenes.quantity import quantity
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from microslip.key_path import key_path
-from microslip.scene_tables import Scene
-from microslip.studies import numbers
+from microslip.scenes import key_value
+from microslip.scenes.key_path import key_path
+from microslip.scenes.scene import Scene
 
 
 def axis(
@@ -25,9 +25,9 @@ def axis(
     texts, scenes
         The values as they were given, and the scene with each of them.
     """
-    found = [numbers.reached(each.rig, key_path(key)) for each in scenes]
+    found = [key_value.reached(each.rig, key_path(key)) for each in scenes]
     if all(type(value) is float for value in found):
-        unit = numbers.unit(scenes[0].rig, key_path(key))
+        unit = key_value.unit(scenes[0].rig, key_path(key))
         return found, f"{key} [{unit}]" if unit else key, []
     numerals, _, units = zip(*(text.partition(" ") for text in texts), strict=True)
     try:

@@ -11,10 +11,10 @@ from hbm.curves.cyclic import cyclic_response
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import branches, frequency_response
-from microslip.experiments import Curve
 from microslip.interruption import unmasked
 from microslip.progress import Watch
-from microslip.quantity import SceneError
+from microslip.scenes.experiments import Curve
+from microslip.scenes.quantity import SceneError
 from microslip.studies.detached import Searched, search
 from microslip.studies.gaps import BROKEN, MISSING, told
 from microslip_mechanics.cyclic import CyclicProblem

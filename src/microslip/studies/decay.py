@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from microslip.experiments import March
-from microslip.quantity import SceneError
+from microslip.scenes.experiments import March
+from microslip.scenes.quantity import SceneError
 from microslip.studies.march_size import demand_end
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import beyond_motion

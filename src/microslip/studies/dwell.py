@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from microslip.experiments import March
+from microslip.scenes.experiments import March
 from microslip.studies.march_size import demand_end
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.loads.excitation import Dwell

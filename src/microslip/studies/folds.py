@@ -12,9 +12,9 @@ from hbm.curves.fold_curve import FoldPoint
 from hbm.curves.parameter_curves import fold_curve
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
-from microslip.experiments import Curve
 from microslip.interruption import unmasked
 from microslip.progress import Watch
+from microslip.scenes.experiments import Curve
 from microslip.studies.curve import trace_curve
 from microslip.studies.parameter import Parameter, told_along
 from microslip_mechanics.errors import MicroslipError

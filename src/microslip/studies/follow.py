@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from hbm.curves.parameter_curves import parameter_response
 from hbm.options import CurveOptions
-from microslip.experiments import Resolution
 from microslip.progress import Watch
-from microslip.rigs import solvable
+from microslip.scenes.experiments import Resolution
+from microslip.scenes.rigs import solvable
 from microslip.studies.curve import gathered
 from microslip.studies.gaps import told
 from microslip.studies.parameter import Parameter, told_along

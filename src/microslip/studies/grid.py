@@ -10,16 +10,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.errors import EXPECTED, one_line
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip.studies.bounded import bounded
 from microslip.studies.clock import LATE, OutOfTimeError, limited
 from microslip.studies.curve import trace_curve
 from microslip.studies.gaps import missing
-from microslip.studies.stress_finding import EXPECTED, line
 
 LAWS = ("coulomb", "gkf")
 SIGMAS = (3e-9, 3e-7)
@@ -154,7 +154,7 @@ def _attempted(
             curve, math.tau * loaded.curve.lowest, math.tau * loaded.curve.highest
         )
     except (*EXPECTED, OutOfTimeError) as cause:
-        ending = line(cause)
+        ending = one_line(cause)
     if ending == LATE:
         ending = f"{LATE} after {seconds:g} s"
     yield Attempt(case, ending, points, error, gap, time.process_time() - began)

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from microslip.experiments import Sweep
-from microslip.quantity import SceneError
-from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
+from microslip.scenes.experiments import Sweep
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene import Scene
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.loads.excitation import LoadHistory
 from microslip_mechanics.loads.force_record import ForceRecord

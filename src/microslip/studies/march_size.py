@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip_mechanics.loads.excitation import LoadHistory
 from microslip_mechanics.loads.segments import clock
 from microslip_mechanics.problem import Problem

@@ -12,7 +12,7 @@ from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import NonlinearMode, modes_in_range, nonlinear_mode
 from microslip.interruption import unmasked
 from microslip.progress import Watch
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem

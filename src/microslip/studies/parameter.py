@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from hbm.errors import placed
-from microslip.experiments import APART
-from microslip.key_path import key_path
-from microslip.quantity import SceneError
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
-from microslip.studies import numbers
+from microslip.scenes import key_value
+from microslip.scenes.experiments import APART
+from microslip.scenes.key_path import key_path
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.problem import Problem
 
 Point = TypeVar("Point")
@@ -36,12 +36,12 @@ class Parameter:
     @property
     def label(self) -> str:
         """Name and unit."""
-        unit = numbers.unit(self.scene.rig, key_path(self.name))
+        unit = key_value.unit(self.scene.rig, key_path(self.name))
         return f"{self.name} [{unit}]" if unit else self.name
 
     def problem_at(self, value: float) -> Problem:
         """Return the problem at a value [SI units]."""
-        changed = numbers.replaced(self.scene.rig, key_path(self.name), value)
+        changed = key_value.replaced(self.scene.rig, key_path(self.name), value)
         return problem_of(dataclasses.replace(self.scene, rig=changed))
 
 
@@ -66,7 +66,7 @@ def parameter(
     Parameters
     ----------
     scene, overrides
-        As for :func:`~microslip.scene_file.load_scene`.
+        As for :func:`~microslip.scenes.scene_file.load_scene`.
     name
         Table and key.
     first, last
@@ -80,7 +80,7 @@ def parameter(
     begun, ended = (
         load_scene(scene, [*overrides, f"{name}={value}"]) for value in (first, last)
     )
-    values = [numbers.reached(each.rig, key_path(name)) for each in (begun, ended)]
+    values = [key_value.reached(each.rig, key_path(name)) for each in (begun, ended)]
     found = [value for value in values if type(value) is float]
     if len(found) < len(values):
         raise SceneError(

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip.quantity import SceneError
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
 from microslip.scenes.bladed_disk.tables import BladedDisk
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.scenes.systems.tables import System
 from microslip.scenes.two_blades.tables import TwoBlades
 

@@ -17,8 +17,8 @@ from hbm.one_harmonic import (
     one_harmonic_response,
 )
 from hbm.structure.poles import NONE, followed, poles
-from microslip.rigs import problem_of
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
 from microslip.studies.pole_question import Question
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.errors import MicroslipError

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
-from microslip.experiments import March, Sweep
 from microslip.interruption import unmasked
 from microslip.progress import Watch
+from microslip.scenes.experiments import March, Sweep
 from microslip.studies.march_size import demand_end
 from microslip_mechanics.loads.excitation import LoadHistory, SweptSine
 from microslip_mechanics.loads.segments import clock

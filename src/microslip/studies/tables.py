@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip.rigs import problem_of
-from microslip.scene_file import load_scene
-from microslip.scene_tables import Scene
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene import Scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
@@ -62,8 +62,10 @@ class Row:
     """run time of the march at the scene's time step [s]"""
     rest: np.ndarray
     """normal force of each point at rest [N]"""
+    begin: float
+    """of the drive [s]"""
     history: TimeHistory
-    estimated: float = float("nan")
+    estimated: float
     """error of the energy by its march's steps, relative: the most that half the step
     ever changes, or twice the step if none is halved; NaN if there is no friction"""
 
@@ -83,7 +85,8 @@ def rows(source: str, variants: tuple[Variant, ...], *, halve: bool) -> Iterator
         closing = np.abs(history.closing_error).max() / history.of("input").max()
         rest = static_equilibrium(problem_of(scene)).normal_force
         told = _changed(history, finer) if halve else _estimated(history)
-        yield Row(variant, energy, change, float(closing), seconds, rest, history, told)
+        found = energy, change, float(closing), seconds
+        yield Row(variant, *found, rest, scene.sweep.start, history, told)
 
 
 def _changed(history: TimeHistory, finer: TimeHistory) -> float:

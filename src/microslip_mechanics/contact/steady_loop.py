@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.memory import pressed, traction
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
@@ -85,7 +85,7 @@ def steady_loop(
                 _carry(gradient, waves, frequency, axes, step, place, last)
             for axis in range(2):
                 made[axis, place], change[axis, place] = state[0, axis], state[1, axis]
-        largest = max(np.abs(made).max(), 1e-300)
+        largest = max(np.abs(made).max(), TINY)
         if sweep > 0 and np.abs(state[0] - first).max() <= STEADY * largest:
             break
     return made, change

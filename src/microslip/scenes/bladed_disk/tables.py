@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from microslip.quantity import quantity
+from microslip.scenes.quantity import quantity
 
 PARTS = ("disk", "root", "middle", "tip")
 """masses of a sector, in their order"""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from microslip.matrices.read import MatrixFiles, read_structure
 from microslip.matrices.source import MatrixSource
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip.scenes.systems.cantilever import assembled
 from microslip.scenes.systems.tables import Numbers, RayleighRatios, System
 from microslip_mechanics.element import Element

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from microslip.quantity import quantity
+from microslip.scenes.quantity import quantity
 from microslip_mechanics.structures.beam import RectangularSection
 from microslip_mechanics.structures.frame import MOTIONS, Beam, Frame, Node, RigidBody
 

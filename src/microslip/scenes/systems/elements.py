@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip.scenes.systems.expand import expanded
-from microslip.table import meant, read_table
+from microslip.scenes.table import meant, read_table
 from microslip_mechanics.element import KEYS
 from microslip_mechanics.laws.catalogue import LAWS
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from microslip.quantity import SceneError
-from microslip.table import meant, shown
+from microslip.scenes.quantity import SceneError
+from microslip.scenes.table import meant, shown
 
 
 def expanded(

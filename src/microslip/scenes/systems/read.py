@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from microslip.quantity import Quantity, SceneError
+from microslip.scenes.quantity import Quantity, SceneError
 from microslip.scenes.systems.elements import read_elements
 from microslip.scenes.systems.structure import (
     read_masses,
@@ -13,7 +13,7 @@ from microslip.scenes.systems.structure import (
     read_structure_numbers,
 )
 from microslip.scenes.systems.tables import Base, Order, System, Wave
-from microslip.table import meant, read_numbers, read_table, shown
+from microslip.scenes.table import meant, read_numbers, read_table, shown
 
 TABLES = (
     "structure", "element", "drive", "preload", "probes", "base", "engine_order"

@@ -6,9 +6,9 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from microslip.quantity import Quantity, SceneError
+from microslip.scenes.quantity import Quantity, SceneError
 from microslip.scenes.systems.tables import Matrices, Numbers
-from microslip.table import meant, read_numbers, read_table, shown
+from microslip.scenes.table import meant, read_numbers, read_table, shown
 
 MATRICES = ("mass", "stiffness", "damping")
 NUMBERS = tuple(each.name for each in fields(Numbers))

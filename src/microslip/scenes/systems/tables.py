@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
-from microslip.quantity import quantity
+from microslip.scenes.quantity import quantity
 from microslip.scenes.rotation import SteadyRotation
 from microslip.scenes.systems.cantilever import Cantilever
 from microslip_mechanics.laws.row import Law

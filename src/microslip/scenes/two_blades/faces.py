@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from microslip.quantity import SceneError
+from microslip.scenes.quantity import SceneError
 from microslip.scenes.two_blades import layout
 from microslip.scenes.two_blades.tables import TwoBlades
 from microslip_mechanics.arrays import Array

@@ -1,0 +1,143 @@
+"""Results of plain Python: to files and back, and their pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from matplotlib.figure import Figure
+
+    from microslip.files.schema import Result
+    from microslip.studies.modes import FollowedMode
+
+REST = "microslip.curve, microslip.follow, microslip.sweep or microslip.load"
+PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
+
+
+def save(result: Result, path: str | PathLike[str]) -> None:
+    """Write a curve or a march as netCDF; ``microslip plot`` draws it.
+
+    Parameters
+    ----------
+    result
+        From :func:`microslip.curve`, :func:`microslip.follow` or
+        :func:`microslip.sweep`.
+    path
+        The file; docs/files.md says what is in it.
+
+    Raises
+    ------
+    MicroslipError
+        If the file cannot be written or is to be a picture, or the result is none.
+    """
+    from microslip.errors import GivenError
+    from microslip.files import store
+
+    _check(result, "microslip.save")
+    place = _path(path, "microslip.save")
+    if place.suffix.lower() in PICTURES:
+        raise GivenError(
+            f"microslip.save: {path}: it writes netCDF: give a name that ends with "
+            ".nc; microslip.figure(result).savefig(path) writes a picture"
+        )
+    store.save(place, store.Stored(result, "", "microslip.save"))
+
+
+def load(path: str | PathLike[str]) -> Result:
+    """Return what :func:`save` or a command has written.
+
+    Raises
+    ------
+    MicroslipError
+        If there is no such file, or it is not a result.
+    """
+    from microslip.files import result_file
+
+    return result_file.load(_path(path, "microslip.load")).result
+
+
+def figure(result: Result | tuple[FollowedMode, ...], title: str = "") -> Figure:
+    """Return the picture that the command line draws of a curve, a march, or modes.
+
+    A notebook shows it; ``figure(result).savefig(path)`` writes it.
+
+    Raises
+    ------
+    MicroslipError
+        If the result is none, or the title is no text.
+    ValueError
+        If a march has not come far enough to have anything to draw.
+    """
+    from microslip.errors import GivenError
+
+    if not isinstance(title, str):
+        raise GivenError(
+            f"microslip.figure: title = {title!r}: give a text; the picture has axes "
+            "of its own"
+        )
+    if isinstance(result, tuple):
+        return _modes(result, title)
+    from microslip.figures.result import result_figure
+
+    _check(result, "microslip.figure")
+    return result_figure(result, title)
+
+
+def _modes(result: tuple[FollowedMode, ...], title: str) -> Figure:
+    """Return the picture of modes.
+
+    Raises
+    ------
+    GivenError
+        If there is none with a point, or if they are none.
+    """
+    from microslip.errors import GivenError
+    from microslip.figures.modes import modes_figure
+    from microslip.mode_lines import mode_lines
+    from microslip.studies.modes import FollowedMode
+
+    if not all(isinstance(each, FollowedMode) for each in result):
+        raise GivenError(
+            f"microslip.figure: {result!r}: give what microslip.modes, {REST} returns"
+        )
+    lines = mode_lines(result)
+    if not lines:
+        raise GivenError("microslip.figure: no mode has a point: see their endings")
+    return modes_figure(lines, title)
+
+
+def _path(path: str | PathLike[str], function: str) -> Path:
+    """Return a path.
+
+    Raises
+    ------
+    GivenError
+        If it is none, or has a character that no path has.
+    """
+    from microslip.errors import GivenError
+
+    try:
+        place = Path(path)
+    except TypeError:
+        place = Path("\0")
+    if "\0" in str(place):
+        raise GivenError(f"{function}: path = {path!r}: give the path of a file")
+    return place
+
+
+def _check(result: Result, function: str) -> None:
+    """Check that something is a result.
+
+    Raises
+    ------
+    GivenError
+        If it is none.
+    """
+    from microslip.errors import GivenError
+    from microslip.files.schema import SCHEMAS
+
+    if not isinstance(result, tuple(made for made, _ in SCHEMAS.values())):
+        raise GivenError(f"{function}: {result!r}: give what {REST} returns")

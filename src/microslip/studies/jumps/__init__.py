@@ -1,0 +1,1 @@
+"""Where swept sines jump, beside the folds of the curve."""

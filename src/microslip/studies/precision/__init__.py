@@ -1,0 +1,1 @@
+"""Error against run time: methods, settings and outsiders on one periodic motion."""

@@ -1,0 +1,1 @@
+"""Stiff and extreme scenes by both solvers, each within its time."""

@@ -1,0 +1,1 @@
+"""Whether both solvers agree: orbits that are found again, and sweeps that slow."""

@@ -116,7 +116,7 @@ def between_touches(
     time, end, state = 0.0, 2.0 * np.pi / frequency, start
     while time < end:
         touch.direction = -1.0 if closed else 1.0
-        made = solve_ivp(  # type: ignore[call-overload]
+        made = solve_ivp(
             rate, (time, end), state, "DOP853", args=(closed,), events=touch,
             rtol=1e-11, atol=1e-15, max_step=end / 50,
         )  # fmt: skip

@@ -41,8 +41,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument(
         "--seconds",
         type=arguments.positive,
-        default=60.0,
-        help="of processor time that a curve may take (default: 60)",
+        default=300.0,
+        help="of processor time that a curve may take (default: 300)",
     )
     arguments.add_processes(parser, "curves are traced")
     arguments.add_table(parser)

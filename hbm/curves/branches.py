@@ -18,7 +18,7 @@ from hbm.continuation.newton import correct
 from hbm.curves.pieces import Pieces
 from hbm.curves.tracer import Tracer
 from hbm.errors import ContinuationError
-from hbm.events.crossings import BRANCH
+from hbm.events.crossed import BRANCH
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.paths.path import AlongFrequency

@@ -11,7 +11,8 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
 from hbm.errors import ContinuationError
-from hbm.events.crossings import ASTRAY, BRANCH, TORUS, crossings
+from hbm.events.crossed import BRANCH, TORUS, crossings
+from hbm.events.crossings import ASTRAY
 from hbm.events.events import Events
 from hbm.events.multipliers import Multipliers
 from hbm.events.settled import Settled

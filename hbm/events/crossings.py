@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import NamedTuple
 
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import PRECISION, ROUGH, ROUGHER, Segment, folds
+from hbm.events.crossed import BRANCH, crossed, crossings, turns
 from hbm.events.crossing_error import crossing_error, witness
-from hbm.events.moving_multiplier import MovingMultiplier, outside
+from hbm.events.moving_multiplier import MovingMultiplier
 from hbm.events.multipliers import Multipliers
 from hbm.events.settled import Settled
 from hbm.forces.fourier import FourierBasis, by_harmonics
@@ -27,12 +27,6 @@ point: the crossing is located again with all harmonics, then more precisely"""
 LEAP = 0.1
 """of the change of a multiplier between two points: what is left of its excess where it
 is located, from which on it leaps"""
-REAL = 1e-6
-"""imaginary part of a multiplier, over its modulus, below which it is real"""
-BESIDE = 1e-3
-"""distance from +1 within which one that is real may pair with another: one of a free
-mean position that hardly decays is there all the time"""
-TORUS, BRANCH = "Neimark-Sacker", "branch point"
 
 
 class Crossing(NamedTuple):
@@ -66,7 +60,7 @@ class Crossings:
                 paired = False
                 continue
             crossing, multiplier = self._crossing(segment, which, before, after)
-            paired = _turns(multiplier)
+            paired = turns(multiplier)
             if crossing is not None:
                 yield crossing
 
@@ -90,42 +84,45 @@ class Crossings:
             if not self._astray(segment, located, moving, told):
                 break
             moving = MovingMultiplier(which, before.multipliers, after.multipliers)
-            located, finer, precision = (
-                self._along(segment, moving, told, each),
-                told,
-                each,
-            )
+            located, finer = self._along(segment, moving, told, each), told
+            precision = each
         multiplier = moving.outside
         if located is None:
             return None, multiplier
-        growth = moving.growth(self._finest(located, finer))
-        first, last = moving.ends
-        if self.recalls and abs(growth) > LEAP * abs(last - first):
-            return None, multiplier
         used = finer or self.system.fourier
         other = witness(used, told or used)
-        known = segment, located, moving, growth
-        error = partial(self._error, *known, other, precision)
-        return Crossing(crossed(multiplier), located, error), multiplier
+        made = self._made(segment, located, moving, finer, other, precision)
+        return made, multiplier
 
-    def _error(
+    def _made(
         self,
         segment: Segment,
         located: Correction,
         moving: MovingMultiplier,
-        growth: float,
+        finer: FourierBasis | None,
         other: FourierBasis,
         precision: float,
-    ) -> float:
-        """Return how far aside a crossing may lie, by an orbit of another resolution.
+    ) -> Crossing | None:
+        """Return a crossing that was located; None if the multiplier leaps there.
 
-        ``growth`` is that of the orbit with which it was located.
+        Its error is that by orbits of the ``other`` resolution.
         """
-        orbit = self.multipliers.finer(located.point, other)
-        if orbit is None:
-            return math.nan
-        doubt = abs(moving.growth(self.multipliers.at(orbit, other)) - growth)
-        return crossing_error(segment, located, moving.ends, doubt, precision)
+        name, (first, last) = crossed(moving.outside), moving.ends
+
+        def growth() -> float:
+            return moving.growth(self._finest(located, finer))
+
+        if self.recalls and abs(growth()) > LEAP * abs(last - first):
+            return None
+
+        def error() -> float:
+            orbit = self.multipliers.finer(located.point, other)
+            if orbit is None:
+                return math.nan
+            doubt = moving.growth(self.multipliers.at(orbit, other)) - growth()
+            return crossing_error(segment, located, moving.ends, abs(doubt), precision)
+
+        return Crossing(name, located, error)
 
     def _along(
         self,
@@ -222,27 +219,3 @@ class Crossings:
             found = self.multipliers.finer(point, finer)
             point, fourier = (point, fourier) if found is None else (found, finer)
         return self.multipliers.at(point, fourier)
-
-
-def crossings(before: ComplexArray, after: ComplexArray) -> range:
-    """Return which Floquet multipliers cross the unit circle between two points.
-
-    A multiplier is known by its place in the order of moduli, the largest first.
-    """
-    return range(*sorted((outside(before), outside(after))))
-
-
-def crossed(multiplier: complex) -> str:
-    """Return what happens where a multiplier is on the unit circle.
-
-    At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
-    elsewhere, together with its conjugate, a torus begins.
-    """
-    if _turns(multiplier) and abs(multiplier - 1.0) > BESIDE:
-        return TORUS
-    return BRANCH if multiplier.real > 0.0 else "period doubling"
-
-
-def _turns(multiplier: complex) -> bool:
-    """Return whether a multiplier has a conjugate beside it."""
-    return abs(multiplier.imag) > REAL * abs(multiplier)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import Segment, folds
-from hbm.events.crossings import BRANCH
+from hbm.events.crossed import BRANCH
 from hbm.forces.fourier import FourierBasis
 
 UPRIGHT = 5e-3

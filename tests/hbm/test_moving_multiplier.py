@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hbm.events.crossings import BRANCH, TORUS, crossed
+from hbm.events.crossed import BRANCH, TORUS, crossed
 from hbm.events.moving_multiplier import MovingMultiplier, outside
 from microslip_mechanics.results.response import MARGIN
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force, sudden
@@ -34,10 +35,8 @@ def contact_jumps(period_map: PeriodMap, period: Period) -> list[ContactJump]:
     points, basis = period_map.problem.interface.points, period_map.sliders.basis
     moved, moving = period_map.points(period.displacement, period.velocity)
     length = 2.0 * np.pi / (period_map.frequency * period_map.steps)
-    closed = moved[:, :, 0] > points.gap
-    passes = (closed[1:] != closed[:-1]) & (points.normal == ONE_SIDED)
     found = []
-    for step, point in np.argwhere(passes):
+    for step, point in np.argwhere(passes(points, moved)):
         if not sudden(points, point):
             continue
         ends, speeds = moved[step : step + 2, point], moving[step : step + 2, point]
@@ -51,6 +50,17 @@ def contact_jumps(period_map: PeriodMap, period: Period) -> list[ContactJump]:
         elastic = np.outer(rows.T @ jump, rows[0]) / (abs(velocity[0]) * length)
         made = np.hstack([elastic, np.zeros_like(elastic)])
         found.append(ContactJump(int(step), share, made))
+    return found
+
+
+def passes(points: ContactPoints, moved: Array) -> NDArray[np.bool_]:
+    """Return in which steps points touch or part, shape (steps, points).
+
+    ``moved`` are their displacements at the ends of steps, (steps + 1, points, 3).
+    """
+    closed = moved[:, :, 0] > points.gap
+    found: NDArray[np.bool_] = closed[1:] != closed[:-1]
+    found &= points.normal == ONE_SIDED
     return found
 
 

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import ONE_SIDED, RIGID
-from timedomain.shooting.contact_jumps import contact_jumps
+from microslip_mechanics.contact.points import RIGID
+from timedomain.shooting.contact_jumps import contact_jumps, passes
 from timedomain.shooting.monodromy import monodromy_of
 from timedomain.shooting.period_map import Period, PeriodMap
 
@@ -34,11 +34,9 @@ def small_motions(period_map: PeriodMap, period: Period) -> Array | None:
 
 def _touching(period_map: PeriodMap, period: Period) -> NDArray[np.int64]:
     """Return the steps in which a point touches or lifts off."""
-    points = period_map.problem.interface.points
     moved, _ = period_map.points(period.displacement, period.velocity)
-    closed = moved[:, :, 0] > points.gap
-    passes = (closed[1:] != closed[:-1]) & (points.normal == ONE_SIDED)
-    return np.flatnonzero(passes.any(axis=1))
+    found = passes(period_map.problem.interface.points, moved)
+    return np.flatnonzero(found.any(axis=1))
 
 
 def _mean_tangents(

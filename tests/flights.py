@@ -6,9 +6,12 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.element import Element
+from microslip_mechanics.laws.bristles import LuGre
 from microslip_mechanics.laws.gkf import GeneralKineticFriction
+from microslip_mechanics.laws.jenkins import Jenkins
+from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.system import system
@@ -16,8 +19,8 @@ from microslip_mechanics.system import system
 COUPLED = np.array([[1e3, -300.0], [-300.0, 1.2e3]])
 
 
-def flight_multipliers(problem: Problem, response: PeriodicResponse) -> Array:
-    """Return moduli of a mass with a damped stop, by central differences."""
+def flight_multipliers(problem: Problem, response: PeriodicResponse) -> ComplexArray:
+    """Return those of a mass with a damped stop, by central differences."""
     displacement, velocity = response.at(np.zeros(1))
     start = np.array([displacement[0, 0], velocity[0, 0]])
     changes = 1e-9 * np.diag([1.0, response.frequency])
@@ -27,7 +30,7 @@ def flight_multipliers(problem: Problem, response: PeriodicResponse) -> Array:
         for change in changes
     ]
     found = np.linalg.eigvals(np.array(carried).T / (2.0 * changes.diagonal()))
-    return np.sort(np.abs(found))[::-1]
+    return found.astype(complex)
 
 
 def flight(problem: Problem, frequency: float, start: Array) -> Array:
@@ -62,6 +65,40 @@ def lifting(viscous: float) -> Problem:
         threshold_velocity=1.0,
         viscous=viscous,
     )
+    return _lifting(law)
+
+
+def remembering(viscous: float) -> Problem:
+    """Return the same with bristles, which are too soft to be felt."""
+    law = LuGre(
+        normal_stiffness=2e3,
+        mu_dynamic=0.3,
+        mu_static=0.3,
+        stribeck_velocity=1.0,
+        stiffness=1e-4,
+        viscous=viscous,
+    )
+    return _lifting(law)
+
+
+def beside_a_slider(damping: float) -> Problem:
+    """Return a mass with a damped stop, and another on a slider that remembers."""
+    stop = UnilateralSpring(stiffness=4e3, gap=1e-3, damping=damping)
+    return system(
+        names=["x", "s"],
+        mass=[1.0, 1.0],
+        stiffness=[[900.0, 0.0], [0.0, 900.0]],
+        rayleigh_damping=(2.0, 0.0),
+        elements=[
+            Element(stop, between=("x", "ground")),
+            Element(Jenkins(stiffness=300.0, limit=0.5), between=("s", "ground")),
+        ],
+        drive={"x": 2.0, "s": 2.0},
+    )
+
+
+def _lifting(law: GeneralKineticFriction | LuGre) -> Problem:
+    """Return two motions that springs couple, with friction on one."""
     return system(
         names=["x", "z"],
         mass=[1.0, 1.0],
@@ -72,7 +109,7 @@ def lifting(viscous: float) -> Problem:
     )
 
 
-def rubbing_multipliers(viscous: float, response: PeriodicResponse) -> Array:
+def rubbing_multipliers(viscous: float, response: PeriodicResponse) -> ComplexArray:
     """Return those of a response of :func:`lifting`, by central differences."""
     displacement, velocity = response.at(np.zeros(1))
     frequency = response.frequency
@@ -84,7 +121,7 @@ def rubbing_multipliers(viscous: float, response: PeriodicResponse) -> Array:
         for change in changes
     ]
     found = np.linalg.eigvals(np.array(carried).T / (2.0 * changes.diagonal()))
-    return np.sort(np.abs(found))[::-1]
+    return found.astype(complex)
 
 
 def slides(viscous: float, frequency: float, start: Array) -> Array:

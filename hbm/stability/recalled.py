@@ -6,7 +6,8 @@ add is held constant over a step,
 
     f = (T₀ + T₁)/2 + K' (y₀ + y₁)/2 + C' (y₁ − y₀)/h ,
 
-of second order in the steps; T₁ follows from motion and T₀ as along the orbit.
+of second order in the steps; T₁ follows from motion and T₀ as along the orbit. A force
+that jumps as faces touch acts at once, between two steps.
 """
 
 from __future__ import annotations
@@ -15,9 +16,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.balance.slide_events import SlidOrbit, slid_orbit
 from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.contact_path import events, last_path
 from hbm.forces.sampled_orbit import SampledOrbit
+from hbm.stability.jumps import jumps_of
 from hbm.stability.mean_motions import (
     MeanMotions,
     free_steps,
@@ -25,11 +27,13 @@ from hbm.stability.mean_motions import (
     stacked,
     turned,
 )
+from hbm.stability.slide_events import SlidOrbit, slid_orbit
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import regularised
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.tangents import contact_tangents
 
+TURN = 2.0 * np.pi
 STEPS = 256
 """of a period, without those that events add"""
 LEAST = 0.05
@@ -66,16 +70,19 @@ def recalled_multipliers(
         return np.empty(0, complex)
     sliders = Sliders.of(points, basis)
     orbit = SampledOrbit.of(contact, frequency)
-    slid = slid_orbit(sliders, orbit, STEPS)
+    pressed = events(points, last_path(contact, frequency, half=False))
+    slid = slid_orbit(sliders, orbit, TURN / contact.samples * pressed, STEPS)
     middle = 0.5 * (slid.phase[1:] + slid.phase[:-1])
     elastic, viscous = contact_tangents(points, basis, *orbit.at(middle))
-    share = np.diff(slid.phase) / (2.0 * np.pi)
+    share = np.diff(slid.phase) / TURN
     held = np.tensordot(share, elastic, axes=1) + _springs(sliders, slid, share)
     drag = np.tensordot(share, viscous, axes=1)
     motions = mean_motions(matrices, held, drag, frequency)
     if motions is None:
         return np.empty(0, complex)
-    changes = _Changes(elastic - held, viscous - drag)
+    changes = _Changes(
+        elastic - held, viscous - drag, jumps_of(sliders, orbit, slid.phase)
+    )
     carried = _carried(motions, sliders, slid, changes, frequency)
     values = np.linalg.eigvals(_loose(carried, sliders, slid)).astype(complex)
     ordered: ComplexArray = values[np.argsort(-np.abs(values))]
@@ -97,10 +104,13 @@ def _springs(sliders: Sliders, slid: SlidOrbit, share: Array) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class _Changes:
-    """Tangents during each step, less their means, each (steps, rank, rank)."""
+    """What contacts do beside their mean tangents."""
 
     elastic: Array
+    """tangents during each step less the means, each (steps, rank, rank)"""
     viscous: Array
+    jumps: dict[int, Array]
+    """change of momentum by y before a step, each (rank, rank)"""
 
 
 def _carried(
@@ -119,11 +129,15 @@ def _carried(
     slides, pull = slid.slides, 0.5 * sliders.along.T
     # real parts above imaginary ones: products with real matrices are cheaper
     seen, shapes = stacked(motions.seen), stacked(motions.shapes)
+    kick = np.vstack([motions.push.real, motions.push.imag])
     whole = np.eye(size + sliders.count)
     state: Array = np.vstack([motions.parts.real, motions.parts.imag]) @ whole[:size]
     held: Array = whole[size:]
     watched: Array = seen @ state
     for place, kind in enumerate(step.kind):
+        if place in changes.jumps:
+            state = state - kick @ (changes.jumps[place] @ watched[:rank])
+            watched = seen @ state
         memory = slides.traction_past[place + 1] @ held
         memory -= slides.past[place + 1] @ watched
         state = turned(step.turn[kind], state[:count], state[count:])

@@ -32,8 +32,6 @@ def test_both_solvers_find_the_same_multipliers(
         orbit = periodic_orbit(
             problem, point.frequency, start=on_orbit(problem, point), options=shooting
         )
-        sizes = np.abs(orbit.multipliers)
-        admitted = 1e-3 + orbit.multiplier_error[sizes.argmax()]
-        assert np.abs(point.multipliers).max() == pytest.approx(
-            sizes.max(), abs=admitted
-        )
+        largest = np.abs(orbit.multipliers).argmax()
+        away = np.abs(point.multipliers - orbit.multipliers[largest]).min()
+        assert away < 1e-3 + orbit.multiplier_error[largest]

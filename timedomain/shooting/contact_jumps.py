@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force, sudden
+from microslip_mechanics.contact.jump import contact_jump
+from microslip_mechanics.contact.law import sudden
 from microslip_mechanics.contact.points import ONE_SIDED, ContactPoints
 from timedomain.shooting.period_map import Period, PeriodMap
 
@@ -45,7 +46,7 @@ def contact_jumps(period_map: PeriodMap, period: Period) -> list[ContactJump]:
         velocity = (1.0 - share) * speeds[0] + share * speeds[1]
         if velocity[0] == 0.0:
             continue
-        jump = _jump(points, int(point), BESIDE * abs(way), velocity)
+        jump = contact_jump(points, int(point), velocity, BESIDE * abs(way))
         rows = basis[3 * point : 3 * point + 3]
         elastic = np.outer(rows.T @ jump, rows[0]) / (abs(velocity[0]) * length)
         made = np.hstack([elastic, np.zeros_like(elastic)])
@@ -62,13 +63,3 @@ def passes(points: ContactPoints, moved: Array) -> NDArray[np.bool_]:
     found: NDArray[np.bool_] = closed[1:] != closed[:-1]
     found &= points.normal == ONE_SIDED
     return found
-
-
-def _jump(points: ContactPoints, point: int, beside: float, velocity: Array) -> Array:
-    """Return the force of a point just closed less that of one just open [N], (3,)."""
-    forces, tangents = np.zeros((2, 3)), np.zeros((2, 3, 3))
-    for side, force in zip((-beside, beside), forces, strict=True):
-        place = np.array([points.gap[point] + side, 0.0, 0.0])
-        contact_force(points, point, place, velocity, force, *tangents)
-    jump: Array = forces[1] - forces[0]
-    return jump

@@ -37,7 +37,10 @@ def sensitivity_of(period_map: PeriodMap, period: Period) -> Sensitivity:
     if period_map.sliders.count == 0:
         whole = _without_memory(period_map, period)
         return Sensitivity(whole, np.zeros((0, len(whole))))
-    return _with_memory(period_map, period)
+    tangents = period_map.tangents(
+        *period_map.points(period.displacement, period.velocity)
+    )
+    return carried_state(period_map, period, tangents)
 
 
 def loose_monodromy(
@@ -59,13 +62,15 @@ def loose_monodromy(
     return found
 
 
-def _with_memory(period_map: PeriodMap, period: Period) -> Sensitivity:
-    """Return the derivatives of a period with what contacts remember."""
+def carried_state(
+    period_map: PeriodMap, period: Period, tangents: Array
+) -> Sensitivity:
+    """Return the derivatives of a period with what contacts remember.
+
+    ``tangents`` are those at the samples, shape (steps + 1, rank, 2 rank).
+    """
     free, push = period_map.step(-period_map.structure.selection.T)
     units = np.append(np.ones(len(free)), period_map.unit)
-    tangents = period_map.tangents(
-        *period_map.points(period.displacement, period.velocity)
-    )
     monodromy, mean = carried(
         free, push, period_map.seen, tangents, period_map.sliders, period.slides
     )

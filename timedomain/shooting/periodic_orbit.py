@@ -107,8 +107,8 @@ def _small_motions(marched: ClosedMarch, stuck: NDArray[np.bool_]) -> Array:
     """Return what becomes of a small motion in a period, (states, states)."""
     found = small_motions(marched.map, marched.period)
     if found is None:
-        return loose_monodromy(marched.map, marched.monodromy(), stuck)
-    return found
+        found = marched.monodromy()
+    return loose_monodromy(marched.map, found, stuck)
 
 
 def _coefficients_of(coarse: ClosedMarch, fine: ClosedMarch) -> tuple[Array, Array]:

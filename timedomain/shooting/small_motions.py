@@ -10,6 +10,7 @@ from microslip_mechanics.contact.points import RIGID
 from timedomain.shooting.contact_jumps import contact_jumps, passes
 from timedomain.shooting.monodromy import monodromy_of
 from timedomain.shooting.period_map import Period, PeriodMap
+from timedomain.shooting.period_sensitivity import carried_state
 
 PARTS = 32
 """of a step, in which tangents are looked at"""
@@ -21,15 +22,17 @@ def small_motions(period_map: PeriodMap, period: Period) -> Array | None:
     The march's own derivative knows the time that a stop is touched to whole steps
     only. Here the tangents of steps in which a point touches or parts are means over
     them, along a motion that is linear from sample to sample, and what jumps there is
-    counted. None where no point does, or contacts remember or are rigid.
+    counted. None where no point does, or contacts are rigid.
     """
-    rigid = (period_map.problem.interface.points.friction == RIGID).any()
-    if rigid or period_map.sliders.count:
+    if (period_map.problem.interface.points.friction == RIGID).any():
         return None
     passed = _touching(period_map, period)
     if not passed.size:
         return None
-    return monodromy_of(period_map, _mean_tangents(period_map, period, passed))
+    tangents = _mean_tangents(period_map, period, passed)
+    if period_map.sliders.count:
+        return carried_state(period_map, period, tangents).monodromy
+    return monodromy_of(period_map, tangents)
 
 
 def _touching(period_map: PeriodMap, period: Period) -> NDArray[np.int64]:

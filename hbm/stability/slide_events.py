@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from hbm.forces.sampled_orbit import SampledOrbit
 from microslip_mechanics.arrays import TINY, Array
-from microslip_mechanics.contact.law import edge
-from microslip_mechanics.contact.points import ELASTIC, ContactPoints
+from microslip_mechanics.contact.points import ELASTIC
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.slides import Slides, slides_of
 
@@ -35,7 +34,9 @@ class SlidOrbit:
     slides: Slides
 
 
-def slid_orbit(sliders: Sliders, orbit: SampledOrbit, steps: int) -> SlidOrbit:
+def slid_orbit(
+    sliders: Sliders, orbit: SampledOrbit, pressed: Array, steps: int
+) -> SlidOrbit:
     """Return times that are no further apart than equal steps, and lie around events.
 
     Parameters
@@ -44,6 +45,8 @@ def slid_orbit(sliders: Sliders, orbit: SampledOrbit, steps: int) -> SlidOrbit:
         What remembers.
     orbit
         How the contact points move.
+    pressed
+        Phases at which a point touches, parts or is let go of [rad].
     steps
         Over the period, without those that events add.
     """
@@ -54,7 +57,7 @@ def slid_orbit(sliders: Sliders, orbit: SampledOrbit, steps: int) -> SlidOrbit:
     made = _settled(sliders, orbit, even, first)
     for around in AROUND:
         found = _events(sliders, orbit, made, around * TURN / steps)
-        phase = _joined(even, found)
+        phase = _joined(even, np.concatenate([pressed, found]))
         made = _settled(sliders, orbit, phase, made.slides.traction[-1])
     return made
 
@@ -88,13 +91,11 @@ def _joined(even: Array, events: Array) -> Array:
 def _events(
     sliders: Sliders, orbit: SampledOrbit, made: SlidOrbit, around: float
 ) -> Array:
-    """Return the phases of all events [rad]."""
+    """Return the phases at which a slider slips, sticks or turns [rad]."""
     moved, moving = orbit.at(made.phase)
-    points, found = sliders.points, [_touches(sliders.points, made.phase, moved)]
+    points = sliders.points
     speed = moving[:, sliders.point, 1 + sliders.axis]
-    found.append(
-        _zeros(made.phase, speed[:, points.friction[sliders.point] != ELASTIC])
-    )
+    found = [_zeros(made.phase, speed[:, points.friction[sliders.point] != ELASTIC])]
     for point in np.unique(sliders.point):
         if points.friction[point] != ELASTIC:
             continue
@@ -117,13 +118,6 @@ def _slips(slides: Slides, own: NDArray[np.int64]) -> NDArray[np.bool_]:
     kept = slides.traction_past[:, own[:, None], own]
     slips: NDArray[np.bool_] = (kept != np.eye(own.size)).any(axis=(1, 2))
     return slips & (slides.limit[:, own[0]] > 0.0)
-
-
-def _touches(points: ContactPoints, phase: Array, moved: Array) -> Array:
-    """Return the phases at which a point touches or lifts off."""
-    edges = np.array([edge(points, point) for point in range(points.load.size)])
-    seen = np.flatnonzero(np.isfinite(edges))
-    return _zeros(phase, moved[:, seen, 0] - edges[seen])
 
 
 def _zeros(phase: Array, values: Array) -> Array:

@@ -14,6 +14,8 @@ from hbm.structure.condensation import condense
 from hbm.structure.condensed import Condensed
 from hbm.structure.tractions import Tractions
 from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.contact.floating import Floating
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import FRICTIONLESS, RIGID, ContactPoints
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
@@ -21,6 +23,8 @@ from microslip_mechanics.static import StaticState
 LOOSE, GAUGE = 1e-11, 1e-6
 """of the largest stiffness: up to which nothing holds a mean motion, and by which that
 is pinned then"""
+SLIGHT = 1e-9
+"""of the stiffness of sliders that stick, by which what they hold is pinned besides"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +41,10 @@ class RelativeProblem:
     condensed: Condensed
     force: ComplexArray
     """preload and −i drive: the loads of orders 0 and 1 [N], shape (2, dofs)"""
+    loose: Array
+    """mean motions that nothing but friction holds, orthonormal, (rank, motions)"""
     gauge: Array
-    """stiffness along mean motions that nothing holds [N/m], shape (rank, rank)"""
+    """stiffness that pins them [N/m], shape (rank, rank)"""
     rest: Array
     """y at rest [m], shape (rank,)"""
     position: Array
@@ -64,7 +70,15 @@ class RelativeProblem:
             offset=self.offset,
             odd=self.odd,
             pruned=self.pruned,
+            floating=self.floating,
         )
+
+    @property
+    def floating(self) -> Floating | None:
+        """How far what only friction holds has moved from rest; None if all is held."""
+        if not self.loose.size:
+            return None
+        return Floating(self.basis @ self.loose, self.basis @ self.rest + self.offset)
 
     def smoothed(self, threshold: float) -> RelativeProblem:
         """Return the problem with no threshold velocity below the given one [m/s]."""
@@ -122,6 +136,7 @@ class RelativeProblem:
             selection=self.selection[kept],
             offset=self.offset + self.basis[:, left] @ self.rest[left],
             condensed=self.condensed.restricted(kept, self.force),
+            loose=self.loose[kept],
             gauge=self.gauge[np.ix_(kept, kept)],
             rest=self.rest[kept],
             position=self.position + self.condensed.static[:, left] @ self.rest[left],
@@ -159,22 +174,24 @@ def relative_problem(
         np.zeros(basis.shape[0]),
         condensed,
         force,
+        np.zeros((rank, 0)),
         np.zeros((rank, rank)),
         selection @ rest.displacement,
         np.zeros(problem.structure.dofs),
     )
-    return replace(made, gauge=held_mean_positions(made))
+    return pinned(made)
 
 
-def held_mean_positions(problem: RelativeProblem) -> Array:
-    """Return a stiffness along mean motions that nothing holds, else zero.
+def pinned(problem: RelativeProblem) -> RelativeProblem:
+    """Return the problem with mean motions that nothing but friction holds pinned.
 
     Without a rope, say, the mean position of the friction element is arbitrary;
-    pinning it changes no force as long as no mean force acts along it.
+    pinning it changes no force as long as no mean force acts along it. What sticks
+    holds it besides, where friction remembers.
     """
     rank = problem.rank
     if rank == 0:
-        return np.zeros((0, 0))
+        return problem
     contact = replace(problem, points=_sliding(problem.points)).contact(
         FourierBasis(1, 8)
     )
@@ -185,8 +202,22 @@ def held_mean_positions(problem: RelativeProblem) -> Array:
     loose = directions[:, np.abs(sizes) <= LOOSE * largest]
     if sizes[-1] <= 0.0:
         largest = float(np.abs(np.diag(problem.condensed.mass)).max())
-    gauge: Array = largest * GAUGE * loose @ loose.T
-    return gauge
+    sticking, loose = _sticking(problem, loose)
+    pins = np.where(sticking > LOOSE * largest, SLIGHT * sticking, GAUGE * largest)
+    return replace(problem, loose=loose, gauge=(loose * pins) @ loose.T)
+
+
+def _sticking(problem: RelativeProblem, loose: Array) -> tuple[Array, Array]:
+    """Return the stiffness that sticking sliders have along motions, and these.
+
+    They are turned until it is diagonal.
+    """
+    points = problem.points
+    stiffness = np.where(remembers(points), points.tangential, 0.0)
+    springs = np.outer(stiffness, [0.0, 1.0, 1.0]).ravel()
+    seen = problem.basis @ loose
+    sizes, turn = np.linalg.eigh(seen.T @ (springs[:, None] * seen))
+    return sizes, loose @ turn
 
 
 def _sliding(points: ContactPoints) -> ContactPoints:

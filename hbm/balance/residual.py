@@ -61,7 +61,9 @@ class HarmonicBalance:
         other = copy.copy(self)
         problem = problem.smoothed(self.fourier.threshold)
         if np.array_equal(problem.basis, self.problem.basis):
-            other.contact = self.contact.with_points(problem.points, problem.offset)
+            other.contact = self.contact.with_points(
+                problem.points, problem.offset, problem.floating
+            )
         else:
             other.contact = problem.contact(self.fourier)
         other._take(problem)
@@ -129,7 +131,7 @@ class HarmonicBalance:
         amplitudes = to_complex(coefficients)[..., None]
         force = self.contact(coefficients, frequency)
         residual = to_real((stiffness @ amplitudes)[..., 0] - load) + force
-        residual[0] += self.problem.gauge @ coefficients[0]
+        residual[0] += self._pull(coefficients)
         whole = np.zeros(point.size - 1)
         whole[: residual.size] = np.where(self._active, residual, 0.0).ravel()
         return whole
@@ -192,4 +194,9 @@ class HarmonicBalance:
     def drift_force(self, point: Array) -> float:
         """Return the mean force [N] by which only the gauge of a free body is held."""
         coefficients, _ = self.split(point)
-        return float(np.abs(self.problem.gauge @ coefficients[0]).max(initial=0.0))
+        return float(np.abs(self._pull(coefficients)).max(initial=0.0))
+
+    def _pull(self, coefficients: Array) -> Array:
+        """Return the force of the gauge [N], shape (rank,)."""
+        force: Array = self.problem.gauge @ (coefficients[0] - self.problem.rest)
+        return force

@@ -59,6 +59,7 @@ def with_pushes(
         basis=basis,
         selection=np.pad(problem.selection, ((0, count), (0, 0))),
         condensed=PushedStructure(problem.condensed, tractions),
+        loose=np.pad(problem.loose, ((0, count), (0, 0))),
         gauge=np.pad(problem.gauge, ((0, count), (0, count))),
         rest=np.pad(problem.rest, (0, count)),
         tractions=tractions,

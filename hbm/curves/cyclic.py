@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.balance.relative import RelativeProblem, held_mean_positions
+from hbm.balance.relative import RelativeProblem, pinned
 from hbm.curves.tracer import Tracer
 from hbm.errors import hertz, placed
 from hbm.one_thread import one_thread
@@ -76,8 +76,9 @@ def cyclic_problem(problem: CyclicProblem, rest: StaticState) -> RelativeProblem
         np.zeros(basis.shape[0]),
         condensed,
         np.array([problem.preload, -1j * problem.drive]),
+        np.zeros((rank, 0)),
         np.zeros((rank, rank)),
         (own + following) @ rest.displacement,
         np.zeros(problem.sector.dofs),
     )
-    return replace(made, gauge=held_mean_positions(made))
+    return pinned(made)

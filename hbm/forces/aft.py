@@ -19,6 +19,7 @@ from hbm.forces.touch_factors import Factors, touch_factors
 from hbm.forces.touches import touches
 from hbm.forces.traces import Traces
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.floating import Floating
 from microslip_mechanics.contact.points import ONE_SIDED, RIGID, ContactPoints
 from microslip_mechanics.errors import MicroslipError
 
@@ -55,6 +56,7 @@ class AlternatingFrequencyTime:
         offset: Array | None = None,
         odd: NDArray[np.bool_] | None = None,
         pruned: bool = True,
+        floating: Floating | None = None,
     ) -> None:
         """Plan the transforms.
 
@@ -73,6 +75,8 @@ class AlternatingFrequencyTime:
             shape ``(rank,)``: half a period then says all. None without that symmetry.
         pruned
             Whether tangents that the laws do not have are left out.
+        floating
+            Mean motions that only what remembers holds; none if left out.
 
         Raises
         ------
@@ -85,7 +89,7 @@ class AlternatingFrequencyTime:
         self._offset = np.zeros(rows) if offset is None else offset
         self._odd, self._pruned = odd, pruned
         recalls = bool(marched(points).any())
-        self._memory = FrictionMemory(basis, fourier) if recalls else None
+        self._memory = FrictionMemory(basis, fourier, floating) if recalls else None
         entries = tangent_entries(points, pruned)
         halves = None if recalls or samples % 2 else odd
         self._symmetry = symmetry(points, self._offset, basis, entries, halves)
@@ -102,7 +106,7 @@ class AlternatingFrequencyTime:
         )
 
     def with_points(
-        self, points: ContactPoints, offset: Array
+        self, points: ContactPoints, offset: Array, floating: Floating | None = None
     ) -> AlternatingFrequencyTime:
         """Return the same for other values of the contacts.
 
@@ -117,9 +121,12 @@ class AlternatingFrequencyTime:
                 offset=offset,
                 odd=self._odd,
                 pruned=self._pruned,
+                floating=floating,
             )
         other = copy.copy(self)
         other._points, other._offset, other._last = points, offset, None
+        if self._memory is not None:
+            other._memory = FrictionMemory(self._basis, self._fourier, floating)
         return other
 
     def __call__(
@@ -211,6 +218,11 @@ class AlternatingFrequencyTime:
     def points(self) -> ContactPoints:
         """Contact table."""
         return self._points
+
+    @property
+    def floating(self) -> Floating | None:
+        """Mean motions that only what remembers holds."""
+        return None if self._memory is None else self._memory.floating
 
     @property
     def symmetry(self) -> Symmetry:

@@ -68,7 +68,7 @@ def recalled_multipliers(
     points = contact.points
     if any(regularised(points, point) for point in range(points.load.size)):
         return np.empty(0, complex)
-    sliders = Sliders.of(points, basis)
+    sliders = Sliders.of(points, basis, contact.floating)
     orbit = SampledOrbit.of(contact, frequency)
     pressed = events(points, last_path(contact, frequency, half=False))
     slid = slid_orbit(sliders, orbit, TURN / contact.samples * pressed, STEPS)

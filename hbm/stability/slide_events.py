@@ -54,6 +54,7 @@ def slid_orbit(
     moved, _ = orbit.at(even)
     along = moved[:, sliders.point, 1 + sliders.axis]
     first = sliders.stiffness * (along[0] - along[:-1].mean(axis=0))
+    first += sliders.seen(sliders.bent(moved[:-1].mean(axis=0)))
     made = _settled(sliders, orbit, even, first)
     for around in AROUND:
         found = _events(sliders, orbit, made, around * TURN / steps)

@@ -14,6 +14,7 @@ pytestmark = pytest.mark.kernels
 HARMONICS, SAMPLES, OMEGA = 3, 40, 7.0
 STEP = 1e-6
 """of a coefficient, over the size of all"""
+LEAN = 0.002 * np.array([0.0, 1.0, -0.5])
 
 
 def series() -> Waves:
@@ -30,11 +31,17 @@ def loop(
     omega: float = OMEGA,
     axes: tuple[bool, bool, bool] = (True, True, True),
 ) -> tuple[Array, Array]:
-    """Return the tractions of a motion, (2, samples), and (∂/∂ω) ω of them."""
+    """Return the tractions of a motion, (2, samples), and (∂/∂ω) ω of them.
+
+    A mean of the motion along the tangents bends the slider besides.
+    """
     terms = series()
     moved = np.ascontiguousarray((terms.value @ coefficients).T)
     moving = np.ascontiguousarray(omega * (terms.slope @ coefficients).T)
-    return steady_loop(points, 0, moved, moving, terms, omega, np.array(axes), gradient)
+    lean = LEAN + coefficients[0] * [0.0, 1.0, 1.0]
+    return steady_loop(
+        points, 0, moved, moving, terms, omega, np.array(axes), lean, gradient
+    )
 
 
 @pytest.mark.parametrize("case", ["elastic", "dahl", "lugre"])

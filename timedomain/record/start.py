@@ -12,6 +12,7 @@ from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.memory import pressed, remembers
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.steady_loop import Waves, steady_loop
+from microslip_mechanics.floating import floating
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.loads.excitation import Dwell, LoadHistory
 from microslip_mechanics.loads.segments import factors_over
@@ -86,11 +87,13 @@ def on_orbit(problem: Problem, response: PeriodicResponse) -> Start:
         phase = 2.0 * np.pi * np.arange(LOOP) / LOOP
         moved, moving = (part @ rows.T for part in response.at(phase))
         still = Waves(np.zeros((LOOP, 0)), np.zeros((LOOP, 0)))
+        leans = floating(problem).lean(moved.mean(axis=0))
         for point in recalls:
             own = slice(3 * point, 3 * point + 3)
             loop, _ = steady_loop(
                 points, point, moved[:, own].T.copy(), moving[:, own].T.copy(), still,
-                response.frequency, np.zeros(3, dtype=bool), np.zeros((2, 3, 0, 0)),
+                response.frequency, np.zeros(3, dtype=bool), leans[point],
+                np.zeros((2, 3, 0, 0)),
             )  # fmt: skip
             tractions[point] = loop[:, 0]
     return Start(displacement[0], velocity[0], tractions)

@@ -33,10 +33,11 @@ def carried(
     Returns
     -------
     Derivatives of the state after the period, shape ``(states, states)``, and of the
-    mean tractions, shape ``(sliders, states)``.
+    mean tractions beside those of what floats, shape ``(sliders, states)``.
     """
     size, rank = push.shape
-    pull, whole = sliders.along.T, np.eye(size + sliders.count)
+    pull, bending = sliders.along.T, sliders.bending
+    whole = np.eye(size + sliders.count)
     moved, held = whole[:size], whole[size:]
     force = tangents[0] @ (seen @ moved) + pull @ held
     moved = moved - push @ force
@@ -51,5 +52,5 @@ def carried(
         force = solvers[place] @ (answers[place] @ watched + pull @ memory)
         watched += (seen @ push) @ force
         held = slides.motion[place] @ watched + memory
-        slid, total = watched, total + held
+        slid, total = watched, total + held - bending @ watched[: push.shape[1]]
     return np.vstack([moved + push @ force, held]), total / (len(tangents) - 1)

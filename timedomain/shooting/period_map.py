@@ -12,9 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.slides import Slides, slides_of
 from microslip_mechanics.contact.tangents import contact_tangents
+from microslip_mechanics.floating import floating
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
 from timedomain.fast.modal_structure import ModalStructure
@@ -65,7 +67,9 @@ class PeriodMap:
         whole = -(-steps // BLOCK) * BLOCK
         structure = replace(structure, scale=frequency)
         basis, _ = problem.interface.relative_motion()
-        sliders = Sliders.of(problem.interface.points, basis)
+        points = problem.interface.points
+        floats = floating(problem) if remembers(points).any() else None
+        sliders = Sliders.of(points, basis, floats)
         return cls(problem, structure, frequency, whole, sliders)
 
     @property
@@ -112,7 +116,8 @@ class PeriodMap:
         """Return by how much a period from a state does not close.
 
         It is end less beginning; for a slider that never slips, whose traction returns
-        wherever it begins, the part of its mean traction that can be taken off.
+        wherever it begins, the part of its mean traction that can be taken off, but for
+        what holds a body that nothing else does.
         """
         gap, slides = self.end(period) - state, period.slides
         held = gap[gap.size - self.sliders.count :]

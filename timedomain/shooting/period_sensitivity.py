@@ -29,7 +29,7 @@ class Sensitivity(NamedTuple):
     monodromy: Array
     """of the state after it, shape (states, states)"""
     mean: Array
-    """of the mean tractions over it, in units of states, shape (sliders, states)"""
+    """of the mean tractions to be taken off, in units of states, (sliders, states)"""
 
 
 def sensitivity_of(period_map: PeriodMap, period: Period) -> Sensitivity:

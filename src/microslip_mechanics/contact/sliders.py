@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.floating import Floating
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import ContactPoints
 
@@ -26,14 +27,18 @@ class Sliders:
     """of each slider, shape (sliders,)"""
     axis: NDArray[np.int64]
     """0 or 1: along which tangent, shape (sliders,)"""
+    floating: Floating | None = None
+    """mean motions that sliders alone hold; none if left out"""
 
     @classmethod
-    def of(cls, points: ContactPoints, basis: Array) -> Sliders:
+    def of(
+        cls, points: ContactPoints, basis: Array, floating: Floating | None = None
+    ) -> Sliders:
         """Return the sliders of a contact table: none where no contact remembers."""
         sizes = np.abs(basis).max(axis=1, initial=0.0)
         moves = (sizes > ROUNDING * sizes.max(initial=0.0)).reshape(-1, 3)[:, 1:]
         point, axis = np.nonzero(moves & remembers(points)[:, None])
-        return cls(points, basis, point, axis)
+        return cls(points, basis, point, axis, floating)
 
     @property
     def count(self) -> int:
@@ -51,6 +56,26 @@ class Sliders:
         """k_t [N/m], shape (sliders,)."""
         found: Array = self.points.tangential[self.point]
         return found
+
+    def bent(self, mean: Array) -> Array:
+        """Return what sliders carry that stick in the mean [N], shape (points, 2).
+
+        ``mean`` is the displacement of the points [m], shape ``(points, 3)``.
+        """
+        if self.floating is None:
+            return np.zeros((len(mean), 2))
+        lean = self.floating.lean(mean.ravel())
+        carried: Array = self.points.tangential[:, None] * lean[:, 1:]
+        return carried
+
+    @property
+    def bending(self) -> Array:
+        """Derivative of :meth:`bent` by the mean of y [N/m], shape (sliders, rank)."""
+        if self.floating is None:
+            return np.zeros_like(self.along)
+        lean = self.floating.directions @ (self.floating.directions.T @ self.basis)
+        made: Array = self.stiffness[:, None] * lean[3 * self.point + 1 + self.axis]
+        return made
 
     def seen(self, traction: Array | None) -> Array:
         """Return the sliders' part of all tractions, (points, 2); zero if None."""

@@ -42,7 +42,8 @@ class Slides(NamedTuple):
     stuck: NDArray[np.bool_]
     """which sliders never slip, shape (sliders,)"""
     mean: Array
-    """by how much the mean traction of these can come nearer to zero [N], (sliders,)"""
+    """by how much the mean traction of these can come nearer to none [N], or to what
+    :meth:`~microslip_mechanics.contact.sliders.Sliders.bent` has, (sliders,)"""
 
 
 def slides_of(
@@ -75,7 +76,7 @@ def slides_of(
     sticking = _sticking(sliders.points, moved, tractions, limits)
     _stick(sliders.points, sticking, by)
     motion, past, kept = _derivatives(sliders, by, load, frequency)
-    held = tractions[1:].mean(axis=0)
+    held = tractions[1:].mean(axis=0) - sliders.bent(moved[1:].mean(axis=0))
     shares = _shares(tractions[1:], limits[1:], held)
     return Slides(
         tractions[:, sliders.point, sliders.axis],
@@ -171,7 +172,7 @@ def _derivatives(
 
 
 def _shares(tractions: Array, limits: Array, held: Array) -> Array:
-    """Return which share of the mean can be taken off all tractions of each point.
+    """Return which share of a constant can be taken off all tractions of each point.
 
     None may exceed its limit at any time, shape (times, points).
     """

@@ -61,13 +61,16 @@ def steady_loop(
     waves: Waves,
     frequency: float,
     axes: NDArray[np.bool_],
+    lean: Array,
     gradient: Array,
 ) -> tuple[Array, Array]:
     """Return traction and (∂traction/∂ω) ω of the steady loop, each (2, samples).
 
-    ``gradient``, shape ``(2, 3, samples, 2H + 1)``, is written with the derivatives by
-    the coefficients of normal and tangents, unless it is empty: of and by those along
-    which the point moves, as ``axes`` says.
+    ``lean`` is by how much the slider is bent in the middle of its motion [m], shape
+    ``(3,)``. ``gradient``, shape ``(2, 3, samples, 2H + 1)``, is written with the
+    derivatives by the coefficients of normal and tangents, unless it is empty: of and
+    by those along which the point moves, as ``axes`` says. A mean along the tangents
+    changes nothing: in its place are those by ``lean``.
     """
     motion = Motion(points, point, displacement, velocity)
     samples = displacement.shape[1]
@@ -75,7 +78,7 @@ def steady_loop(
     by, by_load = np.zeros((2, 10)), np.zeros((2, 2))
     step = Step(np.zeros(2), np.zeros(2), np.zeros(2), by, by_load)
     state = np.zeros((2, 2))  # traction and its change so far
-    _begin(motion, waves, state, gradient)
+    _begin(motion, waves, lean, state, gradient)
     for sweep in range(PERIODS):
         first = state[0].copy()
         for place in range(samples):
@@ -92,16 +95,18 @@ def steady_loop(
 
 
 @bare_kernel
-def _begin(motion: Motion, waves: Waves, state: Array, gradient: Array) -> None:
+def _begin(
+    motion: Motion, waves: Waves, lean: Array, state: Array, gradient: Array
+) -> None:
     """Write what a spring carries that sticks in the middle of its motion."""
     stiffness = motion.points.tangential[motion.point]
     for axis in range(2):
         path = motion.displacement[axis + 1]
-        state[0, axis] = stiffness * (path[0] - path.mean())
+        state[0, axis] = stiffness * (path[0] - path.mean() + lean[axis + 1])
     if gradient.size > 0:
         gradient[:, :, -1] = 0.0
         for axis in range(2):
-            for term in range(1, gradient.shape[3]):
+            for term in range(gradient.shape[3]):
                 gradient[axis, axis + 1, -1, term] = stiffness * waves.value[0, term]
 
 

@@ -74,9 +74,15 @@ class PeriodMap:
 
     @property
     def unit(self) -> Array:
-        """Traction [N] that shakes its contact by one unit of a state, (sliders,)."""
+        """Traction [N] that counts as one unit of a state, shape (sliders,).
+
+        Between the one that shakes its contact by that much and the one that bends its
+        slider so far: what is larger would hide the other equations.
+        """
         seen = self.sliders.along @ self.structure.selection
-        unit: Array = self.frequency**2 / np.sqrt((seen**2).sum(axis=1))
+        shaking = self.frequency**2 / np.sqrt((seen**2).sum(axis=1))
+        bending = self.sliders.stiffness * np.sqrt((seen**2).sum(axis=1))
+        unit: Array = np.sqrt(shaking * np.maximum(shaking, bending))
         return unit
 
     @property

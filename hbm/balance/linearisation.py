@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.balance.iterated import Iterated, Parts, UnreachedError
-from hbm.continuation.bordered import Bordered
 from hbm.continuation.linearised import SingularError
+from hbm.continuation.separated import Factors, factored
 from microslip_mechanics.arrays import Array
 
 EPSILON = 1e-14
@@ -25,6 +25,7 @@ class Linearisation:
         places: NDArray[np.int64],
         size: int,
         parts: Callable[[], Parts] | None = None,
+        rank: int = 0,
     ) -> None:
         """Take what makes the derivatives, when they are first asked for.
 
@@ -40,11 +41,14 @@ class Linearisation:
         parts
             Returns as much of them as it takes to solve by iteration, if that is likely
             to cost less.
+        rank
+            Of the coordinates of which a point holds the coefficients, if it does:
+            those that couple no orders are eliminated.
         """
-        self._make, self.parts = make, parts
+        self._make, self.parts, self._rank = make, parts, rank
         self._made: tuple[Array, Array] | None = None
         self._places = np.append(places, size - 1)
-        self._factors: tuple[Array, Bordered | Iterated] | None = None
+        self._factors: tuple[Array, Factors | Iterated] | None = None
 
     @property
     def exact(self) -> bool:
@@ -76,6 +80,7 @@ class Linearisation:
             places,
             last + 1,
             None if parts is None else lambda: parts()._replace(slope=inner),
+            self._rank,
         )
 
     def continued(self, image: Linearisation) -> Linearisation:
@@ -85,7 +90,8 @@ class Linearisation:
             there, slope = image._make()
             return 2.0 * self._make()[0] - there, slope
 
-        return Linearisation(made, self._places[:-1], int(self._places[-1]) + 1)
+        last = int(self._places[-1])
+        return Linearisation(made, self._places[:-1], last + 1, rank=self._rank)
 
     def beyond(self, image: Linearisation) -> Linearisation:
         """Return that of 2 R(this) − R(image) at one point."""
@@ -94,7 +100,8 @@ class Linearisation:
             (here, slope), (there, other) = self._make(), image._make()
             return 2.0 * here - there, 2.0 * slope - other
 
-        return Linearisation(made, self._places[:-1], int(self._places[-1]) + 1)
+        last = int(self._places[-1])
+        return Linearisation(made, self._places[:-1], last + 1, rank=self._rank)
 
     def solve(self, normal: Array, right: Array) -> Array:
         """Solve [Jacobian slope; normal] d = right.
@@ -145,16 +152,20 @@ class Linearisation:
         """Let go of derivatives and factors: what solves again makes them anew."""
         self._made, self._factors = None, None
 
-    def _factored(self, border: Array) -> Bordered | Iterated:
+    def _factored(self, border: Array) -> Factors | Iterated:
         """Return what solves with the bordered matrix."""
         if self.parts is not None:
             return Iterated(self.parts(), border)
-        factors = Bordered(self.jacobian, self.slope, border)
+        orders = coordinates = None
+        if self._rank:
+            terms, coordinates = np.divmod(self._places[:-1], self._rank)
+            orders = (terms + 1) // 2
+        factors = factored(self.jacobian, self.slope, border, orders, coordinates)
         self._made = None  # as large as the factors, and hardly ever asked again
         return factors
 
 
-def _turned(factors: Bordered | Iterated, border: Array, right: Array) -> Array:
+def _turned(factors: Factors | Iterated, border: Array, right: Array) -> Array:
     """Return the solution with another border, by a step along the tangent.
 
     It begins where the factored border makes zero of it, so that the step is not lost

@@ -50,7 +50,9 @@ class HarmonicBalance:
         self._places = np.full(shape, -1)
         self._places[self._active] = np.arange(self._terms.unknowns.size)
         iterates = LowOrders.serve(self._active, fourier.samples)
-        iterates &= not marched(problem.points).any()
+        remembers = bool(marched(problem.points).any())
+        iterates &= not remembers
+        self._separable = self.rank if remembers else 0
         self._low = LowOrders(self._active) if iterates else None
 
     def with_problem(self, problem: RelativeProblem) -> HarmonicBalance:
@@ -98,7 +100,9 @@ class HarmonicBalance:
             return low.parts(self.contact, held, frequency, by_last)
 
         parts = None if low is None else partial(divided, low)
-        return residual, Linearisation(made, self._terms.unknowns, point.size, parts)
+        return residual, Linearisation(
+            made, self._terms.unknowns, point.size, parts, self._separable
+        )
 
     def _jacobian(self, frequency: float) -> Array:
         """Return ∂R/∂y of the unknowns where the contacts were called."""

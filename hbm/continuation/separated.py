@@ -1,0 +1,151 @@
+"""A bordered Jacobian of which some unknowns couple within their own order alone."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hbm.continuation.bordered import Bordered
+from microslip_mechanics.arrays import TINY, Array
+
+FEWEST = 400
+"""unknowns from which on it is looked for"""
+WORTH = 0.8
+"""of all unknowns: so many may be left at most"""
+COUPLED = 1e-12
+"""of the own entries of two unknowns: coupling between orders that is no rounding"""
+SOUND = 1e-9
+"""least singular value of a block over its largest"""
+
+
+class Block(NamedTuple):
+    """What couples within one order: [own across; back .], with the borders."""
+
+    own: NDArray[np.int64]
+    """its unknowns"""
+    rest: NDArray[np.int64]
+    """places among those left of the others of its order, the last one included"""
+    across: Array
+    """D⁻¹ [across slope], shape (own, rest)"""
+    back: Array
+    """[back; border], shape (rest, own)"""
+    inverse: Array
+    """D⁻¹"""
+
+
+class Separated:
+    """Factors of [Jacobian slope; border], by Schur's complement of such unknowns.
+
+    A contact that is closed and sticks all the time is a spring: its motion couples no
+    harmonics. Those that slip or part are left, whose factors cost the cube of fewer.
+    """
+
+    def __init__(
+        self, blocks: list[Block], left: NDArray[np.int64], rest: Bordered
+    ) -> None:
+        """Take the blocks, the unknowns that are left, and the factors of these."""
+        self._blocks, self._left, self._rest = blocks, left, rest
+        signs = [np.linalg.slogdet(each.inverse)[0] for each in blocks]
+        self.sign = rest.sign * float(np.prod(signs))
+
+    def solve(self, right: Array) -> Array:
+        """Return the solution, of shape ``(unknowns + 1,)`` or with several columns.
+
+        Raises
+        ------
+        SingularError
+            If there is none.
+        """
+        found = np.empty_like(right)
+        reduced = right[self._left]
+        inner = [each.inverse @ right[each.own] for each in self._blocks]
+        for each, moved in zip(self._blocks, inner, strict=True):
+            reduced[each.rest] -= each.back @ moved
+        solved = self._rest.solve(reduced)
+        found[self._left] = solved
+        for each, moved in zip(self._blocks, inner, strict=True):
+            found[each.own] = moved - each.across @ solved[each.rest]
+        return found
+
+
+Factors: TypeAlias = Bordered | Separated
+
+
+def factored(
+    jacobian: Array,
+    slope: Array,
+    border: Array,
+    orders: NDArray[np.int64] | None,
+    coordinates: NDArray[np.int64] | None,
+) -> Factors:
+    """Return what solves with a bordered Jacobian.
+
+    Parameters
+    ----------
+    jacobian, slope, border
+        As :class:`~hbm.continuation.bordered.Bordered` takes them.
+    orders, coordinates
+        Of each unknown, shape ``(unknowns,)``; None if there is no such thing.
+
+    Raises
+    ------
+    SingularError
+        If it has no inverse.
+    """
+    if orders is not None and coordinates is not None and slope.size >= FEWEST:
+        apart = _apart(jacobian, orders, coordinates)
+        if np.count_nonzero(~apart) <= WORTH * slope.size:
+            made = _separated(jacobian, slope, border, orders, apart)
+            if made is not None:
+                return made
+    return Bordered(jacobian, slope, border)
+
+
+def _apart(
+    jacobian: Array, orders: NDArray[np.int64], coordinates: NDArray[np.int64]
+) -> NDArray[np.bool_]:
+    """Return which unknowns are of coordinates that couple no orders, (unknowns,)."""
+    scale = 1.0 / np.sqrt(np.maximum(np.abs(jacobian.diagonal()), TINY))
+    coupling = np.abs(jacobian) * scale
+    coupling *= scale[:, None]
+    coupling[orders[:, None] == orders] = 0.0
+    largest = np.maximum(coupling.max(axis=0), coupling.max(axis=1))
+    whole = np.zeros(int(coordinates.max()) + 1)
+    np.maximum.at(whole, coordinates, largest)
+    found: NDArray[np.bool_] = (whole <= COUPLED)[coordinates]
+    return found
+
+
+def _separated(
+    jacobian: Array,
+    slope: Array,
+    border: Array,
+    orders: NDArray[np.int64],
+    apart: NDArray[np.bool_],
+) -> Separated | None:
+    """Return the factors; None if a block is nearly singular by itself."""
+    count = slope.size
+    kept = np.flatnonzero(~apart)
+    left = np.append(kept, count)
+    matrix = np.empty((left.size, left.size))
+    matrix[:-1, :-1] = jacobian[np.ix_(kept, kept)]
+    matrix[:-1, -1], matrix[-1] = slope[kept], border[left]
+    blocks = []
+    for order in np.unique(orders):
+        own = np.flatnonzero(apart & (orders == order))
+        rest = np.flatnonzero(orders[kept] == order)
+        inner = jacobian[np.ix_(own, own)]
+        if np.linalg.cond(inner) * SOUND > 1.0:
+            return None
+        inverse = np.linalg.inv(inner)
+        across = np.column_stack([jacobian[np.ix_(own, kept[rest])], slope[own]])
+        back = np.vstack([jacobian[np.ix_(kept[rest], own)], border[own]])
+        rest = np.append(rest, kept.size)
+        solved = inverse @ across
+        matrix[np.ix_(rest, rest)] -= back @ solved
+        blocks.append(Block(own, rest, solved, back, inverse))
+    return Separated(
+        blocks, left, Bordered(matrix[:-1, :-1], matrix[:-1, -1], matrix[-1])
+    )

@@ -25,6 +25,10 @@ class ContinuationError(MicroslipError):
         super().__init__(text.replace(PLACE, named))
         self._text, self.parameter = text, parameter
 
+    def with_remedy(self, remedy: str) -> ContinuationError:
+        """Return the error with another thing to try."""
+        return ContinuationError(f"{self._text}; {remedy}", self.parameter)
+
     def placed(self, name: Callable[[float], str]) -> ContinuationError:
         """Return the error with the place named by a function of the parameter."""
         if self.parameter is None:

@@ -18,9 +18,18 @@ from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from hbm.structure.condensation import CondensedStructure
 from hbm.structure.linear_curve import LinearCurve, linear_curve
+from microslip_mechanics.potential import potential
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
+
+PARTED = (
+    "at rest faces have parted that an element presses together: its preload is what "
+    "it carries while its ends are together, so press them by a preload of the "
+    "structure, or hold it by a spring"
+)
+UNPRESSED = 1e-6
+"""of the load at zero displacement, up to which faces are parted"""
 
 
 def frequency_response(
@@ -54,9 +63,22 @@ def frequency_response(
     if path.rank == 0 and isinstance(condensed, CondensedStructure):
         linear = linear_curve(condensed, path.problem.force[1], small.probes.rows)
         responses = _bounded(tracer, linear, options)
+    begun = False
     with one_thread(), placed(hertz):
-        for made in responses:
-            yield replace(made, shapes=shapes)
+        try:
+            for made in responses:
+                begun = True
+                yield replace(made, shapes=shapes)
+        except ContinuationError as error:
+            if begun or not _parted(small, still):
+                raise
+            raise error.with_remedy(PARTED) from None
+
+
+def _parted(problem: Problem, rest: StaticState) -> bool:
+    """Return whether faces that are pressed at zero displacement are not at rest."""
+    given = potential(problem, np.zeros(problem.structure.dofs)).normal_force
+    return bool(((given > 0.0) & (rest.normal_force <= UNPRESSED * given)).any())
 
 
 def _bounded(

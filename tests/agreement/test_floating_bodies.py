@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.element import Element
@@ -86,3 +87,18 @@ def test_shooting_finds_the_same_orbit() -> None:
     assert away < 1e-4 * size
     largest = np.abs(found.multipliers).max()
     assert np.abs(begun.multipliers).max() == pytest.approx(largest, abs=1e-3)
+
+
+def test_faces_that_nothing_presses_are_named() -> None:
+    law = ElasticFriction(normal_stiffness=1e4, preload=10.0, stiffness=5e3, mu=0.3)
+    problem = system(
+        names=["x", "z"],
+        mass=[1.0, 1.0],
+        stiffness=[[100.0, 0.0], [0.0, 0.0]],
+        rayleigh_damping=(1.0, 0.0),
+        elements=[Element(law, normal=("z", "ground"), tangents=[("x", "ground")])],
+        drive={"x": 1.0, "z": 2.0},
+    )
+
+    with pytest.raises(ContinuationError, match="a preload of the structure"):
+        response(problem)

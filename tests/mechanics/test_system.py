@@ -270,6 +270,10 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
         ("slider", "factor nan of x1"),
     ),
     "factor in a list": (between({"x1": [1.0]}, "ground"), ("factor [1.0] of x1",)),
+    "a table in place of ends": (
+        {"elements": [Element(SLIDER, between={"x1": 1.0})]},  # type: ignore[arg-type]
+        ("two ends", """[{'x1': 1.0}, "ground"]"""),
+    ),
     "ends that are a number": ({"probes": {"tip": 3}}, ("probe tip = 3", "two ends")),
     "probes that are a number": ({"probes": 3}, ("probes = 3", "names")),
     "probe without a name": ({"probes": [True]}, ("probe True", "two ends")),

@@ -31,8 +31,10 @@ def relative(pair: Pair, names: tuple[str, ...], what: str) -> Array:
         If an end is missing, unknown or empty, or if both are the same.
     """
     if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
+        end = pair if isinstance(pair, (str, Mapping)) else names[0]
+        told = str(end) if isinstance(end, Mapping) else f'"{end}"'
         raise ValueError(
-            f'{what} = {pair!r}: give two ends, such as ["{names[0]}", "{GROUND}"]; '
+            f'{what} = {pair!r}: give two ends, such as [{told}, "{GROUND}"]; '
             f'the ground is written as "{GROUND}"'
         )
     row: Array = form(pair[0], names, what) - form(pair[1], names, what)

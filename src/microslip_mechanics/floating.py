@@ -10,6 +10,7 @@ from microslip_mechanics.potential import potential
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.structures.undamped_modes import ROUNDING
+from microslip_mechanics.structures.unheld import holds
 
 SEEN = 1e-9
 """of the largest motion of the contacts: a motion that moves them less is none"""
@@ -18,6 +19,8 @@ SEEN = 1e-9
 def floating(problem: Problem) -> Floating:
     """Return the motions of a dense problem that neither springs nor loads hold."""
     rows = problem.interface.displacement
+    if holds(problem.structure.stiffness):
+        return Floating(np.zeros((len(rows), 0)), np.zeros(len(rows)))
     rest = static_equilibrium(problem).displacement
     stiffness = potential(problem, rest).hessian
     _, motions = scipy.linalg.eigh(stiffness, problem.structure.mass)

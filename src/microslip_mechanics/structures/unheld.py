@@ -29,7 +29,7 @@ def unheld_motions(structure: Structure, selection: Array) -> Array:
         Map to the relative motion of the contacts, shape ``(rank, dofs)``.
     """
     mass, stiffness = structure.mass, structure.stiffness
-    if _holds(stiffness):
+    if holds(stiffness):
         return np.zeros((structure.dofs, 0))
     still = scipy.linalg.null_space(selection) if selection.size else np.eye(len(mass))
     _, shapes = scipy.linalg.eigh(
@@ -49,7 +49,7 @@ def dragged(structure: Structure, motions: Array) -> bool:
     return bool(force > DRAG * parts.max(initial=0.0))
 
 
-def _holds(stiffness: Array) -> bool:
+def holds(stiffness: Array) -> bool:
     """Return whether a stiffness is positive definite without any doubt."""
     diagonal = stiffness.diagonal()
     if not (diagonal > 0.0).all():

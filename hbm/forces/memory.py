@@ -153,11 +153,12 @@ def _scatter(
     """
     for a in np.flatnonzero(left):
         for b in range(right.size):
+            first = 0 if mean[b] != 0.0 else 1
+            last = block.shape[1] if right[b] != 0.0 else 1
             for j in range(block.shape[0]):
                 if places[j, a] < 0:
                     continue
-                for k in range(block.shape[1]):
-                    seen = mean[b] if k == 0 else right[b]
-                    if seen != 0.0 and places[k, b] >= 0:
-                        made = left[a] * seen * block[j, k]
-                        jacobian[places[j, a], places[k, b]] += made
+                for k in range(first, last):
+                    if places[k, b] >= 0:
+                        factor = left[a] * (mean[b] if k == 0 else right[b])
+                        jacobian[places[j, a], places[k, b]] += factor * block[j, k]

@@ -154,11 +154,11 @@ def test_what_takes_too_many_products_is_solved_by_factors(
     monkeypatch.setattr(iterated, "SHARE", unknowns.size // 2)
     made: list[int] = []
 
-    def factored(jacobian: Array, slope: Array, border: Array) -> Bordered:
+    def factored(jacobian: Array, slope: Array, border: Array, *_: object) -> Bordered:
         made.append(slope.size)
         return Bordered(jacobian, slope, border)
 
-    monkeypatch.setattr(linearisation, "Bordered", factored)
+    monkeypatch.setattr(linearisation, "factored", factored)
     residual, linearised = balance(point)
     right = np.append(residual, 0.0)
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import microslip
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from lap_joint import lap_joint
@@ -46,3 +47,27 @@ def test_a_curve_goes_through_the_resonance() -> None:
     *_, last = frequency_response(problem, static_equilibrium(problem), options)
 
     assert last.frequency == pytest.approx(35.0 * TURN)
+
+
+def test_its_mode_is_where_the_tip_is_a_quarter_period_behind() -> None:
+    problem = lap_joint(pairs=3, bolts=2e4, drive=0.5)
+    options = CurveOptions(
+        26.65 * TURN, 26.7 * TURN, harmonics=15, samples=256, errors=False, events=False
+    )
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+    tip = problem.probes.rows[0]
+    behind, ahead = np.array([each.coefficients[1:3] @ tip for each in curve]).T
+    hertz = np.array([each.frequency for each in curve]) / TURN
+    (place,) = np.flatnonzero(ahead[1:] * ahead[:-1] < 0.0)
+    share = ahead[place] / (ahead[place] - ahead[place + 1])
+    quarter = hertz[place] + share * (hertz[place + 1] - hertz[place])
+    amplitude = abs(behind[place] + share * (behind[place + 1] - behind[place]))
+
+    (mode,) = microslip.modes(problem, 20.0, 40.0, largest=2e-2, harmonics=15)
+
+    sizes = [each.amplitude for each in mode.points]
+    rates = [each.frequency / TURN for each in mode.points]
+    sticking = rates[0]
+    found = float(np.interp(amplitude, sizes, rates))
+    assert sticking - found > 0.02  # it slips
+    assert found == pytest.approx(quarter, abs=0.1 * (sticking - found))

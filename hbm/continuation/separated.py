@@ -133,7 +133,7 @@ def _separated(
     matrix[:-1, :-1] = jacobian[np.ix_(kept, kept)]
     matrix[:-1, -1], matrix[-1] = slope[kept], border[left]
     blocks = []
-    for order in np.unique(orders):
+    for order in np.unique(orders[apart]):
         own = np.flatnonzero(apart & (orders == order))
         rest = np.flatnonzero(orders[kept] == order)
         inner = jacobian[np.ix_(own, own)]

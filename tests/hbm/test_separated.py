@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from hbm.continuation import separated
 from hbm.continuation.bordered import Bordered
 from hbm.continuation.separated import FEWEST, Separated, factored
 from microslip_mechanics.arrays import Array
@@ -50,6 +51,23 @@ def test_solutions_and_sign_are_those_of_all_factors(seed: int) -> None:
     expected = whole.solve(right)
     np.testing.assert_allclose(found.solve(right), expected, atol=1e-9)
     np.testing.assert_allclose(found.solve(right[:, 0]), expected[:, 0], atol=1e-9)
+
+
+def test_orders_without_such_unknowns_are_left(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(separated, "FEWEST", 100)
+    jacobian, slope, border, orders, coordinates = bordered(1)
+    kept = (coordinates >= FREE) | (orders % 2 == 1)
+    right = np.ones(np.count_nonzero(kept) + 1)
+    some = slope[kept], border[np.append(kept, True)]
+    matrix = np.ascontiguousarray(jacobian[np.ix_(kept, kept)])
+
+    found = factored(matrix, *some, orders[kept], coordinates[kept])
+
+    assert isinstance(found, Separated)
+    expected = Bordered(matrix, *some).solve(right)
+    np.testing.assert_allclose(found.solve(right), expected, atol=1e-9)
 
 
 def test_what_couples_orders_a_little_is_no_rounding() -> None:

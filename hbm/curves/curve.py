@@ -147,7 +147,7 @@ def response(
     if drift > DRIFT * problem.force_scale:
         raise ContinuationError(
             f"a body drifts at {frequency / TURN:.6g} Hz: friction has a mean of "
-            f"{drift:.2g} N and nothing holds the body; give it a rope"
+            f"{drift:.2g} N and nothing holds the body; hold it by a spring"
         )
     cycle = balance.cycle(point)
     return PeriodicResponse(

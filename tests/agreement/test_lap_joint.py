@@ -29,7 +29,7 @@ def test_both_solvers_find_where_the_outer_half_settles() -> None:
     assert not orbit.stuck.all()
     tip = problem.probes.rows
     amplitude = float(np.hypot(*(response.coefficients[1:3] @ tip.T))[0])
-    assert amplitude == pytest.approx(orbit.amplitude[0], rel=3e-3)
+    assert amplitude == pytest.approx(orbit.amplitude[0], rel=2e-3)
     means = [
         problem.interface.displacement @ (each.coefficients[0] - rest.displacement)
         for each in (response, orbit)
@@ -37,7 +37,7 @@ def test_both_solvers_find_where_the_outer_half_settles() -> None:
     # along the beam, where friction alone holds it
     slid = np.array(means)[:, 1::3]
     assert np.abs(slid).max() > 1e-8
-    assert np.abs(slid[0] - slid[1]).max() < 0.05 * np.abs(slid[1]).max()
+    assert np.abs(slid[0] - slid[1]).max() < 0.02 * np.abs(slid[1]).max()
 
 
 def test_a_curve_goes_through_the_resonance() -> None:

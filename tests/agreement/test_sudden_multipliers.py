@@ -31,7 +31,7 @@ def first(problem: Problem, frequency: float) -> PeriodicResponse:
 
 
 def agrees(
-    problem: Problem, response: PeriodicResponse, expected: ComplexArray
+    problem: Problem, response: PeriodicResponse, expected: ComplexArray, bound: float
 ) -> None:
     """Check the multipliers by shooting, and that their told errors are honest."""
     orbit = periodic_orbit(
@@ -44,7 +44,7 @@ def agrees(
     away = np.abs(orbit.multipliers[:, None] - expected)
     nearest = away.argmin(axis=0)  # sliders that slip have others
     aside = away[nearest, np.arange(expected.size)]
-    assert aside.max() < 1e-3
+    assert aside.max() < bound
     assert (aside <= orbit.multiplier_error[nearest]).all()
 
 
@@ -56,7 +56,7 @@ def test_viscous_friction_that_begins_as_faces_touch(
     problem = masses(4.0)
     response = first(problem, frequency)
 
-    agrees(problem, response, rubbing_multipliers(4.0, response))
+    agrees(problem, response, rubbing_multipliers(4.0, response), 1e-4)
 
 
 @pytest.mark.parametrize("hertz", [5.2, 5.4, 5.6])
@@ -64,7 +64,7 @@ def test_a_damper_in_a_stop(hertz: float) -> None:
     problem = problem_of(load_scene("gap", ["element.stop.damping=5"]))
     response = first(problem, 2.0 * np.pi * hertz)
 
-    agrees(problem, response, flight_multipliers(problem, response))
+    agrees(problem, response, flight_multipliers(problem, response), 6e-4)
 
 
 @pytest.mark.parametrize("frequency", [33.0, 38.0, 42.0])
@@ -72,4 +72,4 @@ def test_a_damper_in_a_stop_beside_a_slider(frequency: float) -> None:
     problem = beside_a_slider(10.0)
     response = first(problem, frequency)
 
-    agrees(problem, response, flight_multipliers(problem, response))
+    agrees(problem, response, flight_multipliers(problem, response), 3e-4)

@@ -254,7 +254,7 @@ def test_a_body_that_drifts_says_where_and_how_to_hold_it() -> None:
 
     text = (
         r"^a body drifts at 1\.59155 Hz: friction has a mean of 0\.1[0-9] N "
-        r"and nothing holds the body; give it a rope$"
+        r"and nothing holds the body; hold it by a spring$"
     )
     with pytest.raises(ContinuationError, match=text):
         next(frequency_response(problem, static_equilibrium(problem), options))

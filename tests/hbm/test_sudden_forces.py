@@ -94,8 +94,8 @@ def test_multipliers_know_of_viscous_friction_that_begins_as_faces_touch(
 ) -> None:
     response = first(masses(4.0), frequency)
 
-    # without the jump they are off by up to 0.04
-    assert apart(response, rubbing_multipliers(4.0, response)) < 5e-4
+    # without the jump they are off by up to 0.07
+    assert apart(response, rubbing_multipliers(4.0, response)) < 2e-4
 
 
 @pytest.mark.parametrize("frequency", [33.0, 38.0, 42.0])
@@ -104,8 +104,8 @@ def test_multipliers_of_a_damped_stop_beside_a_slider(frequency: float) -> None:
     response = first(problem, frequency)
 
     assert response.friction_energy > 1e-3  # the slider slips
-    # without the jump they are off by up to 0.1
-    assert apart(response, flight_multipliers(problem, response)) < 5e-4
+    # without the jump they are off by up to 0.13
+    assert apart(response, flight_multipliers(problem, response)) < 3e-4
 
 
 def first(problem: Problem, frequency: float) -> PeriodicResponse:

@@ -32,8 +32,9 @@ def carried(
 
     Returns
     -------
-    Derivatives of the state after the period, shape ``(states, states)``, and of the
-    mean tractions beside those of what floats, shape ``(sliders, states)``.
+    Derivatives of the state after the period, shape ``(states, states)``, and of what
+    can be taken off the tractions, shape ``(sliders, states)``: that of their mean
+    beside those of what floats, or, of what then comes to its limit, of its excess.
     """
     size, rank = push.shape
     pull, bending = sliders.along.T, sliders.bending
@@ -45,6 +46,7 @@ def carried(
     answers = tangents + pull @ slides.motion
     solvers = np.linalg.inv(np.eye(rank) - answers @ (seen @ push))
     kick, total = free @ push + push, np.zeros_like(held)
+    brink, excess = slides.brink, np.zeros_like(held)
     for place in range(1, len(tangents)):
         moved = free @ moved + kick @ force
         watched = seen @ moved
@@ -53,4 +55,8 @@ def carried(
         watched += (seen @ push) @ force
         held = slides.motion[place] @ watched + memory
         slid, total = watched, total + held - bending @ watched[: push.shape[1]]
-    return np.vstack([moved + push @ force, held]), total / (len(tangents) - 1)
+        ends = np.flatnonzero(brink.place == place)
+        excess[ends] = brink.pull[ends] @ held + brink.push[ends] @ watched
+    mean = total / (len(tangents) - 1)
+    off = np.where((brink.place > 0)[:, None], excess, mean)
+    return np.vstack([moved + push @ force, held]), off

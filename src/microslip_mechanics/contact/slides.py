@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.brink import Brink, brink_of
 from microslip_mechanics.contact.memory import Press, pressed, remembers, traction
 from microslip_mechanics.contact.points import ELASTIC, ContactPoints
 from microslip_mechanics.contact.sliders import Sliders
@@ -41,9 +42,9 @@ class Slides(NamedTuple):
     """H, shape (times, sliders, sliders)"""
     stuck: NDArray[np.bool_]
     """which sliders never slip, shape (sliders,)"""
-    mean: Array
-    """by how much the mean traction of these can come nearer to none [N], or to what
-    :meth:`~microslip_mechanics.contact.sliders.Sliders.bent` has, (sliders,)"""
+    brink: Brink
+    """by how much the mean traction of these can come nearer to none, or to what
+    :meth:`~microslip_mechanics.contact.sliders.Sliders.bent` has"""
 
 
 def slides_of(
@@ -77,7 +78,6 @@ def slides_of(
     _stick(sliders.points, sticking, by)
     motion, past, kept = _derivatives(sliders, by, load, frequency)
     held = tractions[1:].mean(axis=0) - sliders.bent(moved[1:].mean(axis=0))
-    shares = _shares(tractions[1:], limits[1:], held)
     return Slides(
         tractions[:, sliders.point, sliders.axis],
         limits[:, sliders.point],
@@ -85,7 +85,7 @@ def slides_of(
         past,
         kept,
         sticking[sliders.point],
-        (shares[:, None] * held)[sliders.point, sliders.axis],
+        brink_of(sliders, tractions, limits, held, sticking, load, frequency),
     )
 
 
@@ -169,18 +169,3 @@ def _derivatives(
     for row, column in np.argwhere(point[:, None] == point):
         kept[:, row, column] = own[:, row, 6 + sliders.axis[column]]
     return motion, past, kept
-
-
-def _shares(tractions: Array, limits: Array, held: Array) -> Array:
-    """Return which share of a constant can be taken off all tractions of each point.
-
-    None may exceed its limit at any time, shape (times, points).
-    """
-    square = (held**2).sum(axis=1)
-    along = (tractions * held).sum(axis=2)
-    room = np.maximum(limits**2 - (tractions**2).sum(axis=2), 0.0)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        shares = (along + np.sqrt(along**2 + square * room)) / square
-    shares = np.where(square > 0.0, shares, 1.0)
-    least: Array = np.clip(shares.min(axis=0), 0.0, 1.0)
-    return least

@@ -30,6 +30,7 @@ BANDS = {
     "chain": ("0.2", "0.201"),
     "friction-beam": ("80", "81"),
     "tip-damper": ("420", "422"),
+    "platform-damper": ("287.8", "288"),
 }
 """frequencies [Hz] at which the contacts of each scene slide or lift off"""
 RIGS = [

@@ -19,12 +19,13 @@ bladed-disk  a disk of lumped sectors, tips of neighbouring blades rub on each o
     mistuning.deviation=0.01      random stiffness of the sectors, of the whole disk
     friction.law=jenkins | coulomb, sectors=…, drive.engine_order=…
 systems of any matrices and elements (scene = "system"):
-  duffing        a mass on a linear and a cubic spring
-  jenkins        a mass on a spring and an elastic dry-friction slider
-  gap            a mass that meets a stop behind a gap
-  chain          three masses with sliders, cubic springs and a stop (NLvib, example 07)
-  friction-beam  a cantilever with dry friction at its tip
-  tip-damper     a blade with a pin pressed to its tip, contact in three dimensions
+  duffing          a mass on a linear and a cubic spring
+  jenkins          a mass on a spring and an elastic dry-friction slider
+  gap              a mass that meets a stop behind a gap
+  chain            three masses with sliders, cubic springs and a stop (NLvib, example 07)
+  friction-beam    a cantilever with dry friction at its tip
+  tip-damper       a blade with a pin pressed to its tip, contact in three dimensions
+  platform-damper  a wedge pressed under a blade's platform by its centrifugal force
   variants by --set element.NAME.KEY=VALUE, drive.DOF=VALUE, structure.damping_ratio=…
 microslip scenes two-blades > mine.toml    makes a copy to change"""
 

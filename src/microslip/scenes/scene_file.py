@@ -19,7 +19,15 @@ from microslip.scenes.two_blades.tables import TwoBlades
 
 KINDS = ("two-blades", "system", "bladed-disk")
 """what ``scene = "…"`` may name"""
-SYSTEMS = ("duffing", "jenkins", "gap", "chain", "friction-beam", "tip-damper")
+SYSTEMS = (
+    "duffing",
+    "jenkins",
+    "gap",
+    "chain",
+    "friction-beam",
+    "tip-damper",
+    "platform-damper",
+)
 BUILT_IN = ("two-blades", "bladed-disk", *SYSTEMS)
 """names of built-in scenes"""
 

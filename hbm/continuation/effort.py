@@ -19,6 +19,11 @@ class Effort:
         self.spent = 0.0
         """evaluations so far"""
 
+    def part(self, most: float) -> Effort:
+        """Grant some of what is left, and no more."""
+        left = most if self._most is None else self._most - self.spent
+        return Effort(min(most, left))
+
     def spend(self, harmonics: int) -> None:
         """Count one evaluation.
 

@@ -8,7 +8,6 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hbm.balance.parametric import ParametricBalance
 from hbm.balance.relative import RelativeProblem
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
@@ -18,13 +17,14 @@ from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.errors import PLACE, ContinuationError
 from hbm.forces.fourier import FourierBasis
+from hbm.paths.along_drive import UNIT, AlongDrive, driven
 from hbm.paths.path import Path
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.points import ONE_SIDED
 
 SMALLEST_STEP = 1e-3
-LEAST, UNIT = 0.01, 0.1
-"""drive at which an arc begins and what counts as one unit of it, over the whole"""
+LEAST = 0.01
+"""drive at which an arc begins, over the whole"""
 PATIENCE = 1000
 """evaluations after which an arc is given up; those that arrive take some 300"""
 FOURIERS = (FourierBasis(3, 128), FourierBasis(7, 128), FourierBasis(15, 256))
@@ -125,25 +125,21 @@ def _along_an_arc(
     ContinuationError
         If it does not arrive.
     """
-    problem, frequency = path.at(parameter)
-
-    def driven(share: float) -> tuple[RelativeProblem, float]:
-        return _drive(problem, share), frequency
+    drives = AlongDrive(path, parameter)
 
     def scale(point: Array) -> Array:
         return np.append(metric(point)[:-1], UNIT)
 
-    mask = path.mask(fourier.harmonics)
-    balance = ParametricBalance(driven, fourier, mask, lambda _: UNIT, (-1.0, 1.0))
-    still, _ = driven(LEAST)
-    start = HarmonicBalance(still, fourier, mask).point(problem.rest[None, :], LEAST)
+    balance, (still, _) = drives.balance(fourier), drives.at(LEAST)
+    mask = drives.mask(fourier.harmonics)
+    start = HarmonicBalance(still, fourier, mask).point(still.rest[None, :], LEAST)
     counted = effort.counted(balance, fourier.harmonics)
     system = Effort(PATIENCE).counted(counted, 1)
     for last in trace(system, start, 1.0, metric=scale, control=control, begin=-1.0):
         point = last.point
     if point[-1] < 1.0:
         raise ContinuationError(f"the drive falls again at {PLACE}", parameter)
-    return point[:-1].reshape(fourier.coefficients, problem.rank)
+    return point[:-1].reshape(fourier.coefficients, path.rank)
 
 
 def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
@@ -154,16 +150,11 @@ def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
     """
     points = problem.points
     rubs = bool(points.dynamic.any() or points.static.any())
-    ways: list[Easier] = [_drive, *((_threshold, _friction) if rubs else ())]
+    ways: list[Easier] = [driven, *((_threshold, _friction) if rubs else ())]
     motion = largest(problem.apart(frequency))
     if not _touches(problem, motion):
         return ways
     return [*ways, lambda problem, share: _pressed(problem, motion, share)]
-
-
-def _drive(problem: RelativeProblem, share: float) -> RelativeProblem:
-    """Return the problem under a share of the drive."""
-    return replace(problem, force=problem.force * np.array([[1.0], [share]]))
 
 
 def _threshold(problem: RelativeProblem, share: float) -> RelativeProblem:

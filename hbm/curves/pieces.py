@@ -11,6 +11,7 @@ from hbm.continuation.cornered import Cornered
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
+from hbm.curves.grown_drive import Resolved
 from hbm.curves.restart import FIRST, LEAPS, Restart
 from hbm.errors import PLACE, ContinuationError
 from hbm.paths.path import Path
@@ -40,6 +41,8 @@ class Pieces:
     end: float
     control: StepControl
     effort: Effort
+    resolved: Resolved | None = None
+    """what makes the system of another path; none if left out"""
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
@@ -89,6 +92,7 @@ class Pieces:
             self.control,
             self.effort,
             self.metric,
+            self.resolved,
         )
 
     def metric(self, point: Array) -> Array:

@@ -12,6 +12,7 @@ from hbm.continuation.arc import Metric
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
+from hbm.curves.grown_drive import Resolved, grown
 from hbm.curves.homotopy import approaches
 from hbm.errors import ContinuationError
 from hbm.paths.path import Path
@@ -39,6 +40,8 @@ class Restart:
     control: StepControl
     effort: Effort
     metric: Metric
+    resolved: Resolved | None
+    """what makes the system of another path"""
 
     def point(
         self, reached: float, heading: float, leaps: Iterator[float]
@@ -61,6 +64,10 @@ class Restart:
                 folded=leap in FOLDED,
             ):
                 settled = self.settled(coefficients, parameter)
+                if settled is not None:
+                    return settled
+            if leap == 0.0:
+                settled = self._grown(parameter)
                 if settled is not None:
                     return settled
         return None
@@ -88,6 +95,18 @@ class Restart:
         except ContinuationError:
             return None
         return found.point
+
+    def _grown(self, parameter: float) -> Array | None:
+        """Return a point to which the drive has grown; None if it does not."""
+        if self.resolved is None:
+            return None
+        try:
+            coefficients = grown(
+                self.path, parameter, self.resolved, self.control, self.effort
+            )
+        except ContinuationError:
+            return None
+        return self.settled(coefficients, parameter)
 
     def still(self, parameter: float) -> Array:
         """Return the point at rest."""

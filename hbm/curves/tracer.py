@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -36,17 +37,13 @@ class Tracer:
         self.path, self.effort = path, Effort(options.effort)
         points = problem.interface.points
         rigid = bool((points.friction == RIGID).any())
-        by_steps = rigid or bool(marched(points).any())
-        resolution = PathResolution(path, problem.probes.rows, marched=by_steps)
-        self.system = AdaptiveBalance(
-            resolution,
-            replace(options.first, threshold=smoothest(path, options)),
-            tolerance=options.error if options.harmonics is None else None,
-            most=options.most_harmonics,
-            errors=options.errors,
-            effort=self.effort,
-            pushed=rigid,
-        )
+        resolution = _resolution(problem, path)
+        adaptive = partial(_adaptive, problem, options, smoothest(path, options))
+        self.system = adaptive(resolution, self.effort)
+
+        def resolved(other: Path, effort: Effort) -> AdaptiveBalance:
+            return adaptive(_resolution(problem, other), effort)
+
         drive = largest(problem.drive)
         self.control = options.control(problem.force_scale, drive)
         motions = path.motions if options.stability and not rigid else None
@@ -75,6 +72,7 @@ class Tracer:
             options.end,
             self.control,
             self.effort,
+            resolved,
         )
 
     def responses(self) -> Iterator[PeriodicResponse]:
@@ -126,3 +124,29 @@ class Tracer:
         guess[: relative.size] = relative
         guess[-1] = known.frequency
         return guess
+
+
+def _resolution(problem: Problem, path: Path) -> PathResolution:
+    """Return a path, judged by a problem's probes, at any resolution."""
+    points = problem.interface.points
+    by_steps = bool((points.friction == RIGID).any() or marched(points).any())
+    return PathResolution(path, problem.probes.rows, marched=by_steps)
+
+
+def _adaptive(
+    problem: Problem,
+    options: CurveOptions,
+    threshold: float,
+    resolution: PathResolution,
+    effort: Effort,
+) -> AdaptiveBalance:
+    """Return what follows a path; friction begins with a threshold velocity [m/s]."""
+    return AdaptiveBalance(
+        resolution,
+        replace(options.first, threshold=threshold),
+        tolerance=options.error if options.harmonics is None else None,
+        most=options.most_harmonics,
+        errors=options.errors,
+        effort=effort,
+        pushed=bool((problem.interface.points.friction == RIGID).any()),
+    )

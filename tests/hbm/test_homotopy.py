@@ -21,7 +21,7 @@ from small_problems import between_stops
 
 @pytest.mark.parametrize(
     ("friction", "tried"),
-    [(0.0, ["_drive"]), (0.3, ["_drive", "_threshold", "_friction"])],
+    [(0.0, ["driven"]), (0.3, ["driven", "_threshold", "_friction"])],
 )
 def test_without_friction_the_drive_alone_makes_a_problem_easier(
     friction: float, tried: list[str], monkeypatch: pytest.MonkeyPatch

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from hbm.continuation.bordered import Bordered
 from microslip_mechanics.arrays import TINY, Array
+from microslip_mechanics.jit import kernel
 
 FEWEST = 400
 """unknowns from which on it is looked for"""
@@ -107,15 +108,32 @@ def _apart(
     jacobian: Array, orders: NDArray[np.int64], coordinates: NDArray[np.int64]
 ) -> NDArray[np.bool_]:
     """Return which unknowns are of coordinates that couple no orders, (unknowns,)."""
-    scale = 1.0 / np.sqrt(np.maximum(np.abs(jacobian.diagonal()), TINY))
-    coupling = np.abs(jacobian) * scale
-    coupling *= scale[:, None]
-    coupling[orders[:, None] == orders] = 0.0
-    largest = np.maximum(coupling.max(axis=0), coupling.max(axis=1))
-    whole = np.zeros(int(coordinates.max()) + 1)
-    np.maximum.at(whole, coordinates, largest)
-    found: NDArray[np.bool_] = (whole <= COUPLED)[coordinates]
+    scale = np.sqrt(np.maximum(np.abs(jacobian.diagonal()), TINY))
+    coupled = np.zeros(int(coordinates.max()) + 1, dtype=np.bool_)
+    _couple(np.ascontiguousarray(jacobian), scale, orders, coordinates, coupled)
+    found: NDArray[np.bool_] = ~coupled[coordinates]
     return found
+
+
+@kernel
+def _couple(
+    jacobian: Array,
+    scale: Array,
+    orders: NDArray[np.int64],
+    coordinates: NDArray[np.int64],
+    coupled: NDArray[np.bool_],
+) -> None:
+    """Write which coordinates couple orders, until all are known to do so."""
+    for row in range(orders.size):
+        a = coordinates[row]
+        for column in range(orders.size):
+            b = coordinates[column]
+            if (coupled[a] and coupled[b]) or orders[row] == orders[column]:
+                continue
+            if abs(jacobian[row, column]) > COUPLED * scale[row] * scale[column]:
+                coupled[a] = coupled[b] = True
+        if coupled.all():
+            return
 
 
 def _separated(

@@ -11,19 +11,32 @@ coefficients of each direction in which the point itself moves.
 from __future__ import annotations
 
 import itertools
-from functools import cached_property
+from collections.abc import Callable
+from functools import cached_property, partial
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hbm.forces.fourier import FourierBasis, derivative, waves
+from hbm.forces.multiplied import multiplied
 from hbm.forces.sliding_loop import sliding_loop
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.floating import Floating
+from microslip_mechanics.contact.loop_gradient import (
+    LoopGradient,
+    Waves,
+    loop_gradient,
+)
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import PUSHED, ContactPoints
-from microslip_mechanics.contact.steady_loop import Waves, steady_loop
+from microslip_mechanics.contact.steady_loop import steady_loop
 from microslip_mechanics.jit import kernel
+
+NOTHING = Waves(*np.zeros((2, 0, 0)))
+"""terms by which no derivatives are taken"""
+Blocks: TypeAlias = Callable[[int, int], Array]
+"""traction, direction ↦ derivatives by coefficients, shape (2H + 1, 2H + 1)"""
 
 
 def marched(points: ContactPoints) -> NDArray[np.bool_]:
@@ -53,12 +66,10 @@ class FrictionMemory:
 
         ``moved`` are displacement and velocity of the points at all samples.
         """
-        none, terms = np.zeros((2, 3, 0, 0)), Waves(*np.zeros((2, 0, 0)))
         leans = self._leans(moved[0])
         for point in np.flatnonzero(marched(points)).tolist():
-            lean = leans[point]
-            made, by_frequency = self._loop(
-                points, point, moved, terms, frequency, lean, none
+            made, by_frequency, _ = self._loop(
+                points, point, moved, NOTHING, frequency, leans[point]
             )
             force[3 * point + 1 : 3 * point + 3] += made
             change[3 * point + 1 : 3 * point + 3] += by_frequency
@@ -76,18 +87,19 @@ class FrictionMemory:
         ``places``, shape ``(2H + 1, rank)``, are the rows and columns of the
         coefficients; negative ones are left out.
         """
-        terms, analysis = self._series
-        gradient, leans = np.empty((2, 3, *terms.value.shape)), self._leans(moved[0])
+        (terms, _), leans = self._series, self._leans(moved[0])
         for point in np.flatnonzero(marched(points)).tolist():
-            axes, lean = self._axes(point), leans[point]
-            self._loop(points, point, moved, terms, frequency, lean, gradient)
+            axes = self._axes(point)
+            *_, blocks = self._loop(
+                points, point, moved, terms, frequency, leans[point]
+            )
             rows = slice(3 * point, 3 * point + 3)
             seen, mean = self._basis[rows], self._basis[rows].copy()
             if points.friction[point] != PUSHED:
                 mean[1:] = self._leaning[rows][1:]
             for row, column in itertools.product((1, 2), range(3)):
                 if axes[row] and axes[column]:
-                    block = analysis @ gradient[row - 1, column]
+                    block = blocks(row - 1, column)
                     _scatter(
                         block, seen[row], mean[column], seen[column], places, jacobian
                     )
@@ -100,14 +112,31 @@ class FrictionMemory:
         terms: Waves,
         frequency: float,
         lean: Array,
-        gradient: Array,
-    ) -> tuple[Array, Array]:
-        """Return what a point's loop adds to the force, and (∂/∂ω) ω of it."""
+    ) -> tuple[Array, Array, Blocks]:
+        """Return what a point's loop adds to the force, (∂/∂ω) ω of it, and blocks.
+
+        These are coefficients of one traction by those of one direction in ``terms``.
+        """
         rows, axes = slice(3 * point, 3 * point + 3), self._axes(point)
         motion = points, point, moved[0][rows], moved[1][rows], terms, frequency, axes
+        shape = moved[0].shape[1], terms.value.shape[1]
         if points.friction[point] == PUSHED:
-            return sliding_loop(*motion, gradient)
-        return steady_loop(*motion, lean, gradient)
+            every = np.empty((2, 3, *shape))
+            made, change = sliding_loop(*motion, every)
+            return made, change, lambda *which: self._series[1] @ every[which]
+        parts = loop_gradient(*shape)
+        made, change = steady_loop(*motion, lean, parts)
+        return made, change, partial(self._block, parts)
+
+    def _block(self, parts: LoopGradient, row: int, column: int) -> Array:
+        """Return coefficients of a traction by those of a direction, from the parts."""
+        _, analysis = self._series
+        runs, first = np.unique(parts.run, return_index=True)
+        before = np.add.reduceat(analysis, first, axis=1)
+        now, rate = parts.now[row, column], parts.rate[row, column]
+        (made,) = multiplied(now[None], rate[None], self._fourier.harmonics)
+        block: Array = made + before @ parts.rest[runs, row, column]
+        return block
 
     def _leans(self, displacement: Array) -> Array:
         """Return by how much sliders are bent in the mean [m], (points, 3)."""

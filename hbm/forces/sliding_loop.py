@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import TINY, Array
+from microslip_mechanics.contact.loop_gradient import Waves
 from microslip_mechanics.contact.memory import friction_load
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.rigid import slide
-from microslip_mechanics.contact.steady_loop import Waves
 from microslip_mechanics.jit import bare_kernel, kernel
 
 TRIALS = 50
@@ -47,8 +47,9 @@ def sliding_loop(
 ) -> tuple[Array, Array]:
     """Return minus the traction of the steady loop, and (∂/∂ω) ω of it, (2, samples).
 
-    Arguments are those of :func:`~microslip_mechanics.contact.steady_loop.steady_loop`;
-    displacements along the tangents are pushes over k_t.
+    Arguments are those of :func:`~microslip_mechanics.contact.steady_loop.steady_loop`,
+    but displacements along the tangents are pushes over k_t, and ``gradient``, shape
+    ``(2, 3, samples, 2H + 1)``, is written with the derivatives as a whole.
     """
     samples = displacement.shape[1]
     loss = points.stribeck[point] * math.pi / (frequency * samples)

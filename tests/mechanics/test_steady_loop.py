@@ -6,8 +6,9 @@ import pytest
 from hbm.forces.fourier import derivative, waves
 from law_examples import driven
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.loop_gradient import LoopGradient, Waves, loop_gradient
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.contact.steady_loop import Waves, steady_loop
+from microslip_mechanics.contact.steady_loop import steady_loop
 
 pytestmark = pytest.mark.kernels
 
@@ -27,7 +28,7 @@ def series() -> Waves:
 def loop(
     points: ContactPoints,
     coefficients: Array,
-    gradient: Array,
+    gradient: LoopGradient,
     omega: float = OMEGA,
     axes: tuple[bool, bool, bool] = (True, True, True),
 ) -> tuple[Array, Array]:
@@ -42,6 +43,15 @@ def loop(
     return steady_loop(
         points, 0, moved, moving, terms, omega, np.array(axes), lean, gradient
     )
+
+
+def whole(gradient: LoopGradient) -> Array:
+    """Return derivatives of tractions by coefficients, (2, 3, samples, 2H + 1)."""
+    terms = series()
+    rest = np.moveaxis(gradient.rest[gradient.run], 0, 2)
+    now, rate = gradient.now[..., None], gradient.rate[..., None]
+    found: Array = now * terms.value + rate * terms.slope + rest
+    return found
 
 
 @pytest.mark.parametrize("case", ["elastic", "dahl", "lugre"])
@@ -70,22 +80,36 @@ def test_derivatives_of_one_direction_are_those_among_all() -> None:
     points = driven("elastic").interface.points
     motion = np.zeros((2 * HARMONICS + 1, 3))
     motion[:3, 1] = 0.0, 0.05, 0.02
-    shape = (2, 3, SAMPLES, len(motion))
-    every, alone = np.empty(shape), np.full(shape, np.nan)
+    every, alone = (loop_gradient(SAMPLES, len(motion)) for _ in range(2))
+    alone.rest[:] = np.nan
 
     loop(points, motion, every)
     loop(points, motion, alone, axes=(False, True, False))
 
-    np.testing.assert_array_equal(alone[0, 1], every[0, 1])
-    assert np.isfinite(every).all()
+    np.testing.assert_array_equal(whole(alone)[0, 1], whole(every)[0, 1])
+    assert np.isfinite(whole(every)).all()
+
+
+def test_a_straight_loop_has_few_runs() -> None:
+    points = driven("elastic").interface.points
+    motion = np.zeros((2 * HARMONICS + 1, 3))
+    motion[:3, 1] = 0.0, 0.05, 0.02
+    gradient = loop_gradient(SAMPLES, len(motion))
+
+    loop(points, motion, gradient, axes=(True, True, False))
+
+    # it sticks and slides, twice each, besides the run with which a period begins
+    assert gradient.run.max() <= 5
+    assert (np.diff(gradient.run) >= 0).all()
 
 
 def agree(points: ContactPoints, motion: Array, size: float) -> None:
     """Compare derivatives with differences."""
-    none, gradient = np.zeros((2, 3, 0, 0)), np.empty((2, 3, SAMPLES, len(motion)))
+    none, parts = loop_gradient(SAMPLES, 0), loop_gradient(SAMPLES, len(motion))
 
-    _, by_frequency = loop(points, motion, gradient)
+    _, by_frequency = loop(points, motion, parts)
 
+    gradient = whole(parts)
     scale = np.abs(gradient).max()
     for term, axis in np.ndindex(motion.shape):
         change = np.zeros_like(motion)

@@ -9,9 +9,10 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.law import contact_force
+from microslip_mechanics.contact.loop_gradient import Waves, loop_gradient
 from microslip_mechanics.contact.memory import pressed, remembers
 from microslip_mechanics.contact.points import ContactPoints
-from microslip_mechanics.contact.steady_loop import Waves, steady_loop
+from microslip_mechanics.contact.steady_loop import steady_loop
 from microslip_mechanics.floating import floating
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.loads.excitation import Dwell, LoadHistory
@@ -93,7 +94,7 @@ def on_orbit(problem: Problem, response: PeriodicResponse) -> Start:
             loop, _ = steady_loop(
                 points, point, moved[:, own].T.copy(), moving[:, own].T.copy(), still,
                 response.frequency, np.zeros(3, dtype=bool), leans[point],
-                np.zeros((2, 3, 0, 0)),
+                loop_gradient(LOOP, 0),
             )  # fmt: skip
             tractions[point] = loop[:, 0]
     return Start(displacement[0], velocity[0], tractions)

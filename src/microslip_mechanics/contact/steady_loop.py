@@ -8,6 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import TINY, Array
+from microslip_mechanics.contact.loop_gradient import (
+    LoopGradient,
+    Step,
+    Waves,
+    begin_gradient,
+    carry_gradient,
+)
 from microslip_mechanics.contact.memory import pressed, traction
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
@@ -16,14 +23,6 @@ PERIODS = 20
 """most that are marched"""
 STEADY = 1e-12
 """change of the traction over a period, over its largest value"""
-
-
-class Waves(NamedTuple):
-    """Fourier terms at the samples, each of shape (samples, 2H + 1)."""
-
-    value: Array
-    slope: Array
-    """derivative by the phase"""
 
 
 class Motion(NamedTuple):
@@ -37,21 +36,6 @@ class Motion(NamedTuple):
     """shape (3, samples)"""
 
 
-class Step(NamedTuple):
-    """What the slide from one sample to the next makes; overwritten by the next."""
-
-    slide: Array
-    """shape (2,)"""
-    speed: Array
-    """mean of both ends, shape (2,)"""
-    new: Array
-    """traction after it, shape (2,)"""
-    by: Array
-    """its derivatives, shape (2, 10)"""
-    by_load: Array
-    """those of the load after and before it by depth and approach, shape (2, 2)"""
-
-
 @kernel
 def steady_loop(
     points: ContactPoints,
@@ -62,15 +46,15 @@ def steady_loop(
     frequency: float,
     axes: NDArray[np.bool_],
     lean: Array,
-    gradient: Array,
+    gradient: LoopGradient,
 ) -> tuple[Array, Array]:
     """Return traction and (∂traction/∂ω) ω of the steady loop, each (2, samples).
 
     ``lean`` is by how much the slider is bent in the middle of its motion [m], shape
-    ``(3,)``. ``gradient``, shape ``(2, 3, samples, 2H + 1)``, is written with the
-    derivatives by the coefficients of normal and tangents, unless it is empty: of and
-    by those along which the point moves, as ``axes`` says. A mean along the tangents
-    changes nothing: in its place are those by ``lean``.
+    ``(3,)``. ``gradient`` is written with the derivatives by the coefficients of
+    normal and tangents, unless it is empty: of and by those along which the point
+    moves, as ``axes`` says. A mean along the tangents changes nothing: in its place
+    are those by ``lean``.
     """
     motion = Motion(points, point, displacement, velocity)
     samples = displacement.shape[1]
@@ -78,14 +62,23 @@ def steady_loop(
     by, by_load = np.zeros((2, 10)), np.zeros((2, 2))
     step = Step(np.zeros(2), np.zeros(2), np.zeros(2), by, by_load)
     state = np.zeros((2, 2))  # traction and its change so far
-    _begin(motion, waves, lean, state, gradient)
+    _begin(motion, lean, state)
+    asked, run = gradient.run.size > 0, 0
+    if asked:
+        begin_gradient(gradient, waves, points.tangential[point])
     for sweep in range(PERIODS):
         first = state[0].copy()
+        if asked:
+            gradient.rest[0] = gradient.rest[run]
+            run = 0
         for place in range(samples):
             last = _last(place, samples, sweep == 0)
             _take(motion, place, last, state, step)
-            if gradient.size > 0:
-                _carry(gradient, waves, frequency, axes, step, place, last)
+            if asked:
+                run = carry_gradient(
+                    gradient, waves, frequency, axes, step, place, last, run
+                )
+                gradient.run[place] = run
             for axis in range(2):
                 made[axis, place], change[axis, place] = state[0, axis], state[1, axis]
         largest = max(np.abs(made).max(), TINY)
@@ -95,19 +88,12 @@ def steady_loop(
 
 
 @bare_kernel
-def _begin(
-    motion: Motion, waves: Waves, lean: Array, state: Array, gradient: Array
-) -> None:
+def _begin(motion: Motion, lean: Array, state: Array) -> None:
     """Write what a spring carries that sticks in the middle of its motion."""
     stiffness = motion.points.tangential[motion.point]
     for axis in range(2):
         path = motion.displacement[axis + 1]
         state[0, axis] = stiffness * (path[0] - path.mean() + lean[axis + 1])
-    if gradient.size > 0:
-        gradient[:, :, -1] = 0.0
-        for axis in range(2):
-            for term in range(gradient.shape[3]):
-                gradient[axis, axis + 1, -1, term] = stiffness * waves.value[0, term]
 
 
 @bare_kernel
@@ -143,48 +129,3 @@ def _take(motion: Motion, place: int, last: int, state: Array, step: Step) -> No
             + by[axis, 5] * by_load[1, 1] * velocity[0, last]
             + by[axis, 6] * one + by[axis, 7] * two
         )  # fmt: skip
-
-
-@bare_kernel
-def _carry(
-    gradient: Array,
-    waves: Waves,
-    frequency: float,
-    axes: NDArray[np.bool_],
-    step: Step,
-    place: int,
-    last: int,
-) -> None:
-    """Write the derivatives at one sample from those at the sample before.
-
-    The slide of ``step`` began at ``last``, which is ``place`` where a loop begins.
-    """
-    before = place - 1 if place > 0 else gradient.shape[2] - 1
-    value, slope = waves
-    by, by_load = step.by, step.by_load
-    for row in range(gradient.shape[0]):
-        for column in range(gradient.shape[1]):
-            if not (axes[row + 1] and axes[column]):
-                continue
-            if column == 0:
-                now = by[row, 4] * by_load[0, 0] + by[row, 8]
-                past = by[row, 5] * by_load[1, 0] + by[row, 9]
-                rate = by[row, 4] * by_load[0, 1] * frequency
-                turned = by[row, 5] * by_load[1, 1] * frequency
-            else:
-                now, past = by[row, column - 1], -by[row, column - 1]
-                rate = turned = 0.5 * frequency * by[row, column + 1]
-            other, share = row, 0.0
-            if axes[2 - row]:
-                other, share = 1 - row, by[row, 7 - row]
-            target = gradient[row, column, place]
-            own, across = gradient[row, column, before], gradient[other, column, before]
-            waves_now, waves_past = value[place], value[last]
-            rates_now, rates_past = slope[place], slope[last]
-            alone = by[row, 6 + row]
-            for term in range(target.size):
-                target[term] = (
-                    alone * own[term] + share * across[term]
-                    + now * waves_now[term] + past * waves_past[term]
-                    + rate * rates_now[term] + turned * rates_past[term]
-                )  # fmt: skip

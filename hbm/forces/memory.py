@@ -134,7 +134,7 @@ class FrictionMemory:
         runs, first = np.unique(parts.run, return_index=True)
         before = np.add.reduceat(analysis, first, axis=1)
         now, rate = parts.now[row, column], parts.rate[row, column]
-        (made,) = multiplied(now[None], rate[None], self._fourier.harmonics)
+        made = multiplied(now, rate, self._fourier.harmonics)
         block: Array = made + before @ parts.rest[runs, row, column]
         return block
 

@@ -2,38 +2,39 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from hbm.forces.fourier import Transform, to_complex
 from microslip_mechanics.arrays import Array, ComplexArray
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.jit import inner_kernel, kernel
 
 
 def multiplied(now: Array, rate: Array, harmonics: int) -> Array:
-    """Return the matrices of f(θ) x(θ) + g(θ) x'(θ) by the coefficients of x.
+    """Return the matrix of f(θ) x(θ) + g(θ) x'(θ) by the coefficients of x.
 
     Parameters
     ----------
     now, rate
-        f and g of several such products at the samples, shape ``(products, samples)``,
-        at least ``4 harmonics + 2`` samples.
+        f and g at the samples, shape ``(samples,)``, at least ``4 harmonics + 2``.
     harmonics
         Of x, and of what is made of it.
 
     Returns
     -------
-    Matrices, shape ``(products, 2 harmonics + 1, 2 harmonics + 1)``.
+    Matrix, shape ``(2 harmonics + 1, 2 harmonics + 1)``.
     """
-    transform = Transform(2 * len(now), now.shape[1])
-    transform.samples[: len(now)], transform.samples[len(now) :] = now, rate
-    spectra = 0.5 * to_complex(transform.analysis(2 * harmonics)).T
-    spectra[:, 0] *= 2.0
-    made = np.empty((len(now), 2 * harmonics + 1, 2 * harmonics + 1))
-    for spectrum, slope, matrix in zip(
-        spectra[: len(now)].copy(), spectra[len(now) :].copy(), made, strict=True
-    ):
-        _write(spectrum, slope, matrix)
-    return made
+    transform = _transform(2, now.size)
+    transform.samples[0], transform.samples[1] = now, rate
+    spectra = to_complex(transform.analysis(2 * harmonics)).T
+    spectra[:, 1:] *= 0.5
+    matrix = np.empty((2 * harmonics + 1, 2 * harmonics + 1))
+    _write(spectra[0].copy(), spectra[1].copy(), matrix)
+    return matrix
+
+
+_transform = lru_cache(maxsize=8)(Transform)
 
 
 @kernel
@@ -55,7 +56,7 @@ def _write(now: ComplexArray, rate: ComplexArray, matrix: Array) -> None:
                 matrix[a + 1, b + 1] = sines[1] + k * turning[0]
 
 
-@kernel
+@inner_kernel
 def _pair(
     factor: ComplexArray, j: int, k: int
 ) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.jit import bare_kernel
+from microslip_mechanics.jit import bare_kernel, inner_kernel
 
 
 class Waves(NamedTuple):
@@ -107,7 +107,7 @@ def carry_gradient(
     return run + 1 if changes else run
 
 
-@bare_kernel
+@inner_kernel
 def _carry(
     gradient: LoopGradient,
     waves: Waves,
@@ -169,7 +169,7 @@ def _parts(
     return alone, share, past, turned
 
 
-@bare_kernel
+@inner_kernel
 def _changes(parts: tuple[float, float, float, float], own: Array) -> bool:
     """Return whether ``rest`` becomes another one."""
     alone, share, past, turned = parts
@@ -182,7 +182,7 @@ def _changes(parts: tuple[float, float, float, float], own: Array) -> bool:
     return False
 
 
-@bare_kernel
+@inner_kernel
 def _now(gradient: LoopGradient, frequency: float, step: Step, place: int) -> None:
     """Write the derivatives by what is at the same sample."""
     now, rate, by, by_load = gradient.now, gradient.rate, step.by, step.by_load

@@ -104,8 +104,9 @@ def test_multipliers_of_a_damped_stop_beside_a_slider(frequency: float) -> None:
     response = first(problem, frequency)
 
     assert response.friction_energy > 1e-3  # the slider slips
-    # without the jump they are off by up to 0.13
-    assert apart(response, flight_multipliers(problem, response)) < 3e-4
+    # at eleven frequencies from 32 to 42 Hz they are off by 4e-5 to 4.2e-4, with how
+    # finely the response is sampled; without the jump by up to 0.13
+    assert apart(response, flight_multipliers(problem, response)) < 5e-4
 
 
 def first(problem: Problem, frequency: float) -> PeriodicResponse:

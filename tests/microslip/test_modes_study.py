@@ -2,10 +2,11 @@
 
 import csv
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,9 @@ from hbm.errors import ContinuationError
 from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import NonlinearMode, nonlinear_mode
 from microslip.cli import main
+from microslip.commands.modes_tables import mode_table
 from microslip.mode_lines import mode_lines
+from microslip.studies import modes
 from microslip.studies.modes import followed
 from microslip_mechanics.arrays import Array
 from rigs import rig_problem
@@ -181,3 +184,50 @@ def test_a_table_that_cannot_be_written_is_told_in_one_line(
     assert (status, output) == (2, "")
     assert error.startswith(f"microslip: {tmp_path / 'modes.csv'} is a folder and")
     assert error.count("\n") == 1
+
+
+def fake_growth(
+    fine: list[float], ends: dict[int | None, float]
+) -> Callable[..., Iterator[NonlinearMode]]:
+    """Return modes of given amplitudes that stop at one that harmonics decide."""
+
+    def growth(*given: Any) -> Iterator[NonlinearMode]:
+        harmonics = given[-1].harmonics
+        for amplitude in fine:
+            if amplitude > ends[harmonics]:
+                raise ContinuationError("the curve does not go on")
+            moved = np.array([amplitude + 0j])
+            yield NonlinearMode(
+                -1.0 + 9j, moved, np.zeros((3, 1)), 0.0, 0.0, harmonics or 31, 64
+            )
+
+    return growth
+
+
+@pytest.mark.parametrize(
+    ("ends", "harmonics", "ending"),
+    [
+        ({None: 5.0}, [31] * 5, "complete"),
+        ({None: 2.0, 7: 5.0}, [31] * 2 + [7] * 3, "complete"),
+        ({None: 2.0, 7: 4.0, 3: 5.0}, [31] * 2 + [3] * 3, "complete"),
+        ({None: 2.0, 7: 4.0, 3: 3.0, 1: 1.0}, [31] * 2 + [7] * 2, "does not go on"),
+        ({None: 2.0, 7: 1.0, 3: 1.0, 1: 1.0}, [31] * 2, "does not go on"),
+        ({None: 0.0, 7: 5.0}, [7] * 5, "complete"),
+    ],
+)
+def test_a_mode_that_stops_goes_on_with_fewer_harmonics(
+    monkeypatch: pytest.MonkeyPatch,
+    ends: dict[int | None, float],
+    harmonics: list[int],
+    ending: str,
+) -> None:
+    fine = [1.0, 2.0, 3.0, 4.0, 5.0]
+    monkeypatch.setattr(modes, "nonlinear_mode", fake_growth(fine, ends))
+
+    (mode,) = followed(rig_problem(), RANGE, ModeOptions(1.0, 5.0))
+
+    assert [point.harmonics for point in mode.points] == harmonics
+    assert [point.amplitude for point in mode.points] == fine[: len(harmonics)]
+    assert ending in mode.ending
+    told = "\n".join(mode_table(mode, "in small motions"))
+    assert ("it does not go on with those" in told) == (len(set(harmonics) - {31}) > 0)

@@ -69,7 +69,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         type=_tolerance,
         default=TOLERANCE,
         help="relative error of the damping ratio at each point, of the frequency a "
-        "hundredth of it: harmonics and samples follow from it "
+        "hundredth of it: harmonics and samples follow from it; where the mode does "
+        "not go on with these it does with fewer, and with their error "
         f"(default: {TOLERANCE:g})",
     )
     resolution.add_argument(

@@ -49,6 +49,13 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
         f"{100.0 * median(errors):.2g} % in the median, above 5 % at "
         f"{sum(error > 0.05 for error in errors)} points"
     )
+    if mode.coarser is not None:
+        first = mode.points[mode.coarser]
+        plural = "s" if first.harmonics > 1 else ""
+        rows.append(
+            f"from {1e3 * first.amplitude:.5g} mm on with {first.harmonics} "
+            f"harmonic{plural}: it does not go on with those that its error asks for"
+        )
     return rows
 
 

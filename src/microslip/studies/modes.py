@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hbm.errors import ContinuationError
 from hbm.modes.linear_modes import LinearMode
@@ -18,6 +19,9 @@ from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 
+COARSER = (7, 3, 1)
+"""harmonics with which a mode is followed on, in turn, that does not go on with those
+that its error asks for: they may meet modes of the structure, where it branches"""
 SHOWN = 20
 """points of a mode in a table, beside the most damped one"""
 
@@ -35,6 +39,8 @@ class FollowedMode:
     points: tuple[NonlinearMode, ...]
     ending: str
     """"complete", "interrupted", or the cause"""
+    coarser: int | None = None
+    """place from which on points have fewer harmonics than their error asks for"""
 
     def __repr__(self) -> str:
         """Return what the mode is, in a line."""
@@ -61,8 +67,9 @@ def followed(
 ) -> Iterator[FollowedMode]:
     """Yield the modes with natural frequencies in a range [rad/s], the lowest first.
 
-    What cannot go on, or is interrupted, keeps what it has; a mode without a first
-    point has the cause alone.
+    What cannot go on with the harmonics that its error asks for goes on with fewer, and
+    with the error that these have. What cannot go on at all, or is interrupted, keeps
+    what it has; a mode without a first point has the cause alone.
 
     Raises
     ------
@@ -80,6 +87,12 @@ def followed(
         )
     for linear in found:
         mode = _followed(linear, nonlinear_mode(problem, rest, linear, options), watch)
+        for harmonics in COARSER if options.harmonics is None else ():
+            if mode.ending in ("complete", "interrupted"):
+                break
+            fewer = replace(options, harmonics=harmonics)
+            growth = nonlinear_mode(problem, rest, linear, fewer)
+            mode = _farther(mode, growth, watch)
         yield mode
         if mode.ending == "interrupted":
             return
@@ -102,6 +115,29 @@ def _followed(
         if not points:
             raise
     return FollowedMode(linear, tuple(points), ending)
+
+
+def _farther(
+    mode: FollowedMode, growth: Iterator[NonlinearMode], watch: Watch
+) -> FollowedMode:
+    """Return a mode that goes on with what grows beyond its end, if that is farther."""
+    try:
+        again = _followed(mode.linear, growth, watch)
+    except KeyboardInterrupt:
+        return replace(mode, ending="interrupted")
+    fine = mode.points[: mode.coarser]
+    reached, last = (
+        max((point.amplitude for point in points), default=0.0)
+        for points in (fine, mode.points)
+    )
+    beyond = tuple(
+        itertools.dropwhile(lambda point: point.amplitude <= reached, again.points)
+    )
+    known = again.ending in ("complete", "interrupted")
+    ending = again.ending if known else mode.ending
+    if not beyond or beyond[-1].amplitude <= last:
+        return replace(mode, ending=ending)
+    return FollowedMode(mode.linear, (*fine, *beyond), ending, len(fine))
 
 
 def shown_points(mode: FollowedMode) -> list[NonlinearMode]:

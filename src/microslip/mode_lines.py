@@ -28,4 +28,11 @@ def _line(mode: FollowedMode) -> ModeLine:
         hertz,
         [point.damping for point in mode.points],
         median(errors) * max(hertz),
+        mode.coarser,
+        "" if mode.coarser is None else counted(mode.points[mode.coarser].harmonics),
     )
+
+
+def counted(harmonics: int) -> str:
+    """Return a number of harmonics in words."""
+    return f"{harmonics} harmonic{'s' if harmonics > 1 else ''}"

@@ -16,6 +16,7 @@ from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import NonlinearMode, nonlinear_mode
 from microslip.cli import main
 from microslip.commands.modes_tables import mode_table
+from microslip.figures.modes import modes_figure
 from microslip.mode_lines import mode_lines
 from microslip.studies import modes
 from microslip.studies.modes import followed
@@ -226,6 +227,9 @@ def test_a_mode_that_stops_goes_on_with_fewer_harmonics(
 
     (mode,) = followed(rig_problem(), RANGE, ModeOptions(1.0, 5.0))
 
+    (line,) = mode_lines([mode])
+    assert line.coarse == ("" if harmonics[-1] == 31 else f"{harmonics[-1]} harmonics")
+    assert modes_figure([line], "mode").axes
     assert [point.harmonics for point in mode.points] == harmonics
     assert [point.amplitude for point in mode.points] == fine[: len(harmonics)]
     assert ending in mode.ending

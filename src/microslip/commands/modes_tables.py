@@ -22,6 +22,7 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
     """Return the table of one mode; ``state`` is that of its small motions."""
     from statistics import median
 
+    from microslip.mode_lines import counted
     from microslip.studies.modes import shown_points
 
     hertz = mode.linear.frequency / math.tau
@@ -51,10 +52,9 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
     )
     if mode.coarser is not None:
         first = mode.points[mode.coarser]
-        plural = "s" if first.harmonics > 1 else ""
         rows.append(
-            f"from {1e3 * first.amplitude:.5g} mm on with {first.harmonics} "
-            f"harmonic{plural}: it does not go on with those that its error asks for"
+            f"from {1e3 * first.amplitude:.5g} mm on with {counted(first.harmonics)}: "
+            "it does not go on with those that its error asks for"
         )
     return rows
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.style import (
@@ -31,6 +32,10 @@ class ModeLine:
     """ratio"""
     error: float = 0.0
     """of the frequencies, estimated, in the median [Hz]: a few may be hardly known"""
+    coarser: int | None = None
+    """place from which on it is drawn as another line"""
+    coarse: str = ""
+    """what is said of that line"""
 
 
 def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
@@ -38,14 +43,9 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
     for place, line in enumerate(lines):
-        style = {
-            "color": COLOURS[place % len(COLOURS)],
-            "linewidth": WIDTH,
-            "label": line.name,
-        }
-        millimetres = [1e3 * amplitude for amplitude in line.amplitude]
-        left.plot(millimetres, line.frequency, **style)
-        right.plot(millimetres, [100.0 * ratio for ratio in line.damping], **style)
+        colour = COLOURS[place % len(COLOURS)]
+        _draw(left, line, line.frequency, 1.0, colour)
+        _draw(right, line, line.damping, 100.0, colour)
     below = "amplitude of the highest probe [mm]"
     framed(left, x=below, y="natural frequency [Hz]", title="Frequency")
     framed(right, x=below, y="damping ratio [%]", title="Damping")
@@ -59,7 +59,20 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
     ratios = [ratio for line in lines for ratio in line.damping]
     if ratios and min(ratios) > 0.0:
         right.set_ylim(0.0, 108.0 * max(ratios))
-    if len(lines) > 1:
+    if len(lines) > 1 or any(line.coarse for line in lines):
         right.legend(frameon=False)
     headline(figure, title)
     return figure
+
+
+def _draw(
+    axes: Axes, line: ModeLine, values: Sequence[float], scale: float, colour: str
+) -> None:
+    """Draw values of a mode against amplitude, dashed where it is coarser."""
+    across = [1e3 * amplitude for amplitude in line.amplitude]
+    along = [scale * value for value in values]
+    end = line.coarser
+    axes.plot(across[:end], along[:end], color=colour, linewidth=WIDTH, label=line.name)
+    if end is not None:
+        (drawn,) = axes.plot(across[end:], along[end:], label=line.coarse)
+        drawn.set(color=colour, linewidth=WIDTH, linestyle="--")

@@ -120,12 +120,15 @@ def _followed(
 def _farther(
     mode: FollowedMode, growth: Iterator[NonlinearMode], watch: Watch
 ) -> FollowedMode:
-    """Return a mode that goes on with what grows beyond its end, if that is farther."""
+    """Return a mode that goes on with what grows beyond its end, if that is farther.
+
+    Its end is where its amplitude is largest: behind that it has turned back.
+    """
     try:
         again = _followed(mode.linear, growth, watch)
     except KeyboardInterrupt:
         return replace(mode, ending="interrupted")
-    fine = mode.points[: mode.coarser]
+    fine = _up_to_the_largest(mode.points[: mode.coarser])
     reached, last = (
         max((point.amplitude for point in points), default=0.0)
         for points in (fine, mode.points)
@@ -138,6 +141,13 @@ def _farther(
     if not beyond or beyond[-1].amplitude <= last:
         return replace(mode, ending=ending)
     return FollowedMode(mode.linear, (*fine, *beyond), ending, len(fine))
+
+
+def _up_to_the_largest(points: Sequence[NonlinearMode]) -> tuple[NonlinearMode, ...]:
+    """Return points up to that of the largest amplitude."""
+    amplitudes = [point.amplitude for point in points]
+    place = amplitudes.index(max(amplitudes)) if amplitudes else -1
+    return tuple(points[: place + 1])
 
 
 def shown_points(mode: FollowedMode) -> list[NonlinearMode]:

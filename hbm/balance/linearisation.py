@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.balance.iterated import Iterated, Parts, UnreachedError
+from hbm.continuation.factors import Factors, factored
 from hbm.continuation.linearised import SingularError
-from hbm.continuation.separated import Factors, factored
 from microslip_mechanics.arrays import Array
 
 EPSILON = 1e-14

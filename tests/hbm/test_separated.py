@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hbm.continuation import separated
+from hbm.continuation import factors
 from hbm.continuation.bordered import Bordered
-from hbm.continuation.separated import FEWEST, Separated, factored
+from hbm.continuation.factors import FEWEST, factored
+from hbm.continuation.separated import Separated
 from microslip_mechanics.arrays import Array
 
 HARMONICS, RANK, FREE = 40, 6, 4
@@ -56,7 +57,7 @@ def test_solutions_and_sign_are_those_of_all_factors(seed: int) -> None:
 def test_orders_without_such_unknowns_are_left(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(separated, "FEWEST", 100)
+    monkeypatch.setattr(factors, "FEWEST", 100)
     jacobian, slope, border, orders, coordinates = bordered(1)
     kept = (coordinates >= FREE) | (orders % 2 == 1)
     right = np.ones(np.count_nonzero(kept) + 1)

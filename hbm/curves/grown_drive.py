@@ -17,14 +17,12 @@ from hbm.continuation.continuation import trace
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.errors import PLACE, ContinuationError
-from hbm.paths.along_drive import AlongDrive
+from hbm.paths.along_drive import LEAST, AlongDrive
 from hbm.paths.path import Path
 from hbm.paths.path_metric import path_metric
 from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array
 
-LEAST = 0.01
-"""drive at which it begins, over the whole"""
 PATIENCE = 1500
 """evaluations after which it is given up"""
 Resolved: TypeAlias = Callable[[Path, Effort], AdaptiveBalance]

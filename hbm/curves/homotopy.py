@@ -17,14 +17,12 @@ from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.errors import PLACE, ContinuationError
 from hbm.forces.fourier import FourierBasis
-from hbm.paths.along_drive import UNIT, AlongDrive, driven
+from hbm.paths.along_drive import LEAST, UNIT, AlongDrive, driven
 from hbm.paths.path import Path
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.points import ONE_SIDED
 
 SMALLEST_STEP = 1e-3
-LEAST = 0.01
-"""drive at which an arc begins, over the whole"""
 PATIENCE = 1000
 """evaluations after which an arc is given up; those that arrive take some 300"""
 FOURIERS = (FourierBasis(3, 128), FourierBasis(7, 128), FourierBasis(15, 256))

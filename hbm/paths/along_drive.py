@@ -13,8 +13,8 @@ from hbm.forces.fourier import FourierBasis
 from hbm.paths.path import Path
 from hbm.stability.stability import SmallMotions
 
-UNIT = 0.1
-"""what counts as one unit of the drive, over the whole"""
+LEAST, UNIT = 0.01, 0.1
+"""drive at which a curve may begin and what counts as one unit of it, over the whole"""
 
 
 @dataclass(frozen=True, slots=True)

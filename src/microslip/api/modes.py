@@ -61,7 +61,9 @@ def modes(
     tuple
         For each mode, the lowest first, ``points`` with ``amplitude`` [m],
         ``frequency`` [rad/s] and ``damping`` (ratio), their relative errors
-        ``frequency_error`` and ``damping_error``, and an ``ending``.
+        ``frequency_error`` and ``damping_error``, and an ``ending``. From the point
+        ``coarser`` on, unless it is None, they have fewer harmonics than the tolerance
+        asks for: with those the mode did not go on.
 
     Raises
     ------

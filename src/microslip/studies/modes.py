@@ -136,9 +136,10 @@ def _farther(
     beyond = tuple(
         itertools.dropwhile(lambda point: point.amplitude <= reached, again.points)
     )
-    known = again.ending in ("complete", "interrupted")
-    ending = again.ending if known else mode.ending
-    if not beyond or beyond[-1].amplitude <= last:
+    farther = bool(beyond) and beyond[-1].amplitude > last
+    known = ("interrupted", "complete") if farther else ("interrupted",)
+    ending = again.ending if again.ending in known else mode.ending
+    if not farther:
         return replace(mode, ending=ending)
     return FollowedMode(mode.linear, (*fine, *beyond), ending, len(fine))
 

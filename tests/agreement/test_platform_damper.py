@@ -32,8 +32,8 @@ def test_amplitudes_scale_with_all_loads(frequency: float) -> None:
     )
 
 
-@pytest.mark.parametrize("frequency", [AT_ITS_LIMIT, SLIDING])
-def test_both_solvers_agree(frequency: float) -> None:
+@pytest.mark.parametrize(("frequency", "most"), [(AT_ITS_LIMIT, 1e-7), (SLIDING, 7e-4)])
+def test_both_solvers_agree(frequency: float, most: float) -> None:
     problem, found = traced(frequency)
     slid = found.curve.friction_energy[0]
     assert slid > 1e-3 if frequency == SLIDING else slid == pytest.approx(0.0, abs=1e-9)
@@ -41,5 +41,5 @@ def test_both_solvers_agree(frequency: float) -> None:
     comparison = compared(problem, found.responses[0])
 
     assert comparison.as_estimated
-    assert comparison.difference < 1e-3
+    assert comparison.difference < most  # measured: 5e-9 and 4.7e-4
     assert comparison.as_stable

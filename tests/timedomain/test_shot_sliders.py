@@ -60,7 +60,7 @@ def test_the_monodromy_is_the_derivative_of_the_march(
         np.testing.assert_allclose(sensitivity.monodromy[:, column], slope, atol=1e-5)
         means = [each.slides.traction[1:].mean(axis=0) for each in periods]
         slope = (means[0] - means[1]) / (2.0 * step) / carried.unit
-        np.testing.assert_allclose(sensitivity.mean[:, column], slope, atol=1e-5)
+        np.testing.assert_allclose(sensitivity.shed[:, column], slope, atol=1e-5)
 
 
 @pytest.mark.parametrize(("problem", "frequency"), CASES)
@@ -153,7 +153,7 @@ def test_the_mean_force_is_taken_off_as_far_as_the_limit_admits(
 
     assert slides.stuck.tolist() == [True]
     assert slides.traction[1:].mean() == pytest.approx(mean * LIMIT)
-    assert slides.brink.mean[0] == pytest.approx(off * LIMIT)
+    assert slides.brink.shed[0] == pytest.approx(off * LIMIT)
 
 
 def test_a_dwell_ends_on_the_orbit_with_its_traction() -> None:
@@ -200,9 +200,9 @@ def test_what_can_be_shed_changes_as_its_derivative_says() -> None:
 
     found, place, step = at(0.0).brink, at(0.0).brink.place[0], 1e-6
     assert at(0.0).stuck.tolist() == [True]
-    left = at(0.0).traction[place] - found.mean
+    left = at(0.0).traction[place] - found.shed
     assert left == pytest.approx(at(0.0).limit[place], rel=1e-9)
-    slope = (at(step).brink.mean - at(-step).brink.mean) / (2.0 * step)
+    slope = (at(step).brink.shed - at(-step).brink.shed) / (2.0 * step)
     traction = (at(step).traction - at(-step).traction)[place] / (2.0 * step)
     motion = np.append(nudge[place, 0, [1, 0]], np.zeros(2))
     assert found.pull @ traction + found.push @ motion == pytest.approx(slope, rel=1e-6)

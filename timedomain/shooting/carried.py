@@ -58,5 +58,5 @@ def carried(
         ends = np.flatnonzero(brink.place == place)
         excess[ends] = brink.pull[ends] @ held + brink.push[ends] @ watched
     mean = total / (len(tangents) - 1)
-    off = np.where((brink.place > 0)[:, None], excess, mean)
-    return np.vstack([moved + push @ force, held]), off
+    shed = np.where((brink.place > 0)[:, None], excess, mean)
+    return np.vstack([moved + push @ force, held]), shed

@@ -17,7 +17,7 @@ NEUTRAL = 1e-10
 
 @dataclass(frozen=True, slots=True)
 class GapSlope:
-    """1 − Φ at a period, in singular values; stuck sliders have their mean traction."""
+    """1 − Φ at a period, in singular values; stuck sliders have what they can shed."""
 
     left: Array
     sizes: Array
@@ -28,10 +28,10 @@ class GapSlope:
     @classmethod
     def of(cls, period_map: PeriodMap, period: Period) -> GapSlope:
         """Return the derivative of minus the gap by the state."""
-        monodromy, mean = sensitivity_of(period_map, period)
+        monodromy, shed = sensitivity_of(period_map, period)
         slope = np.eye(len(monodromy)) - monodromy
         stuck = period.slides.stuck
-        slope[len(slope) - stuck.size :][stuck] = -mean[stuck]
+        slope[len(slope) - stuck.size :][stuck] = -shed[stuck]
         return cls(*np.linalg.svd(slope), stuck)
 
     @property

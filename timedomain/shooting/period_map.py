@@ -127,7 +127,7 @@ class PeriodMap:
         """
         gap, slides = self.end(period) - state, period.slides
         held = gap[gap.size - self.sliders.count :]
-        held[slides.stuck] = (slides.brink.mean / self.unit)[slides.stuck]
+        held[slides.stuck] = (slides.brink.shed / self.unit)[slides.stuck]
         return gap
 
     def march(self, state: Array) -> Period:

@@ -28,8 +28,8 @@ class Sensitivity(NamedTuple):
 
     monodromy: Array
     """of the state after it, shape (states, states)"""
-    mean: Array
-    """of the mean tractions to be taken off, in units of states, (sliders, states)"""
+    shed: Array
+    """of what can be taken off the tractions, in units of states, (sliders, states)"""
 
 
 def sensitivity_of(period_map: PeriodMap, period: Period) -> Sensitivity:
@@ -71,11 +71,11 @@ def carried_state(
     """
     free, push = period_map.step(-period_map.structure.selection.T)
     units = np.append(np.ones(len(free)), period_map.unit)
-    monodromy, mean = carried(
+    monodromy, shed = carried(
         free, push, period_map.seen, tangents, period_map.sliders, period.slides
     )
     monodromy = monodromy * units / units[:, None]
-    return Sensitivity(monodromy, mean * units / period_map.unit[:, None])
+    return Sensitivity(monodromy, shed * units / period_map.unit[:, None])
 
 
 def _without_memory(period_map: PeriodMap, period: Period) -> Array:

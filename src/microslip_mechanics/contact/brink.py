@@ -21,7 +21,7 @@ class Brink(NamedTuple):
     pull δT + push δ(y, ẏ/ω).
     """
 
-    mean: Array
+    shed: Array
     """what can be taken off [N], shape (sliders,)"""
     place: NDArray[np.int64]
     """time of the limit, after the beginning; zero where all can be taken off"""

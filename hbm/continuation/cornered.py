@@ -38,6 +38,8 @@ class Cornered:
     metric: Metric
     control: StepControl
     settler: Settler
+    direction: Array | None = None
+    """where to go first, shape (n + 1,); towards ``end`` if left out"""
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first behind a corner is joined to the one before.
@@ -48,13 +50,12 @@ class Cornered:
             If the curve does not go on, and there is no corner.
         """
         guess: Array = self.start
-        direction: Array | None = None
-        turns = False
+        direction, taken_up, turns = self.direction, False, False
         way: deque[Correction] = deque(maxlen=REMEMBERED)
         for corner in range(CORNERS + 1):
             try:
                 for correction in self._taken_up(guess, direction):
-                    joined = correction.joined or direction is not None
+                    joined = correction.joined or taken_up
                     way.append(replace(correction, joined=joined, turns=turns))
                     yield way[-1]
                     turns = False
@@ -66,6 +67,7 @@ class Cornered:
                 if turned is None:
                     raise
                 guess, direction, turns = turned
+                taken_up = True
             else:
                 return
 

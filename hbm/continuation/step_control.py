@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 LONGER, SHORTER = 2.0, 0.3
 """factors between which a step changes"""
@@ -55,6 +55,11 @@ class StepControl:
             )
         if self.tolerance <= 0.0:
             raise ValueError(f"tolerance {self.tolerance:g}: give a positive one")
+
+    @property
+    def strict(self) -> StepControl:
+        """The same without neglecting any step of Newton's iteration."""
+        return replace(self, negligible=0.0)
 
     def after(self, step: float, missed: float, order: int, iterations: int) -> float:
         """Return the next step.

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from hbm.continuation.continuation import trace
-from hbm.continuation.cornered import Cornered
+from hbm.continuation.cornered import REMEMBERED, Cornered
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.curves.grown_drive import Resolved
-from hbm.curves.restart import FIRST, LEAPS, Restart
+from hbm.curves.restart import FIRST, LEAPS, Beginning, Restart
 from hbm.errors import PLACE, ContinuationError
 from hbm.paths.path import Path
 from hbm.paths.path_metric import path_metric
@@ -21,7 +22,7 @@ from microslip_mechanics.arrays import Array
 
 POINTS = 1000
 """of a curve from a point in its midst, which may never end, before it is given up"""
-RESTARTS = 6
+RESTARTS = 12
 """that a curve may take before it is given up"""
 
 
@@ -49,7 +50,7 @@ class Pieces:
         there: list[float] = []
         stopped: ContinuationError | None = None
         try:
-            yield from self._noted(self._from(self.start, self.end), there)
+            yield from self._noted(self._begun(self.start, self.end), there)
         except ContinuationError as error:
             stopped = error
         if stopped is None and _arrived(there, 1.0):
@@ -57,7 +58,7 @@ class Pieces:
         back: list[float] = []
         again = FIRST if there else ()
         try:
-            yield from self._noted(self._from(self.end, self.start, again), back)
+            yield from self._noted(self._begun(self.end, self.start, again), back)
         except ContinuationError as error:
             raise stopped or error from None
         if _arrived(back, 0.0):
@@ -118,7 +119,7 @@ class Pieces:
         guess = self.restart.point(where, self.end, iter(LEAPS))
         last: Correction | None = None
         if guess is not None:
-            for last in self._cornered(guess, self.end):
+            for last in self._from(guess, self.end, iter(LEAPS)):
                 yield last
         if last is None or last.point[-1] != self.end:
             raise ContinuationError(
@@ -128,41 +129,51 @@ class Pieces:
                 where,
             )
 
-    def _from(
+    def _begun(
         self, begin: float, end: float, first: tuple[float, ...] = FIRST
     ) -> Iterator[Correction]:
-        """Yield corrections from one end of the range, past what resists.
+        """Yield corrections from one end of the range.
 
         ``first`` are the leaps by which a first point is sought if there is none.
         """
-        guess, heading, leaps = self.restart.still(begin), end, iter(first)
+        yield from self._from(self.restart.still(begin), end, iter(first))
+
+    def _from(
+        self, guess: Array, heading: float, leaps: Iterator[float]
+    ) -> Iterator[Correction]:
+        """Yield corrections from a first guess, past what resists.
+
+        ``leaps`` are those by which a first point is sought if there is none.
+        """
+        begun = Beginning(guess, None, self.control)
         for attempt in range(RESTARTS + 1):
-            last: Correction | None = None
+            way: deque[Correction] = deque(maxlen=REMEMBERED)
             try:
-                for correction in self._cornered(guess, heading):
-                    last = correction
+                for correction in self._cornered(begun, heading):
+                    way.append(correction)
                     yield correction
             except ContinuationError:
-                heading = self._onwards(last, heading)
-                reached = float((guess if last is None else last.point)[-1])
-                leaps = self.restart.leaps(float(guess[-1]), reached, heading, leaps)
-                again = self.restart.point(reached, heading, leaps)
+                heading = self._onwards(way[-1] if way else None, heading)
+                again = self.restart.finer(way, begun.control)
+                if again is None:
+                    leaps, again = self.restart.behind(way, begun, heading, leaps)
                 if again is None or attempt == RESTARTS:
                     raise
-                guess = again
+                begun = again
             else:
                 return
 
-    def _cornered(self, guess: Array, heading: float) -> Iterator[Correction]:
+    def _cornered(self, begun: Beginning, heading: float) -> Iterator[Correction]:
         """Yield corrections of one piece, round its corners."""
         yield from Cornered(
             self.system,
-            guess,
+            begun.guess,
             heading,
             self.start if heading == self.end else self.end,
             self.metric,
-            self.control,
+            begun.control,
             self.system,
+            begun.direction,
         )
 
     def _onwards(self, last: Correction | None, heading: float) -> float:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from hbm.continuation.arc import Metric
+from hbm.continuation.arc import Metric, distance
 from hbm.continuation.corrected import correct_at
+from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.curves.grown_drive import Resolved, grown
@@ -27,8 +29,20 @@ FIRST = (0.0, 1e-2)
 FOLDED = (0.0, LEAPS[0], LEAPS[-1])
 """leaps behind which a first point is also sought through folds of the drive, which
 takes thousands of evaluations where there is none"""
+BACK = (1, 3, 6, 9, 12, 16, 24, 32)
+"""points of the way at which more harmonics are tried, counted from the last one"""
 TENTHS = 10
 """units of a parameter in its range, or in the logarithm of that"""
+
+
+class Beginning(NamedTuple):
+    """How a piece of a curve begins."""
+
+    guess: Array
+    """shape (n + 1,)"""
+    direction: Array | None
+    """in which it goes, shape (n + 1,); towards the end if none"""
+    control: StepControl
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,12 +86,46 @@ class Restart:
                     return settled
         return None
 
-    def leaps(
-        self, begun: float, reached: float, heading: float, left: Iterator[float]
-    ) -> Iterator[float]:
-        """Return the leaps to try: all of them if the last piece came nearer."""
-        way = self._way(begun, heading)
-        return iter(LEAPS) if (reached - begun) / way > LEAPS[0] else left
+    def finer(
+        self, way: Sequence[Correction], control: StepControl
+    ) -> Beginning | None:
+        """Return the last point of a way that more harmonics have too.
+
+        They are found without neglecting steps of Newton's iteration; the system keeps
+        the harmonics. None if there is no such point, or if ``control``, that of the
+        way, and the system were like that already.
+        """
+        strict = control.strict
+        if not way or (not self.system.raised() and control == strict):
+            return None
+        for back in dict.fromkeys(min(each, len(way)) for each in BACK):
+            known = way[-back]
+            try:
+                found = correct_at(self.system, known.point, strict)
+            except ContinuationError:
+                continue
+            scale = self.metric(known.point)
+            if distance(found.point, known.point, scale) <= control.shift:
+                return Beginning(known.point, known.along, strict)
+        return None
+
+    def behind(
+        self,
+        way: Sequence[Correction],
+        begun: Beginning,
+        heading: float,
+        left: Iterator[float],
+    ) -> tuple[Iterator[float], Beginning | None]:
+        """Return the leaps to try, and a point behind what resists a way, if any.
+
+        All leaps if the piece came nearer to the end than it was, else those ``left``.
+        """
+        first = float(begun.guess[-1])
+        reached = float(way[-1].point[-1]) if way else first
+        nearer = (reached - first) / self._way(first, heading) > LEAPS[0]
+        leaps = iter(LEAPS) if nearer else left
+        guess = self.point(reached, heading, leaps)
+        return leaps, None if guess is None else Beginning(guess, None, self.control)
 
     def settled(self, coefficients: Array, parameter: float) -> Array | None:
         """Return the point near a coarse response; None if it does not converge.

@@ -17,7 +17,7 @@ from hbm.continuation.newton import Small, correct
 from hbm.forces.fourier import FourierBasis
 from hbm.resolution.report import Report
 from hbm.resolution.resolution import Estimate, Resolution
-from hbm.resolution.resolution_choice import ResolutionChoice
+from hbm.resolution.resolution_choice import FEWEST, ResolutionChoice
 from hbm.structure.superharmonics import Superharmonics
 from microslip_mechanics.arrays import Array
 
@@ -75,7 +75,7 @@ class AdaptiveBalance:
         self._pushed = pushed
         self._wait, self._effort = 0, effort or Effort()
         self._superharmonics = Superharmonics()
-        self._sharpest = 0.0
+        self._sharpest, self._fewest = 0.0, FEWEST
         self._choice = ResolutionChoice(tolerance, most, start.threshold)
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
@@ -101,7 +101,19 @@ class AdaptiveBalance:
         """Begin anew with so many harmonics, or the most, unless they are fixed."""
         if self._tolerance is not None:
             self.fourier = self._kept = self._choice.anew(harmonics)
-            self._sharpest = 0.0
+            self._sharpest, self._fewest = 0.0, FEWEST
+
+    def raised(self) -> bool:
+        """Take twice the harmonics of the last kept point, or the most, from now on.
+
+        And as many samples as are usual. Return whether that is more; never if they are
+        fixed.
+        """
+        if self._tolerance is None:
+            return False
+        before = self._kept
+        self.fourier = self._kept = self._fewest = self._choice.raised(before)
+        return self._kept != before
 
     @property
     def changed(self) -> bool:
@@ -139,7 +151,9 @@ class AdaptiveBalance:
         self._kept, self._wait = self.settled, self._wait - 1
         self._superharmonics.keep()
         if self.estimate is not None and self._wait <= 0 and step >= SHORT:
-            self.fourier = self._choice.coarser(self.fourier, self.estimate)
+            self.fourier = self._choice.coarser(
+                self.fourier, self.estimate, self._fewest
+            )
             self._sharpest = 0.0
 
     def retreat(self, times: int) -> None:

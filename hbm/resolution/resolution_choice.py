@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from hbm.forces.fourier import FourierBasis
+from hbm.forces.fourier import FourierBasis, usual_samples
 from hbm.resolution.resolution import Estimate
 
-FEWEST_SAMPLES, MOST_SAMPLES = 32, 16384
+FEWEST, MOST_SAMPLES = FourierBasis(1, 32), 16384
 PER_ORDER, ANEW = 8, 128
 """samples per order at the least, the mean counted: twice what a Jacobian needs; and
 with which a curve begins anew at the least"""
@@ -76,20 +76,32 @@ class ResolutionChoice:
         count = max(count, PER_ORDER * (orders + 1))
         return FourierBasis(orders, count, fourier.threshold)
 
-    def coarser(self, fourier: FourierBasis, estimate: Estimate) -> FourierBasis:
-        """Return the resolution for the next point, less where much is to spare."""
+    def raised(self, fourier: FourierBasis) -> FourierBasis:
+        """Return twice the harmonics, or the most, with as many samples as usual."""
+        orders = min(2 * fourier.harmonics + 1, self.most)
+        samples = max(fourier.samples, usual_samples(orders))
+        return FourierBasis(orders, samples, fourier.threshold)
+
+    def coarser(
+        self, fourier: FourierBasis, estimate: Estimate, fewest: FourierBasis
+    ) -> FourierBasis:
+        """Return the resolution for the next point, less where much is to spare.
+
+        It has no less harmonics and samples than ``fewest``.
+        """
         if self.tolerance is None:
             return fourier
         harmonics, samples = fourier.harmonics, fourier.samples
         enough = self.tolerance / SPARE
         if estimate.truncation < enough:
-            harmonics = max(harmonics // 2, 1)
+            harmonics //= 2
         if estimate.truncation < LITTLE * enough:
-            harmonics = max(harmonics // 4, 1)
+            harmonics //= 4
         if estimate.sampling < enough:
             samples //= 2
+        harmonics = max(harmonics, fewest.harmonics)
         threshold = fourier.threshold
         if estimate.smoothing < enough / SHARPER:
             threshold = min(SHARPER * threshold, self.smoothest)
-        samples = max(samples, FEWEST_SAMPLES, PER_ORDER * (harmonics + 1))
+        samples = max(samples, fewest.samples, PER_ORDER * (harmonics + 1))
         return FourierBasis(harmonics, samples, threshold)

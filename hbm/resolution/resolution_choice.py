@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 from hbm.forces.fourier import FourierBasis, usual_samples
 from hbm.resolution.resolution import Estimate
 
-FEWEST, MOST_SAMPLES = FourierBasis(1, 32), 16384
+FEWEST, MOST_SAMPLES = FourierBasis(1, 32, math.inf), 16384
 PER_ORDER, ANEW = 8, 128
 """samples per order at the least, the mean counted: twice what a Jacobian needs; and
 with which a curve begins anew at the least"""
@@ -87,7 +88,7 @@ class ResolutionChoice:
     ) -> FourierBasis:
         """Return the resolution for the next point, less where much is to spare.
 
-        It has no less harmonics and samples than ``fewest``.
+        It has no less harmonics and samples than ``fewest``, and no smoother friction.
         """
         if self.tolerance is None:
             return fourier
@@ -102,6 +103,6 @@ class ResolutionChoice:
         harmonics = max(harmonics, fewest.harmonics)
         threshold = fourier.threshold
         if estimate.smoothing < enough / SHARPER:
-            threshold = min(SHARPER * threshold, self.smoothest)
+            threshold = min(SHARPER * threshold, self.smoothest, fewest.threshold)
         samples = max(samples, fewest.samples, PER_ORDER * (harmonics + 1))
         return FourierBasis(harmonics, samples, threshold)

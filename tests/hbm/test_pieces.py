@@ -47,6 +47,27 @@ class Square(Unsettled):
     def restart(self, harmonics: int) -> None:
         """Have nothing to begin anew."""
 
+    def raised(self) -> bool:
+        """Have no more harmonics."""
+        return False
+
+
+class Finer(Square):
+    """The same; with more harmonics it ends at 0.25."""
+
+    def __init__(self) -> None:
+        """Begin with few harmonics."""
+        self.more = False
+
+    def __call__(self, point: Array) -> tuple[Array, Dense]:
+        residual, linearised = super().__call__(point)
+        return residual + 2.0 * (self.more and point[-1] > 0.25), linearised
+
+    def raised(self) -> bool:
+        """Take more harmonics, once."""
+        before, self.more = self.more, True
+        return not before
+
 
 @pytest.fixture
 def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
@@ -75,12 +96,12 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
     return found
 
 
-def pieces(start: float, end: float) -> Pieces:
+def pieces(start: float, end: float, square: Square | None = None) -> Pieces:
     problem = SimpleNamespace(rank=1, rest=np.array([0.9]))
     path: Any = SimpleNamespace(
         rank=1, at=lambda parameter: (problem, parameter), unit=lambda _: 0.1
     )
-    system: Any = Square()
+    system: Any = square or Square()
     return Pieces(path, system, start, end, StepControl(), Effort())
 
 
@@ -90,6 +111,38 @@ def test_restarts_leap_farther_where_a_piece_comes_no_nearer_to_the_end(
     list(pieces(0.0, 1.0))
 
     assert [place for _, place in begun] == pytest.approx([0.0, 0.3001, 0.301, 0.305])
+
+
+def test_a_curve_goes_on_from_where_more_harmonics_have_it_too(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    controls: list[StepControl] = []
+
+    def trace(
+        system: Finer, start: Array, _: float, **options: Any
+    ) -> Iterator[Correction]:
+        begun.append((float(start[0]), float(start[1])))
+        controls.append(options["control"])
+        places = (1.0,) if system.more else (0.1, 0.2, 0.21, RESISTS)
+        for place in places:
+            point = np.array([1.0, place])
+            residual, linearised = system(point)
+            along = np.array([0.0, 1.0])
+            yield Correction(
+                point, residual, linearised, Outcome.CONVERGED, (0.0,), along
+            )
+        if not system.more:
+            raise ContinuationError("the curve does not go on")
+
+    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.curves.pieces.path_metric", lambda *_: np.ones(2))
+    loose = replace(pieces(0.0, 1.0, Finer()), control=StepControl(negligible=1e-5))
+
+    points = [each.point[-1] for each in loose]
+
+    assert [place for _, place in begun] == [0.0, 0.2]
+    assert points == [0.1, 0.2, 0.21, RESISTS, 1.0]
+    assert [each.negligible for each in controls] == [1e-5, 0.0]
 
 
 def test_where_ratios_count_a_curve_begins_behind_a_small_ratio(

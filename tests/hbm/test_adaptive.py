@@ -146,6 +146,39 @@ def test_points_that_fail_go_back_to_what_worked_and_then_to_more() -> None:
     assert system.fourier == lower
 
 
+def test_what_is_raised_is_kept_until_a_curve_begins_anew() -> None:
+    system, guess = adaptive(
+        block(), tolerance=3e-2, start=FourierBasis(7, 128), most=31
+    )
+    correct_at(system, guess, CONTROL, system)
+    lower = system.fourier
+    system.retreat(1)
+
+    assert system.raised()
+    assert (system.fourier.harmonics, system.fourier.samples) == (15, 256)
+    correct_at(system, guess, CONTROL, system)
+    for _ in range(2 * WAIT):
+        system.keep()
+    assert (system.fourier.harmonics, system.fourier.samples) == (15, 256)
+
+    assert system.raised()
+    assert (system.fourier.harmonics, system.fourier.samples) == (31, 512)
+    assert not system.raised()  # these are the most
+
+    system.restart(3)
+    correct_at(system, guess, CONTROL, system)
+    system.keep()
+    assert system.fourier.harmonics <= lower.harmonics
+
+
+def test_fixed_harmonics_are_not_raised() -> None:
+    system, guess = adaptive(block(), tolerance=None, start=COARSE)
+    correct_at(system, guess, CONTROL, system)
+
+    assert not system.raised()
+    assert system.fourier == COARSE
+
+
 def test_less_is_not_tried_after_a_short_step() -> None:
     system, guess = adaptive(block(), tolerance=3e-2, start=FourierBasis(31, 1024))
     correct_at(system, guess, CONTROL, system)

@@ -153,6 +153,21 @@ def test_what_is_too_smooth_is_sharpened_and_eased_again() -> None:
     assert system.fourier.threshold == SMOOTHEST
 
 
+def test_what_is_raised_keeps_friction_as_sharp_as_it_was() -> None:
+    start = FourierBasis(7, 128, SMOOTHEST)
+    system = AdaptiveBalance(resolution(), start, tolerance=3e-3)
+    found = correct_at(system, guess(system.size), CONTROL, system)
+    sharp = system.settled.threshold
+
+    assert system.raised()
+    system.fourier = replace(system.fourier, threshold=sharp / SHARPER**3)
+    correct_at(system, found.point, CONTROL, system)
+    for _ in range(2 * WAIT):
+        system.keep()
+
+    assert system.fourier.threshold <= sharp < SMOOTHEST
+
+
 class Blunt(Resolution):
     """Solvable with friction no sharper than a threshold velocity; all that errs."""
 

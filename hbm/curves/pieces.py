@@ -56,6 +56,7 @@ class Pieces:
         if stopped is None and _arrived(there, 1.0):
             return
         back: list[float] = []
+        self.system.restart(self.system.fourier.harmonics)
         again = FIRST if there else ()
         try:
             yield from self._noted(self._begun(self.end, self.start, again), back)

@@ -19,6 +19,7 @@ from hbm.curves.pieces import Pieces
 from hbm.curves.restart import FIRST
 from hbm.curves.tracer import Tracer
 from hbm.errors import ContinuationError
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.paths.along_parameter import AlongParameter
 from hbm.paths.path import along_frequency
@@ -39,6 +40,7 @@ class Square(Unsettled):
     """y² = 1, at any parameter."""
 
     size = 2
+    fourier = FourierBasis(1, 32)
 
     def __call__(self, point: Array) -> tuple[Array, Dense]:
         y, _ = point
@@ -53,15 +55,19 @@ class Square(Unsettled):
 
 
 class Finer(Square):
-    """The same; with more harmonics it ends at 0.25."""
+    """The same; with more harmonics it ends, at 0.25 if nothing else is said."""
 
-    def __init__(self) -> None:
+    def __init__(self, ends: float = 0.25) -> None:
         """Begin with few harmonics."""
+        self.more, self.ends = False, ends
+
+    def restart(self, harmonics: int) -> None:  # noqa: ARG002
+        """Have few harmonics again."""
         self.more = False
 
     def __call__(self, point: Array) -> tuple[Array, Dense]:
         residual, linearised = super().__call__(point)
-        return residual + 2.0 * (self.more and point[-1] > 0.25), linearised
+        return residual + 2.0 * (self.more and point[-1] > self.ends), linearised
 
     def raised(self) -> bool:
         """Take more harmonics, once."""
@@ -143,6 +149,28 @@ def test_a_curve_goes_on_from_where_more_harmonics_have_it_too(
     assert [place for _, place in begun] == [0.0, 0.2]
     assert points == [0.1, 0.2, 0.21, RESISTS, 1.0]
     assert [each.negligible for each in controls] == [1e-5, 0.0]
+
+
+def test_what_more_harmonics_do_not_have_is_followed_back_with_few(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    square, more = Finer(ends=0.0), list[bool]()
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+        "trace"
+    ]
+
+    def trace(*given: Any, **options: Any) -> Iterator[Correction]:
+        more.append(square.more)
+        return traced(*given, **options)
+
+    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
+
+    points = [each.point[-1] for each in pieces(0.0, 1.0, square)]
+
+    assert [place for _, place in begun] == [0.0, 1.0]
+    assert points == [RESISTS, 0.0]
+    assert more == [False, False]
 
 
 def test_where_ratios_count_a_curve_begins_behind_a_small_ratio(

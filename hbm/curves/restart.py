@@ -96,7 +96,7 @@ class Restart:
         way, and the system were like that already.
         """
         strict = control.strict
-        if not way or (not self.system.raised() and control == strict):
+        if not way or (not self.system.raise_floor() and control == strict):
             return None
         for back in dict.fromkeys(min(each, len(way)) for each in BACK):
             known = way[-back]

@@ -103,7 +103,7 @@ class AdaptiveBalance:
             self.fourier = self._kept = self._choice.anew(harmonics)
             self._sharpest, self._fewest = 0.0, FEWEST
 
-    def raised(self) -> bool:
+    def raise_floor(self) -> bool:
         """Take twice the harmonics of the last kept point, or the most, from now on.
 
         And as many samples as are usual. Return whether that is more; never if they are

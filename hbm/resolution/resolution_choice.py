@@ -9,6 +9,7 @@ from hbm.forces.fourier import FourierBasis, usual_samples
 from hbm.resolution.resolution import Estimate
 
 FEWEST, MOST_SAMPLES = FourierBasis(1, 32, math.inf), 16384
+"""least resolution, and most samples, that are chosen"""
 PER_ORDER, ANEW = 8, 128
 """samples per order at the least, the mean counted: twice what a Jacobian needs; and
 with which a curve begins anew at the least"""

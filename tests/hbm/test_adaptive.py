@@ -154,16 +154,16 @@ def test_what_is_raised_is_kept_until_a_curve_begins_anew() -> None:
     lower = system.fourier
     system.retreat(1)
 
-    assert system.raised()
+    assert system.raise_floor()
     assert (system.fourier.harmonics, system.fourier.samples) == (15, 256)
     correct_at(system, guess, CONTROL, system)
     for _ in range(2 * WAIT):
         system.keep()
     assert (system.fourier.harmonics, system.fourier.samples) == (15, 256)
 
-    assert system.raised()
+    assert system.raise_floor()
     assert (system.fourier.harmonics, system.fourier.samples) == (31, 512)
-    assert not system.raised()  # these are the most
+    assert not system.raise_floor()  # these are the most
 
     system.restart(3)
     correct_at(system, guess, CONTROL, system)
@@ -175,7 +175,7 @@ def test_fixed_harmonics_are_not_raised() -> None:
     system, guess = adaptive(block(), tolerance=None, start=COARSE)
     correct_at(system, guess, CONTROL, system)
 
-    assert not system.raised()
+    assert not system.raise_floor()
     assert system.fourier == COARSE
 
 

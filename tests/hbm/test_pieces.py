@@ -49,7 +49,7 @@ class Square(Unsettled):
     def restart(self, harmonics: int) -> None:
         """Have nothing to begin anew."""
 
-    def raised(self) -> bool:
+    def raise_floor(self) -> bool:
         """Have no more harmonics."""
         return False
 
@@ -69,7 +69,7 @@ class Finer(Square):
         residual, linearised = super().__call__(point)
         return residual + 2.0 * (self.more and point[-1] > self.ends), linearised
 
-    def raised(self) -> bool:
+    def raise_floor(self) -> bool:
         """Take more harmonics, once."""
         before, self.more = self.more, True
         return not before

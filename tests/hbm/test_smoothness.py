@@ -159,7 +159,7 @@ def test_what_is_raised_keeps_friction_as_sharp_as_it_was() -> None:
     found = correct_at(system, guess(system.size), CONTROL, system)
     sharp = system.settled.threshold
 
-    assert system.raised()
+    assert system.raise_floor()
     system.fourier = replace(system.fourier, threshold=sharp / SHARPER**3)
     correct_at(system, found.point, CONTROL, system)
     for _ in range(2 * WAIT):

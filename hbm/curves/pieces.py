@@ -48,9 +48,12 @@ class Pieces:
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
         there: list[float] = []
+        rest = self.restart.still
         stopped: ContinuationError | None = None
         try:
-            yield from self._noted(self._begun(self.start, self.end), there)
+            yield from self._noted(
+                self._from(rest(self.start), self.end, iter(FIRST)), there
+            )
         except ContinuationError as error:
             stopped = error
         if stopped is None and _arrived(there, 1.0):
@@ -59,7 +62,9 @@ class Pieces:
         self.system.restart(self.system.fourier.harmonics)
         again = FIRST if there else ()
         try:
-            yield from self._noted(self._begun(self.end, self.start, again), back)
+            yield from self._noted(
+                self._from(rest(self.end), self.start, iter(again)), back
+            )
         except ContinuationError as error:
             raise stopped or error from None
         if _arrived(back, 0.0):
@@ -129,15 +134,6 @@ class Pieces:
                 "smaller tolerance, or more harmonics, may lead round the corner",
                 where,
             )
-
-    def _begun(
-        self, begin: float, end: float, first: tuple[float, ...] = FIRST
-    ) -> Iterator[Correction]:
-        """Yield corrections from one end of the range.
-
-        ``first`` are the leaps by which a first point is sought if there is none.
-        """
-        yield from self._from(self.restart.still(begin), end, iter(first))
 
     def _from(
         self, guess: Array, heading: float, leaps: Iterator[float]

@@ -47,7 +47,7 @@ class Beginning(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Restart:
-    """Where a curve along a path begins anew: behind a leap, by homotopy."""
+    """Where a curve along a path begins anew: a few points back, or behind a leap."""
 
     path: Path
     system: AdaptiveBalance

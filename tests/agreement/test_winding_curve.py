@@ -44,5 +44,5 @@ def test_a_winding_curve_is_whole_and_its_orbits_are_found_by_shooting() -> None
         other = compared(problem, response)
         assert response.unstable
         assert other.as_estimated
-        assert other.difference < 5e-4
+        assert other.difference < 2e-4  # measured: 8e-6 to 6e-5
         assert other.as_stable

@@ -89,6 +89,15 @@ class ParametricBalance:
             return 0.0
         return self._balance.impulses(above, most)
 
+    def answer(self, point: Array, residual: Array, above: int) -> Array:
+        """Return the step with which orders above one answer the residual there.
+
+        That is the last one made.
+        """
+        here, _ = self._reflected(point)
+        balance, inner = self.at_frequency(here)
+        return balance.answer(inner, residual, above)
+
     def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
         """Return harmonic balance at the point's parameter, and the point for it."""
         parameter = float(point[-1])

@@ -37,6 +37,12 @@ class Resolved(Protocol):
     def impulses(self, above: int, most: int) -> float:
         """Return the norm of the contact impulses between two orders, last call."""
 
+    def answer(self, point: Array, residual: Array, above: int) -> Array:
+        """Return the step with which orders above one answer the residual there.
+
+        That is the last one made.
+        """
+
 
 class Refined(NamedTuple):
     """A point after some Newton steps, and what they leave."""

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.balance.answers import answers
 from hbm.balance.iterated import Parts
 from hbm.balance.jacobian import assemble, terms
 from hbm.balance.linear_balance import LinearBalance
@@ -143,6 +144,23 @@ class HarmonicBalance:
     def impulses(self, above: int, most: int) -> float:
         """Return the norm of the contact impulses between two orders, last call."""
         return self.contact.impulses(above, most)
+
+    def answer(self, point: Array, residual: Array, above: int) -> Array:
+        """Return the step with which orders above one answer the residual there.
+
+        That is the last one made.
+        """
+        beyond, frequency = slice(above + 1, None), float(point[-1])
+        shape = (self.fourier.coefficients, self.rank)
+        step, orders = np.zeros(shape, complex)[::2], np.arange(shape[0] // 2 + 1)
+        step[beyond] = answers(
+            self._linear.at(frequency)[0][beyond],
+            self.contact.small_tangents(self.fourier.harmonics),
+            1j * frequency * orders[beyond],
+            self._wanted[beyond],
+            to_complex(residual.reshape(shape))[beyond],
+        )
+        return np.append(to_real(step).ravel(), 0.0)
 
     def at_frequency(self, point: Array) -> tuple[HarmonicBalance, Array]:
         """Return itself and the point, whose last component is the frequency."""

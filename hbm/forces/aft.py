@@ -179,16 +179,16 @@ class AlternatingFrequencyTime:
                 self._points, self._moved, self._frequency, places, jacobian
             )
 
-    def small_tangents(self) -> tuple[Array, Array]:
+    def small_tangents(self, order: int = 1) -> tuple[Array, Array]:
         """Return what a small motion about that of the last call feels in the mean.
 
         By y [N/m] and by ẏ [N s/m], shape ``(rank, rank)`` each. What contacts remember
-        is a spring for a small motion of the same frequency.
+        is a spring for a small motion of that order.
         """
         elastic, viscous = (mean.copy() for mean in self.tangents.means())
         rank = len(elastic)
         cosines = np.full((self._fourier.coefficients, rank), -1)
-        cosines[1] = np.arange(rank)
+        cosines[2 * order - 1] = np.arange(rank)
         self.add_remembered(cosines, elastic)
         return elastic, viscous
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.balance.answers import answers
 from hbm.balance.linearisation import Linearisation
 from hbm.balance.relative import RelativeProblem
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
@@ -99,6 +100,26 @@ class ModalBalance:
     def impulses(self, above: int, most: int) -> float:
         """Return the norm of the contact impulses between two orders, last call."""
         return self._contact.impulses(above, most)
+
+    def answer(self, point: Array, residual: Array, above: int) -> Array:
+        """Return the step with which orders above one answer the residual there.
+
+        That is the last one made.
+        """
+        parts, beyond = self.parts(point), slice(above + 1, None)
+        variable, wanted = self._others(parts.pole)[beyond], self._wanted[beyond]
+        missing = residual.reshape(-1, self.width)[:, : self.rank]
+        step = np.zeros((len(self._orders), self.rank), complex)
+        step[beyond] = answers(
+            self.problem.condensed.dynamic_stiffness(variable, wanted),
+            self._contact.small_tangents(self.fourier.harmonics),
+            variable,
+            wanted,
+            self.reference.stiffness * to_complex(missing)[beyond],
+        )
+        whole = np.zeros(point.size)
+        whole[:-1].reshape(-1, self.width)[:, : self.rank] = to_real(step)
+        return whole
 
     def motion(self, point: Array) -> Array:
         """Return the coefficients of the motion about rest [m], (2H + 1, dofs)."""

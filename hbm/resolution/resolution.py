@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hbm.balance.beyond import answered, wider
 from hbm.balance.refined import Refined, Resolved, refined
 from hbm.continuation.correction import Correction
 from hbm.continuation.linearised import Linearised
@@ -19,6 +20,8 @@ SMOOTHER = 1e-3
 """relative change of a threshold velocity that tells what it does"""
 MORE = 4
 """times the samples after the steps, with which marches tell what these err"""
+BEYOND = 1.5
+"""times that all harmonics beyond may change what the next octave seems to change"""
 TURNING = 0.25
 """share of a phasor's change that counts where its length just has an extremum"""
 
@@ -113,6 +116,8 @@ class Resolution(ABC):
         """
         point, finer = correction.point, fourier.doubled
         made = refined(self.at(finer), point, finer.harmonics, normal)
+        wide = self.at(wider(finer))
+        beyond = answered(wide, made, finer, self.rank, normal)
         low = made.residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
         newton, sampled = (
@@ -122,7 +127,7 @@ class Resolution(ABC):
         solved = point - newton
         points = (
             point, solved, solved - sampled, made.before, made.corrected,
-            *self._resampled(made, finer, normal),
+            beyond, *self._resampled(made, finer, normal),
         )  # fmt: skip
         sizes = self.amplitudes(points)
         places = np.array([each[-1:] for each in points])
@@ -130,9 +135,10 @@ class Resolution(ABC):
         shift, *aside = _changes(places, made)
         smoothing, moved = self._smoothing(correction, fourier, normal)
         size = float(sizes[0].max(initial=0.0)) or 1.0
+        turned = largest(np.abs(np.subtract(*self.phasors((beyond, made.corrected)))))
         return Estimate(
             change / size,
-            truncation / size,
+            max(truncation, BEYOND * TURNING * turned) / size,
             sampling / size,
             smoothing / size,
             shift,
@@ -184,11 +190,12 @@ def _changes(values: Array, made: Refined) -> tuple[float, float, float]:
     """Return how values change by steps, and how far they are off after them.
 
     That is by harmonics, and by samples. The rows of ``values`` are those of a point,
-    of it solved, solved with more samples, before the last step, after it, and of that
-    with still more samples, if these count.
+    of it solved, solved with more samples, before the last step, after it, of that once
+    harmonics beyond have answered, and with still more samples, if these count.
     """
-    before, solved, resampled, after, last, *finest = values
+    before, solved, resampled, after, last, beyond, *finest = values
     truncation = made.beyond * largest(last - resampled)
+    truncation = max(truncation, BEYOND * largest(beyond - last))
     lost = math.isinf(made.left)
     truncation += math.inf if lost else made.left * largest(last - after)
     sampling = [resampled - solved, *(each - last for each in finest)]

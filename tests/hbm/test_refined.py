@@ -51,6 +51,9 @@ class Root:
         assert most == 2 * above + 1
         return self._impulses.pop(0)
 
+    def answer(self, point: Array, residual: Array, above: int) -> Array:
+        raise NotImplementedError(point, residual, above)
+
 
 def steps(start: float, system: Root, harmonics: int = MANY) -> Refined:
     return refined(system, np.array([start, 5.0]), harmonics, UPRIGHT)

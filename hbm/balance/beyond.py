@@ -1,0 +1,53 @@
+"""What harmonics beyond those of a point do to the ones that it has (theory §6.3)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hbm.balance.refined import Refined, Resolved
+from hbm.forces.fourier import FourierBasis
+from microslip_mechanics.arrays import Array
+
+REACH = 31
+"""harmonics that are looked at, at the least"""
+
+
+def wider(fourier: FourierBasis) -> FourierBasis:
+    """Return a resolution with an octave of harmonics beyond, or more."""
+    harmonics = max(fourier.doubled.harmonics, REACH)
+    samples = max(fourier.samples, 4 * harmonics + 4)
+    return replace(fourier, harmonics=harmonics, samples=samples)
+
+
+def answered(
+    system: Resolved, made: Refined, fourier: FourierBasis, rank: int, normal: Array
+) -> Array:
+    """Return the point after some steps once orders beyond have answered it.
+
+    Each of them answers the forces of the contacts by itself, and the point answers
+    what their motion changes, to first order and in the plane normal to ``normal``.
+
+    Parameters
+    ----------
+    system
+        The balance at the resolution that is :func:`wider` than ``fourier``.
+    made
+        The point, and the derivative about it.
+    fourier
+        Resolution of the point.
+    rank
+        Number of components of a point for each Fourier coefficient.
+    normal
+        As that of the steps.
+    """
+    last, low = made.corrected, rank * fourier.coefficients
+    more = rank * wider(fourier).coefficients - low
+    point = np.concatenate([last[:low], np.zeros(more), last[-1:]])
+    residual = system.residual(point)
+    step = system.answer(point, residual, fourier.harmonics)
+    change = np.zeros_like(last)
+    change[:low] = (system.residual(point + step) - residual)[:low]
+    stepped: Array = last - made.slope.solve(normal, change)
+    return stepped

@@ -16,6 +16,7 @@ from hbm.events.crossings import ASTRAY
 from hbm.events.events import Events
 from hbm.events.multipliers import Multipliers
 from hbm.events.settled import Settled
+from hbm.events.summits import Summits
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path_resolution import PathResolution
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -50,23 +51,34 @@ class Curve:
         ``beginning`` is what the first point is marked as.
         """
         before: Settled | None = None
+        summits = Summits(self.problem.probes.rows)
         for correction in corrections:
             mark = beginning if before is None else "restart"
             made, after = self.made(correction, "" if correction.joined else mark)
             if self.events and correction.tangent is not None:
                 after = self.events.directed(after, metric)
             if self.events and before is not None and correction.joined:
-                names = []
-                for event in self.events.between(before, after, metric):
-                    names.append(event.name)
-                    told, _ = self.made(event.correction, event.name)
-                    if _confirmed(event.name, told.multipliers):
-                        error = told.error + event.aside
-                        yield replace(told, error=error, parameter_error=event.error)
+                found = list(self._between(before, after, metric))
+                yield from summits.among(found, made)
                 changed = crossings(before.multipliers, after.multipliers)
-                after = after._replace(owes="fold" in names and not changed)
+                folds = any(each.event == "fold" for each in found)
+                after = after._replace(owes=folds and not changed)
+            else:
+                summits.begin(made)
             yield made
             before = after
+
+    def _between(
+        self, before: Settled, after: Settled, metric: Metric
+    ) -> Iterator[PeriodicResponse]:
+        """Yield the responses at what happens between two points."""
+        if self.events is None:
+            return
+        for event in self.events.between(before, after, metric):
+            told, _ = self.made(event.correction, event.name)
+            if _confirmed(event.name, told.multipliers):
+                error = told.error + event.aside
+                yield replace(told, error=error, parameter_error=event.error)
 
     def made(
         self, correction: Correction, event: str

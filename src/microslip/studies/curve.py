@@ -17,6 +17,7 @@ from microslip.scenes.experiments import Curve
 from microslip.scenes.quantity import SceneError
 from microslip.studies.detached import Searched, search
 from microslip.studies.gaps import BROKEN, MISSING, told
+from microslip.studies.prominent import prominent
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
@@ -128,7 +129,8 @@ def traced_of(
     watch: Watch,
 ) -> Traced:
     """Return what is traced until it ends or is stopped."""
-    responses, ending = gathered(watch(traced))
+    found, ending = gathered(watch(traced))
+    responses = prominent(problem, found)
     made = told(response_curve(problem, responses, ending))
     return Traced(made, tuple(responses), rest)
 

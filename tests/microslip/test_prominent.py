@@ -63,5 +63,38 @@ def test_peaks_of_unknown_error_are_kept() -> None:
     assert kept(curve([1.0, 1.1, 1.0999, 1.2, 1.0], [1, 3], np.inf)) == [1, 3]
 
 
+def folded(places: Sequence[float], folds: Sequence[int]) -> list[PeriodicResponse]:
+    """Return responses along a curve that turns back at some of them."""
+    return [
+        replace(
+            prescribed(1.0),
+            event="fold" if at in folds else "",
+            parameter=place,
+            parameter_error=ERROR if at in folds else np.nan,
+        )
+        for at, place in enumerate(places)
+    ]
+
+
+def folds(places: Sequence[float], folds: Sequence[int]) -> list[float]:
+    """Return where folds are kept."""
+    found = prominent(oscillator(), folded(places, folds))
+    return [each.parameter for each in found if each.event == "fold"]
+
+
+@pytest.mark.parametrize("back", [1e-4, 0.1])
+def test_a_way_back_within_the_errors_of_two_folds_has_none(back: float) -> None:
+    places = [1.0, 2.0, 2.0 - back / 2.0, 2.0 - back, 3.0]
+    told = [2.0, 2.0 - back] if back > 2.0 * ERROR else []
+
+    assert folds(places, [1, 3]) == told
+    assert folds(places[::-1], [1, 3]) == told[::-1]
+
+
+def test_a_fold_without_its_partner_has_to_lead_back_as_far() -> None:
+    assert folds([1.0, 2.0, 1.9999, 3.0], [1]) == []
+    assert folds([1.0, 2.0, 1.9, 3.0], [1]) == [2.0]
+
+
 def test_no_points_have_no_peaks() -> None:
     assert kept([]) == []

@@ -12,6 +12,7 @@ from microslip.scenes.rigs import solvable
 from microslip.studies.curve import gathered
 from microslip.studies.gaps import told
 from microslip.studies.parameter import Parameter, told_along
+from microslip.studies.prominent import prominent
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 
@@ -76,5 +77,7 @@ def along(
         samples=resolution.samples,
     )
     traced = told_along(parameter_response(problem_at, frequency, options), label)
-    responses, ending = gathered(watch(traced))
-    return told(response_curve(problem_at(ends[1]), responses, ending, label))
+    found, ending = gathered(watch(traced))
+    problem = problem_at(ends[1])
+    responses = prominent(problem, found)
+    return told(response_curve(problem, responses, ending, label))

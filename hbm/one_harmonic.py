@@ -15,7 +15,6 @@ from hbm.forces.equivalent import SAMPLES
 from hbm.forces.fourier import usual_samples
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
@@ -66,7 +65,8 @@ def one_harmonic_response(
     curve = frequency_response(problem, rest, options)
     if frequency is not None:
         return _met(curve, frequency)
-    return max(curve, key=lambda each: float(amplitudes(problem, each).max()))
+    rows = problem.probes.rows
+    return max(curve, key=lambda each: float(each.amplitudes(rows).max()))
 
 
 def one_harmonic_error(
@@ -107,13 +107,6 @@ def one_harmonic_error(
             shift = abs(response.frequency / better.frequency - 1.0)
             return OneHarmonicError(apart, shift if known else math.nan)
     return OneHarmonicError(math.nan, math.nan)
-
-
-def amplitudes(problem: Problem, response: PeriodicResponse) -> Array:
-    """Return the first harmonic of each probe [m], shape (probes,)."""
-    seen = response.seen(problem.probes.rows)[1:3]
-    found: Array = np.hypot(*seen)
-    return found
 
 
 def _at_frequency(
@@ -190,6 +183,7 @@ def _met(curve: Iterable[PeriodicResponse], frequency: float) -> PeriodicRespons
 def _distance(
     problem: Problem, response: PeriodicResponse, better: PeriodicResponse
 ) -> float:
-    found, reference = amplitudes(problem, response), amplitudes(problem, better)
+    rows = problem.probes.rows
+    found, reference = response.amplitudes(rows), better.amplitudes(rows)
     size = float(reference.max(initial=0.0)) or 1.0
     return float(np.abs(found - reference).max(initial=0.0)) / size

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response import PeriodicResponse
 
@@ -67,4 +65,4 @@ class Summits:
 
     def _size(self, made: PeriodicResponse) -> float:
         """Return the largest first harmonic of a probe [m]."""
-        return float(np.hypot(*made.seen(self._probes)[1:3]).max(initial=0.0))
+        return float(made.amplitudes(self._probes).max(initial=0.0))

@@ -1,13 +1,14 @@
 """Are told errors of curves large enough? ``python …/curve_errors.py [name …]``.
 
 Curves by tolerance: of the built-in scenes, of three masses with one law of the
-catalogue each, and of the rig with both laws. Points of each, evenly spread, are solved
-again with twice their harmonics and samples, and no less than :data:`HARMONICS` and
-:data:`SAMPLES`, at the same frequency; the relative difference of the largest first
-harmonic is the true error. A line for each curve: points, the share whose told error
-covers the true one, the smallest and the median ratio of told to true error where
-either is above :data:`DIGITS`, and the largest of both. Points that have no such
-solution, as beyond a fold that more harmonics move, are left out, and counted. The exit
+catalogue each, of the rig with both laws, and of a lap joint by three drives. Points of
+each, evenly spread, are solved again with twice their harmonics and samples, and no
+less than :data:`HARMONICS` and :data:`SAMPLES`, at the same frequency; the relative
+difference of the largest first harmonic is the true error. A line for each curve:
+points, the share whose told error covers the true one, the smallest and the median
+ratio of told to true error where either is above :data:`DIGITS`, and the largest of
+both. Points that have no such solution, as beyond a fold that more harmonics move, are
+left out, and counted. The exit
 status is 1 if the told errors of a curve by :data:`USUAL` cover less than
 :data:`LEAST`.
 """
@@ -31,6 +32,7 @@ from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from honesty import amplitudes
+from lap_joint import lap_joint
 from law_examples import CASES, driven
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import load_scene
@@ -62,6 +64,9 @@ SCENES = {
 }
 BETWEEN = (6.5, 8.9)
 """frequencies about the resonances of the three masses [rad/s]"""
+JOINT, DRIVES = (26.3, 26.9), (0.5, 1.0, 2.0)
+"""frequencies [Hz] about the first resonance of a bolted lap joint, at whose orders it
+has modes, and drives of it [N]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +78,7 @@ class Case:
     """[rad/s]"""
     highest: float
     """[rad/s]"""
+    tolerances: tuple[float, ...] = TOLERANCES
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +112,12 @@ def cases() -> dict[str, Case]:
             2.0 * np.pi * curve.lowest,
             2.0 * np.pi * curve.highest,
         )
-    return found | {name: Case(partial(driven, name), *BETWEEN) for name in CASES}
+    found |= {name: Case(partial(driven, name), *BETWEEN) for name in CASES}
+    lowest, highest = (2.0 * np.pi * hertz for hertz in JOINT)
+    for drive in DRIVES:
+        joint = partial(lap_joint, 5, 2e4, drive)
+        found[f"lap joint {drive:g} N"] = Case(joint, lowest, highest, (USUAL,))
+    return found
 
 
 def _of_scene(scene: str, sets: tuple[str, ...]) -> Problem:
@@ -148,7 +159,7 @@ def lines(chosen: Sequence[str]) -> Iterator[tuple[str, bool]]:
     for name, case in cases().items():
         if chosen and name not in chosen:
             continue
-        for tolerance in TOLERANCES:
+        for tolerance in case.tolerances:
             seen = errors(case, tolerance)
             ratios = seen.ratios if seen.ratios.size else np.array([np.nan])
             told = (

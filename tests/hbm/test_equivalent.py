@@ -10,7 +10,6 @@ import scipy.linalg
 from hbm.errors import ContinuationError
 from hbm.forces.equivalent import equivalent_contact, free_structure, stuck_structure
 from hbm.one_harmonic import (
-    amplitudes,
     one_harmonic_error,
     one_harmonic_response,
 )
@@ -246,7 +245,7 @@ def test_the_error_is_the_distance_from_a_march(kind: str, frequency: float) -> 
     history = dwelled(problem, frequency, periods=40, steps=2000)
 
     true = np.abs(last_harmonic(history))
-    found = np.abs(amplitudes(problem, response) - true).max() / true.max()
+    found = np.abs(response.amplitudes(problem.probes.rows) - true).max() / true.max()
     assert response.frequency == frequency
     assert error.amplitude == pytest.approx(found, rel=0.05, abs=2e-5)
     assert error.frequency == 0.0
@@ -259,7 +258,7 @@ def test_the_response_is_that_of_largest_amplitude() -> None:
     best = one_harmonic_response(problem, rest, RANGE)
 
     def size(response: PeriodicResponse) -> float:
-        seen: Array = amplitudes(problem, response)
+        seen: Array = response.amplitudes(problem.probes.rows)
         return float(seen.max())
 
     for share in (0.999, 1.001):
@@ -314,7 +313,7 @@ def test_the_error_at_a_bent_peak_is_that_of_the_peak_with_more_harmonics() -> N
     found = one_harmonic_response(problem, rest, limits)
     error = one_harmonic_error(problem, rest, found, limits, 1e-6, free=True)
 
-    size = amplitudes(problem, found) / amplitudes(problem, peak)
+    size = found.amplitudes(problem.probes.rows) / peak.amplitudes(problem.probes.rows)
     shift = abs(found.frequency / peak.frequency - 1.0)
     assert error.frequency == pytest.approx(shift, abs=1e-6)
     assert error.amplitude == pytest.approx(abs(float(size[0]) - 1.0), abs=1e-5)
@@ -371,7 +370,11 @@ def test_a_sparse_structure_has_the_springs_and_dampers_of_a_dense_one() -> None
         response = one_harmonic_response(problem, rest, (300.0, 400.0), 350.0)
         contact = equivalent_contact(problem, response)
         found.append(
-            (contact.stiffness[1], contact.damping[1], *amplitudes(problem, response))
+            (
+                contact.stiffness[1],
+                contact.damping[1],
+                *response.amplitudes(problem.probes.rows),
+            )
         )
 
     np.testing.assert_allclose(found[0][1:], found[1][1:], rtol=1e-6)

@@ -94,9 +94,9 @@ def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above(
 
     assert known.sum() >= 20
     share = estimated[known] / true[known]
-    assert share.min() >= 1.0  # measured 1.9
-    # measured 5.9, between 8 of duffing, 57 to 70, and 12 others, 2 to 8
-    assert np.median(share) <= 7.0
+    assert share.min() >= 1.0  # measured 1.9, of all scenes 1.6
+    # measured 5.9, between 8 of duffing, 57 to 70, and 12 others; of all scenes 3.6
+    assert np.median(share) <= 6.5
     # the others are as far from the finest curve as both say at the most
     assert np.all(true <= estimated + doubt)
 

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 
 from hbm.balance.relative import relative_problem
 from hbm.forces.fourier import FourierBasis
@@ -14,7 +15,8 @@ from hbm.structure.condensation import condense
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 
-AMPLITUDE = 1e-4
+AMPLITUDE, TINY = 1e-4, 1e-10
+"""[m], the second without slip and separation"""
 FOURIER = FourierBasis(4, 128)
 
 
@@ -111,3 +113,17 @@ def test_the_far_and_the_near_poles_are_the_whole_structure() -> None:
     value, _ = free.seen(parts.pole, relative, modal, row)
     assert abs(value - row @ motion) < 1e-10 * abs(row @ motion)
     assert math.isclose(parts.amplitude, AMPLITUDE)
+
+
+def test_high_orders_of_a_tiny_motion_answer_until_nothing_is_left() -> None:
+    """Contacts that neither part nor slip are springs: each order is alone."""
+    balance, point = balance_and_point(np.random.default_rng(4))
+    point[-1] = math.log(TINY)
+    residual = balance.residual(point)
+
+    left = balance.residual(point + balance.answer(point, residual, 1))
+
+    high = slice(3 * balance.width, None)
+    assert np.abs(residual[high]).max() > 1e-5
+    assert np.abs(left[high]).max() < 1e-3 * np.abs(residual[high]).max()
+    assert left[: high.start] == pytest.approx(residual[: high.start], abs=1e-6)

@@ -291,3 +291,18 @@ def test_the_position_of_a_body_that_nothing_holds_needs_no_force() -> None:
     # The Jacobian is regular in the mean position along z too.
     assert np.linalg.matrix_rank(linearised.jacobian) == residual.size
     assert balance.drift_force(still) < 1e-9
+
+
+@pytest.mark.parametrize("model", ["A", "full"])
+def test_high_orders_of_a_tiny_motion_answer_until_nothing_is_left(model: str) -> None:
+    """Contacts that neither part nor slip are springs: each order is alone."""
+    problem = rig(model, "coulomb", SOFT)
+    balance, point = balance_of(problem), random_point(problem, 0)
+    point[balance.rank : -1] *= 1e-6
+    residual = balance.residual(point)
+
+    left = balance.residual(point + balance.answer(point, residual, 1))
+
+    high = slice(3 * balance.rank, None)
+    assert np.abs(residual[high]).max() > 0.0
+    assert np.abs(left[high]).max() < 1e-3 * np.abs(residual[high]).max()

@@ -88,6 +88,7 @@ def trace_curve(
         more, lost = _lost(watch(branched))
         responses = (*responses, *more)
         ending = lost if ending == "complete" else ending
+    responses = tuple(prominent(problem, responses))
     return Traced(response_curve(problem, responses, ending), responses, rest, found)
 
 

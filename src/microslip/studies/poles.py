@@ -12,7 +12,6 @@ from hbm.curves.dense_problem import RESOLVED
 from hbm.forces.equivalent import equivalent_contact, free_structure, stuck_structure
 from hbm.one_harmonic import (
     OneHarmonicError,
-    amplitudes,
     one_harmonic_error,
     one_harmonic_response,
 )
@@ -99,7 +98,7 @@ def _linear(
     outside: bool,
 ) -> Linear:
     stuck = stuck_structure(problem, rest)
-    amplitude = float(amplitudes(problem, response).max(initial=0.0))
+    amplitude = float(response.amplitudes(problem.probes.rows).max(initial=0.0))
     return Linear(
         equivalent_contact(problem, response).joined(problem),
         response,

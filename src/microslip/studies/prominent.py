@@ -7,11 +7,13 @@ no event.
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from hbm.curves.detached import MARKS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
@@ -25,32 +27,35 @@ def prominent(
     The amplitude descends from a peak, on the way to a higher point to either side, by
     more than its error and that of the lowest point on that way together; so does the
     parameter from a fold at which it is largest, and upside down. Where no point is
-    higher, or the error of an event is not known, it stays.
+    higher, or the error of an event is not known, it stays. What does not hang together
+    is looked at piece by piece.
     """
-    if not any(each.event in ("peak", "fold") for each in points):
-        return list(points)
-    amplitude = _amplitude(problem, points)
-    moves = amplitude > 0.0
-    errors = np.array([each.error for each in points])
-    doubt = np.multiply(amplitude, errors, out=np.zeros(len(points)), where=moves)
-    place = np.array([each.parameter for each in points])
-    aside = np.array([each.parameter_error for each in points])
-
-    def stands_out(at: int, event: str) -> bool:
-        if event == "peak":
-            return _descends(at, amplitude, doubt)
-        if event == "fold":
-            return _descends(at, _outwards(at, place) * place, aside)
-        return True
-
-    return [each for at, each in enumerate(points) if stands_out(at, each.event)]
+    begins = [at for at, each in enumerate(points) if each.event in MARKS]
+    bounds = sorted({0, *begins, len(points)})
+    return [
+        each
+        for first, last in itertools.pairwise(bounds)
+        for each in _standing_out(problem, points[first:last])
+    ]
 
 
-def _amplitude(problem: Problem, points: Sequence[PeriodicResponse]) -> Array:
-    """Return the largest first harmonic of a probe at each point [m], (points,)."""
+def _standing_out(
+    problem: Problem, piece: Sequence[PeriodicResponse]
+) -> Iterator[PeriodicResponse]:
+    """Yield the points of a piece without peaks and folds that may be ripples."""
     rows = problem.probes.rows
-    firsts = [each.seen(rows)[1:3] for each in points]
-    return np.array([np.hypot(*each).max(initial=0.0) for each in firsts])
+    amplitude = np.array([each.amplitudes(rows).max(initial=0.0) for each in piece])
+    errors = np.array([each.error for each in piece])
+    doubt = np.where(amplitude > 0.0, errors, 0.0) * amplitude
+    place = np.array([each.parameter for each in piece])
+    aside = np.array([each.parameter_error for each in piece])
+    for at, each in enumerate(piece):
+        if each.event == "peak" and not _descends(at, amplitude, doubt):
+            continue
+        outwards = _outwards(at, place) * place
+        if each.event == "fold" and not _descends(at, outwards, aside):
+            continue
+        yield each
 
 
 def _outwards(at: int, place: Array) -> float:

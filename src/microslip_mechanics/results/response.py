@@ -66,6 +66,11 @@ class PeriodicResponse(ByValue):
         found: Array = self.coefficients @ rows.T
         return found
 
+    def amplitudes(self, rows: Array) -> Array:
+        """Return the first harmonic of linear forms of the motion, shape (forms,)."""
+        found: Array = np.hypot(*self.seen(rows)[1:3])
+        return found
+
     @property
     def unstable(self) -> int:
         """Number of multipliers outside the unit circle; −1 if they are not known."""

@@ -25,6 +25,10 @@ LEAPS = (1e-3, 1e-2, 3e-2, 0.1, 0.3)
 """arc lengths, tried in turn"""
 MOST = 20
 """leaps that a curve may take before it is given up"""
+SMOOTHER = (
+    "more harmonics or, where friction has one, a larger threshold velocity make it "
+    "smoother"
+)
 
 BACK = -0.9
 """cosine between two steps, below which the second leads back along the first"""
@@ -68,8 +72,7 @@ class Leaping:
                     raise
             guess, direction = self._leapt(kept)
         raise ContinuationError(
-            f"the curve has {MOST} gaps up to {PLACE}: more harmonics or a larger "
-            "threshold velocity make it smoother",
+            f"the curve has {MOST} gaps up to {PLACE}: {SMOOTHER}",
             float(guess[-1]),
         )
 
@@ -112,7 +115,6 @@ class Leaping:
             if near and found.outcome is Outcome.CONVERGED:
                 return found.point, along
         raise ContinuationError(
-            f"the curve does not go on at {PLACE}, not even past it; more harmonics or "
-            "a larger threshold velocity make it smoother",
+            f"the curve does not go on at {PLACE}, not even past it; {SMOOTHER}",
             float(last.point[-1]),
         )

@@ -56,6 +56,19 @@ def test_normal_forces_show_the_range_of_every_point(
         )
 
 
+def test_a_band_of_forces_does_not_cancel_itself_where_a_curve_turns_back(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    hertz = np.array([130.0, 132.0, 133.0, 131.0])
+    folded = dataclasses.replace(small_curve, frequency=2.0 * np.pi * hertz)
+
+    curves.normal_forces(axes, folded)
+
+    spans = [band.get_paths()[0].get_extents() for band in axes.collections]
+    ways = [130.0, 133.0, 131.0, 133.0] * len(folded.contacts)
+    assert [x for span in spans for x in (span.x0, span.x1)] == pytest.approx(ways)
+
+
 def test_curve_figure_has_a_labelled_panel_for_each_quantity(
     small_curve: ResponseCurve,
 ) -> None:

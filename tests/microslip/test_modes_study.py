@@ -12,14 +12,15 @@ import numpy as np
 import pytest
 
 from hbm.errors import ContinuationError
+from hbm.modes.linear_modes import LinearMode
 from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import NonlinearMode, nonlinear_mode
 from microslip.cli import main
-from microslip.commands.modes_tables import mode_table
+from microslip.commands.modes_tables import ending_of, mode_table
 from microslip.figures.modes import modes_figure
 from microslip.mode_lines import mode_lines
 from microslip.studies import modes
-from microslip.studies.modes import followed
+from microslip.studies.modes import FollowedMode, followed
 from microslip_mechanics.arrays import Array
 from rigs import rig_problem
 
@@ -153,8 +154,11 @@ def test_a_mode_without_a_first_point_leaves_the_others(
     assert status == 1
     assert output.count("most damped") == 1
     assert "it has no first point: no first point: try less" in output
-    told = "microslip: no first point: try less; what was computed is kept\n"
-    assert error == told
+    assert error.startswith(
+        "microslip: 1 of 2 modes cannot be followed to the end, at "
+    )
+    assert error.endswith("; what was computed is kept\n")
+    assert error.count("\n") == 1
     assert (tmp_path / "modes.csv").stat().st_size > 100
     assert (tmp_path / "modes.png").is_file()
 
@@ -234,4 +238,55 @@ def test_a_mode_that_stops_goes_on_with_fewer_harmonics(
     assert [point.amplitude for point in mode.points] == fine[: len(harmonics)]
     assert ending in mode.ending
     told = "\n".join(mode_table(mode, "in small motions"))
+    assert ("it ends at " in told) == (ending != "complete")
+    assert ending in ending_of([mode])
     assert ("it does not go on with those" in told) == (len(set(harmonics) - {31}) > 0)
+
+
+@pytest.mark.parametrize(("ending", "marks"), [("complete", 1), ("it stops", 0)])
+def test_the_end_of_a_broken_mode_is_not_its_most_damped_point(
+    ending: str, marks: int
+) -> None:
+    mode = grown(ending, [1.0, 2.0, 3.0])
+
+    told = "\n".join(mode_table(mode, "in small motions"))
+
+    assert told.count("most damped") == marks
+    assert ("it ends at 3000 mm: it stops" in told) == (ending == "it stops")
+
+
+def test_a_broken_mode_that_was_damped_more_says_where() -> None:
+    told = mode_table(grown("it stops", [1.0, 3.0, 2.0]), "in small motions")
+
+    assert [line.split()[0] for line in told if "most damped" in line] == ["2.000e+03"]
+
+
+def test_of_several_modes_those_that_stop_short_are_named() -> None:
+    whole, broken = grown("complete", [1.0]), grown("it stops", [1.0])
+    pole = complex(0.0, math.tau * 140.0)
+    other = replace(broken, linear=replace(broken.linear, pole=pole))
+
+    assert ending_of([whole, whole]) == "complete"
+    assert ending_of([broken]) == "it stops"
+    assert ending_of([broken, whole, other]) == (
+        "2 of 3 modes cannot be followed to the end, at 134.0000, 140.0000 Hz: "
+        "their tables say why"
+    )
+
+
+def grown(ending: str, damping: list[float]) -> FollowedMode:
+    """Return a mode with points of 1, 2, ... m and given damping."""
+    points = [
+        NonlinearMode(
+            complex(-each, 100.0),
+            np.array([place + 0j]),
+            np.zeros((3, 1)),
+            0.0,
+            0.0,
+            31,
+            64,
+        )
+        for place, each in enumerate(damping, start=1)
+    ]
+    linear = LinearMode(complex(0.0, math.tau * 134.0), np.zeros(1, dtype=complex))
+    return FollowedMode(linear, tuple(points), ending)

@@ -19,6 +19,7 @@ from microslip.studies.verify.orbits import (
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from small_problems import TANGENT, cubic_oscillator, mass_on_contact, sliding_block
+from timedomain.shooting.comparison import Comparison, compared
 from traced_curves import traced
 
 LOOSE = 1.0
@@ -182,6 +183,32 @@ def test_a_stability_that_shooting_denies_is_doubted() -> None:
     assert not found.doubted
     assert wrong.comparison is not None
     assert wrong.doubted or wrong.comparison.found_multiplier < 1.003
+
+
+@pytest.mark.parametrize(
+    ("multiplier", "said"),
+    [
+        (0.7, "stable by shooting"),
+        (1.3, "unstable by shooting"),
+        (1.0005, "of unknown stability"),
+    ],
+)
+def test_a_stability_that_harmonic_balance_does_not_know_is_that_of_shooting(
+    monkeypatch: pytest.MonkeyPatch, multiplier: float, said: str
+) -> None:
+    problem, curve = block()
+    unknown = dataclasses.replace(curve.responses[0], multipliers=np.array([]))
+
+    def shot(problem: Problem, response: PeriodicResponse) -> Comparison:
+        made = compared(problem, response)
+        return dataclasses.replace(
+            made, found_multiplier=multiplier, multiplier_error=1e-3
+        )
+
+    monkeypatch.setattr("microslip.studies.verify.orbits.compared", shot)
+    (verdict,) = verdicts(problem, changed(curve, [unknown]), [0], tolerance=LOOSE)
+
+    assert verdict.whereabouts == said
 
 
 def test_points_say_before_or_after_which_fold_they_lie() -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from microslip.cli import main
+from microslip.figures.track import track_figure
 from microslip.scenes.scene_file import load_scene
 from microslip.studies.axis import axis
 from microslip.studies.track import tracked
@@ -75,3 +76,19 @@ def test_values_that_are_no_numbers_lie_in_the_order_of_the_list() -> None:
 
     names = ["A", "full"]
     assert axis("model", names, scenes) == ([0.0, 1.0], "model", names)
+
+
+@pytest.mark.parametrize(
+    ("drives", "scale"), [((0.1, 1.0, 10.0), "log"), ((1.0, 2.0, 3.0), "linear")]
+)
+def test_amplitudes_over_decades_of_a_parameter_are_drawn_by_decades(
+    drives: tuple[float, ...], scale: str
+) -> None:
+    peaks = [(drive, 134.0, 1e-3 * drive) for drive in drives]
+
+    figure = track_figure(peaks, [], "excitation.force [N]", "two-blades")
+
+    left = figure.axes[0]
+    assert left.get_yscale() == scale
+    assert left.get_ylim()[1] > drives[-1]
+    assert left.get_ylim()[0] < drives[0]

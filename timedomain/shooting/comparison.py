@@ -87,6 +87,14 @@ class Comparison:
         apart = abs(self.multiplier - self.found_multiplier)
         return apart <= self.multiplier_error + MULTIPLIER_FLOOR
 
+    @property
+    def found_stable(self) -> bool | None:
+        """Whether shooting calls the orbit stable; None if it cannot tell it from 1."""
+        outside = self.found_multiplier - 1.0
+        if abs(outside) <= self.multiplier_error + MARGIN:
+            return None
+        return outside < 0.0
+
     def worst(self) -> list[int]:
         """Return the three orders whose coefficients differ most, the worst first."""
         order = np.argsort(-self.harmonics, kind="stable")[:3]

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.modes_tables import mode_table
+from microslip.commands.modes_tables import ending_of, mode_table
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -105,20 +105,20 @@ def _run(options: argparse.Namespace) -> int:
     problem = problem_of(scene)
     state = _state(problem)
     modes: list[FollowedMode] = []
-    ending = "complete"
+    interrupted = False
     try:
         for mode in followed(problem, frequencies, chosen, _watched(chosen)):
             modes.append(mode)
-            ending = mode.ending if ending == "complete" else ending
+            interrupted = mode.ending == "interrupted"
             print("\n".join(mode_table(mode, state)), flush=True)
     except KeyboardInterrupt:
-        ending = "interrupted"
+        interrupted = True
         if not any(mode.points for mode in modes):
             raise
     if not any(mode.points for mode in modes):
-        raise ModeError(ending)
+        raise ModeError(modes[0].ending)
     _keep(options, modes, data.with_suffix(".csv"), picture)
-    return arguments.ended(ending)
+    return arguments.ended("interrupted" if interrupted else ending_of(modes))
 
 
 def _watched(chosen: ModeOptions) -> Watch:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from microslip.commands.columns import decimal
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
+    from hbm.modes.modes import NonlinearMode
     from microslip.studies.modes import FollowedMode
 
 HEADER = (
@@ -23,7 +24,6 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
     from statistics import median
 
     from microslip.mode_lines import counted
-    from microslip.studies.modes import shown_points
 
     hertz = mode.linear.frequency / math.tau
     rows = [
@@ -32,15 +32,7 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
     ]
     if not mode.points:
         return [*rows, f"it has no first point: {mode.ending}"]
-    rows.append(HEADER)
-    for point in shown_points(mode):
-        note = "  most damped" if point is mode.most_damped else ""
-        amplitude = 1e3 * point.amplitude
-        rows.append(
-            f"{decimal(amplitude, amplitude, 5, 9)} {point.frequency / math.tau:10.4f} "
-            f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
-            f"{point.damping_error:10.1e}{note}"
-        )
+    rows += [HEADER, *_point_rows(mode)]
     errors = [point.damping_error for point in mode.points]
     harmonics = _span(point.harmonics for point in mode.points)
     samples = _span(point.samples for point in mode.points)
@@ -56,7 +48,49 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
             f"from {1e3 * first.amplitude:.5g} mm on with {counted(first.harmonics)}: "
             "it does not go on with those that its error asks for"
         )
+    if broken(mode):
+        rows.append(
+            f"it ends at {1e3 * mode.points[-1].amplitude:.5g} mm: {mode.ending}"
+        )
     return rows
+
+
+def _point_rows(mode: FollowedMode) -> list[str]:
+    """Return points as lines; of a broken mode the last is not called most damped."""
+    from microslip.studies.modes import shown_points
+
+    most_damped: NonlinearMode | None = mode.most_damped
+    if broken(mode) and most_damped is mode.points[-1]:
+        most_damped = None  # it may be damped more where it does not reach
+    rows = []
+    for point in shown_points(mode):
+        most = point is most_damped
+        amplitude = 1e3 * point.amplitude
+        rows.append(
+            f"{decimal(amplitude, amplitude, 5, 9)} {point.frequency / math.tau:10.4f} "
+            f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
+            f"{point.damping_error:10.1e}{'  most damped' if most else ''}"
+        )
+    return rows
+
+
+def ending_of(modes: Sequence[FollowedMode]) -> str:
+    """Return how modes ended together: "complete", or which of them stop short."""
+    short = [mode for mode in modes if broken(mode)]
+    if not short:
+        return "complete"
+    if len(modes) == 1:
+        return short[0].ending
+    places = ", ".join(f"{mode.linear.frequency / math.tau:.4f}" for mode in short)
+    return (
+        f"{len(short)} of {len(modes)} modes cannot be followed to the end, at "
+        f"{places} Hz: their tables say why"
+    )
+
+
+def broken(mode: FollowedMode) -> bool:
+    """Return whether something else than the user ended a mode early."""
+    return mode.ending not in ("complete", "interrupted")
 
 
 def _span(counts: Iterable[int]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 
 import numpy as np
 
@@ -22,6 +23,26 @@ def abscissa(curve: ResponseCurve) -> np.ndarray:
 def abscissa_name(curve: ResponseCurve) -> str:
     """Return what stands below the axis."""
     return literal(curve.along) if curve.along else FREQUENCY
+
+
+def one_way(at: np.ndarray) -> list[slice]:
+    """Return the parts of a line on which it goes on to one side alone.
+
+    Parts that follow each other share the point at which the line turns; a gap ends a
+    part. What is filled along a line that turns would be counted twice, or not at all.
+    """
+    ways = np.sign(np.diff(at))
+    turns = [
+        place
+        for place, (before, after) in enumerate(itertools.pairwise(ways), start=1)
+        if before != after
+    ]
+    ends = [0, *turns, len(at) - 1]
+    return [
+        slice(first, last + 1)
+        for first, last in itertools.pairwise(ends)
+        if np.isfinite(at[first : last + 1]).all()
+    ]
 
 
 def parted(curve: ResponseCurve) -> ResponseCurve:

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.abscissa import abscissa, abscissa_name, parted
+from microslip.figures.abscissa import abscissa, abscissa_name, one_way, parted
 from microslip.figures.amplitude import (
     close_up,
     crowd,
@@ -168,9 +168,15 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
         ]
         for place, style in zip(pressed[: len(STYLES)], styles, strict=False):
             low, high = curve.normal_smallest[:, place], curve.normal_largest[:, place]
-            axes.fill_between(
-                abscissa(curve), low, high, color=colour, alpha=0.12, lw=0.0
-            )
+            for part in one_way(abscissa(curve)):
+                axes.fill_between(
+                    abscissa(curve)[part],
+                    low[part],
+                    high[part],
+                    color=colour,
+                    alpha=0.12,
+                    lw=0.0,
+                )
             axes.plot(
                 abscissa(curve),
                 high,

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from microslip.figures.amplitude import MARKERS
 from microslip.figures.style import (
     COLOURS,
+    SHORT,
     WIDTH,
     framed,
     headline,
@@ -72,14 +73,23 @@ def track_figure(
     right.ticklabel_format(axis="y", useOffset=False)
     widened(right, error)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
-    sizes = [1e3 * amplitude for *_, amplitude in peaks]
-    left.set_ylim(0.0, 1.06 * max(sizes) if sizes else None)
+    _amplitudes(left, [1e3 * amplitude for *_, amplitude in peaks])
     framed(right, x=literal(key), y="frequency [Hz]", title="Where it happens")
     right.legend(frameon=False)
     for axes in (left, right):
         axes.margins(x=0.04)
     headline(figure, title)
     return figure
+
+
+def _amplitudes(axes: Axes, sizes: Sequence[float]) -> None:
+    """Scale the axis of the amplitude: where both span much, by powers of ten."""
+    least, most = min(sizes, default=0.0), max(sizes, default=0.0)
+    if axes.get_xscale() == "log" and most > SHORT * least > 0.0:
+        axes.set_yscale("log")
+        plain_logarithmic(axes.yaxis)
+    else:
+        axes.set_ylim(0.0, 1.06 * most or None)
 
 
 def _abscissa(axes: Axes, values: Sequence[float], names: Sequence[str]) -> None:

@@ -16,6 +16,7 @@ from timedomain.shooting.comparison import COVERAGE, FLOOR, Comparison, compared
 
 CURVES = {"branch": "branch", "detached": "detached curve"}
 """events with which another curve begins, and what it is called"""
+UNKNOWN = "of unknown stability"
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +63,7 @@ def verdicts(
         except ShootingError as error:
             yield Verdict(response, where, None, str(error))
         else:
+            where = where.replace(UNKNOWN, _shot(comparison))
             yield Verdict(response, where, comparison, _cause(comparison, tolerance))
 
 
@@ -130,8 +132,15 @@ def _folds(responses: Sequence[PeriodicResponse], first: int) -> int:
 
 def _stability(response: PeriodicResponse) -> str:
     if response.unstable < 0:
-        return "of unknown stability"
+        return UNKNOWN
     return "unstable" if response.unstable else "stable"
+
+
+def _shot(comparison: Comparison) -> str:
+    """Return what shooting says of the stability, as far as its multipliers tell."""
+    if comparison.found_stable is None:
+        return UNKNOWN
+    return f"{'stable' if comparison.found_stable else 'unstable'} by shooting"
 
 
 def _side(folds: int, total: int) -> str:

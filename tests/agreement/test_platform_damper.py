@@ -1,5 +1,7 @@
 """A wedge under a blade's platform, which nothing but two frictional contacts holds."""
 
+import functools
+
 import pytest
 
 from microslip.scenes.rigs import problem_of
@@ -12,6 +14,7 @@ AT_ITS_LIMIT, SLIDING = 285.6, 288.5
 """frequencies [Hz]: the wedge has slipped until it no longer does; it slips"""
 
 
+@functools.cache
 def traced(frequency: float, *overrides: str) -> tuple[Problem, Traced]:
     span = f"curve.lowest={frequency}", f"curve.highest={frequency + 0.01}"
     scene = load_scene("platform-damper", (*span, *overrides))

@@ -8,9 +8,8 @@ difference of the largest first harmonic is the true error. A line for each curv
 points, the share whose told error covers the true one, the smallest and the median
 ratio of told to true error where either is above :data:`DIGITS`, and the largest of
 both. Points that have no such solution, as beyond a fold that more harmonics move, are
-left out, and counted. The exit
-status is 1 if the told errors of a curve by :data:`USUAL` cover less than
-:data:`LEAST`.
+left out, and counted. The exit status is 1 if the told errors of a curve by
+:data:`USUAL` cover less than :data:`LEAST`.
 """
 
 from __future__ import annotations

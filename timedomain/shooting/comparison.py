@@ -89,7 +89,7 @@ class Comparison:
 
     @property
     def found_stable(self) -> bool | None:
-        """Whether shooting calls the orbit stable; None if it cannot tell it from 1."""
+        """Whether shooting calls the orbit stable; None where its error leaves that."""
         outside = self.found_multiplier - 1.0
         if abs(outside) <= self.multiplier_error + MARGIN:
             return None

@@ -161,24 +161,20 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
 
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the range of normal forces at the points of each face."""
-    styles = itertools.cycle(STYLES)
+    styles, at = itertools.cycle(STYLES), abscissa(curve)
+    parts = one_way(at)
     for colour, places in zip(COLOURS, faces(curve.contacts).values(), strict=False):
         pressed = [
             place for place in places if _largest(curve.normal_largest[:, place])
         ]
         for place, style in zip(pressed[: len(STYLES)], styles, strict=False):
             low, high = curve.normal_smallest[:, place], curve.normal_largest[:, place]
-            for part in one_way(abscissa(curve)):
+            for part in parts:
                 axes.fill_between(
-                    abscissa(curve)[part],
-                    low[part],
-                    high[part],
-                    color=colour,
-                    alpha=0.12,
-                    lw=0.0,
+                    at[part], low[part], high[part], color=colour, alpha=0.12, lw=0.0
                 )
             axes.plot(
-                abscissa(curve),
+                at,
                 high,
                 style,
                 color=colour,

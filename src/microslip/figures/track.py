@@ -83,7 +83,7 @@ def track_figure(
 
 
 def _amplitudes(axes: Axes, sizes: Sequence[float]) -> None:
-    """Scale the axis of the amplitude: where both span much, by powers of ten."""
+    """Scale the axis of the amplitude, like the parameter's where it spans much."""
     least, most = min(sizes, default=0.0), max(sizes, default=0.0)
     if axes.get_xscale() == "log" and most > SHORT * least > 0.0:
         axes.set_yscale("log")

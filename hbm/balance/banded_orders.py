@@ -11,9 +11,6 @@ from scipy.linalg import lapack
 from hbm.balance.iterated import UnreachedError
 from microslip_mechanics.arrays import Array, ComplexArray
 
-WIDTH = 8
-"""difference of two orders up to which their coupling is kept"""
-
 
 class Band(NamedTuple):
     """Where what couples orders of one difference lies in a banded matrix."""
@@ -37,16 +34,17 @@ class BandedOrders:
     orders of the tangents and left out.
     """
 
-    def __init__(self, wanted: NDArray[np.bool_], first: int) -> None:
+    def __init__(self, wanted: NDArray[np.bool_], first: int, width: int) -> None:
         """Plan for the coordinates that are ``wanted`` in each order from ``first`` on.
 
-        ``wanted`` has shape ``(orders, rank)``.
+        ``wanted`` has shape ``(orders, rank)``; the coupling of two orders is kept up
+        to a difference of ``width``.
         """
         self._first, self._wanted = first, wanted
         self._both = wanted.repeat(2, axis=0)
         places = np.cumsum(wanted.ravel()).reshape(wanted.shape) - 1
         self._count = int(wanted.sum())
-        most = min(WIDTH, len(wanted) - 1)
+        most = min(width, len(wanted) - 1)
         pairs = [_pairs(wanted, places, each) for each in range(-most, most + 1)]
         # orders of another parity may have no coordinate
         self._reach = max(
@@ -80,7 +78,7 @@ class BandedOrders:
             Dynamic stiffness of the orders, shape ``(orders, rank, rank)``.
         stiffness, damping
             Coefficients of the tangents, shape ``(rank, rank, 2 · most + 1)``, of at
-            least :data:`WIDTH` orders.
+            least as many orders as are coupled.
         frequency
             Of the excitation [rad/s].
 

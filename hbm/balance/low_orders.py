@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,32 +16,45 @@ from microslip_mechanics.arrays import Array, ComplexArray
 
 LARGE = 1200
 """unknowns from which on iterations cost less than factors of all orders"""
-MANY, LEAST = 800, 31
-"""unknowns whose factors cost as much as their iterations, and harmonics that are
-factored however many unknowns they have"""
+MANY = 800
+"""unknowns whose factors cost as much as their iterations"""
+
+
+class Split(NamedTuple):
+    """How orders are taken apart."""
+
+    least: int
+    """harmonics that are factored however many unknowns they have"""
+    width: int
+    """difference of two of the other orders up to which their coupling is kept"""
+
+
+USUAL, RECALLED = Split(31, 8), Split(7, 4)
+"""the second beside contacts that remember, which jam no motion"""
 
 
 class LowOrders:
     """Takes a Jacobian apart into low orders and the others."""
 
-    def __init__(self, active: NDArray[np.bool_]) -> None:
+    def __init__(self, active: NDArray[np.bool_], split: Split = USUAL) -> None:
         """Plan for ``active`` coefficients, shape (2H + 1, rank)."""
         self._active, harmonics = active, len(active) // 2
         low = max((harmonics - 1) // 2, 1)
-        while low > LEAST and _count(active, low) > MANY:
-            low = max((low - 1) // 2, LEAST)
+        while low > split.least and _count(active, low) > MANY:
+            low = max((low - 1) // 2, split.least)
         self._harmonics = low
         self._terms = terms(active[: 2 * low + 1])
         self._unknowns = np.flatnonzero(active)
         self._places = np.where(active, 0, -1)
-        self._high = BandedOrders(active[2 * low + 1 :: 2], low + 1)
+        self._corner = _numbered(active[: 2 * low + 1])
+        self._high = BandedOrders(active[2 * low + 1 :: 2], low + 1, split.width)
 
     @staticmethod
-    def serve(active: NDArray[np.bool_], samples: int) -> bool:
+    def serve(active: NDArray[np.bool_], samples: int, split: Split = USUAL) -> bool:
         """Return whether taking it apart is likely to cost less than all factors."""
         unknowns, rank = np.count_nonzero(active), active.shape[1]
         held = 2 * rank**2 * samples  # tangents, in place of the Jacobian
-        large = unknowns > LARGE and len(active) // 2 > 2 * LEAST
+        large = unknowns > LARGE and len(active) // 2 > 2 * split.least
         return bool(large and held <= unknowns**2)
 
     def parts(
@@ -54,7 +69,7 @@ class LowOrders:
         Parameters
         ----------
         contact
-            Without memory.
+            Not rigid.
         stiffness
             Of the structure in each order, shape ``(H + 1, rank, rank)``.
         frequency
@@ -71,9 +86,13 @@ class LowOrders:
             frequency,
             self._terms,
         )
-        touched = contact.touched(self._places)
+        touched, remembered = contact.touched(self._places), contact.remembered()
         if touched is not None:
             corner += touched.up_to(len(corner)).matrix
+        if remembered is not None:
+            contact.add_remembered(self._corner, corner)
+            series = remembered.series(2 * low)
+            tangents = tangents[0] + series[0], tangents[1] + series[1]
         high = self._high.factored(stiffness[low + 1 :], *tangents, frequency)
 
         def times(step: Array) -> Array:
@@ -81,10 +100,17 @@ class LowOrders:
             moved.ravel()[self._unknowns] = step
             felt = (stiffness @ to_complex(moved)[..., None])[..., 0]
             changed = to_real(felt) + product(moved, frequency)
+            if remembered is not None:
+                changed += remembered.product(moved)
             forces: Array = changed.ravel()[self._unknowns]
             return forces if touched is None else forces + touched.product(step)
 
         return Parts(times, corner, high.solve, slope)
+
+
+def _numbered(active: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Return which unknown each active coefficient is, −1 for the others."""
+    return np.where(active, active.cumsum().reshape(active.shape) - 1, -1)
 
 
 def _count(active: NDArray[np.bool_], harmonics: int) -> int:

@@ -14,12 +14,13 @@ from hbm.balance.iterated import Parts
 from hbm.balance.jacobian import assemble, terms
 from hbm.balance.linear_balance import LinearBalance
 from hbm.balance.linearisation import Linearisation
-from hbm.balance.low_orders import LowOrders
+from hbm.balance.low_orders import RECALLED, USUAL, LowOrders
 from hbm.balance.relative import RelativeProblem
 from hbm.forces.contact_cycle import ContactCycle
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
 from hbm.forces.memory import marched
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.points import PUSHED
 
 
 class HarmonicBalance:
@@ -50,11 +51,13 @@ class HarmonicBalance:
         self._terms = terms(self._active)
         self._places = np.full(shape, -1)
         self._places[self._active] = np.arange(self._terms.unknowns.size)
-        iterates = LowOrders.serve(self._active, fourier.samples)
-        remembers = bool(marched(problem.points).any())
-        iterates &= not remembers
+        which = marched(problem.points)
+        remembers, pushed = bool(which.any()), problem.points.friction == PUSHED
+        split = RECALLED if remembers else USUAL
+        iterates = LowOrders.serve(self._active, fourier.samples, split)
+        iterates &= not (which & pushed).any()
         self._separable = self.rank if remembers else 0
-        self._low = LowOrders(self._active) if iterates else None
+        self._low = LowOrders(self._active, split) if iterates else None
 
     def with_problem(self, problem: RelativeProblem) -> HarmonicBalance:
         """Return the same for other contacts and loads in the same coordinates.

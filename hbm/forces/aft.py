@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hbm.forces.contact_cycle import ContactCycle, contact_cycle
 from hbm.forces.fourier import FourierBasis
 from hbm.forces.memory import FrictionMemory, marched
+from hbm.forces.remembered import Remembered
 from hbm.forces.sampled_tangents import SampledTangents
 from hbm.forces.sampling import sample
 from hbm.forces.symmetry import Symmetry, still_holds, symmetry
@@ -171,13 +172,19 @@ class AlternatingFrequencyTime:
     def add_remembered(self, places: NDArray[np.int64], jacobian: Array) -> None:
         """Add ∂force/∂y of the last call by what the contacts remember.
 
-        ``places``, shape ``(2H + 1, rank)``, are the rows and columns of the
+        ``places``, shape ``(2h + 1, rank)`` with h ≤ H, are the rows and columns of the
         coefficients in ``jacobian``; negative ones are left out.
         """
         if self._memory is not None:
             self._memory.add_jacobian(
                 self._points, self._moved, self._frequency, places, jacobian
             )
+
+    def remembered(self) -> Remembered | None:
+        """Return what multiplies by that derivative; None if nothing remembers."""
+        if self._memory is None:
+            return None
+        return self._memory.remembered(self._points, self._moved, self._frequency)
 
     def small_tangents(self, order: int = 1) -> tuple[Array, Array]:
         """Return what a small motion about that of the last call feels in the mean.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.forces.fourier import Transform
 from microslip_mechanics.arrays import Array
@@ -33,6 +34,7 @@ class TangentProduct:
             where all samples are given.
         """
         self._tangents, self._samples, self._signs = tangents, samples, signs
+        self._linked: NDArray[np.bool_] = (tangents != 0.0).any(axis=(0, 3))
 
     def __call__(self, coefficients: Array, frequency: float) -> Array:
         """Return the change of the force [N] with that of the motion [m].
@@ -46,7 +48,8 @@ class TangentProduct:
         turning = frequency * np.arange(1, len(coefficients) // 2 + 1)[:, None]
         series[1::2, rank:] = turning * coefficients[2::2]
         series[2::2, rank:] = -turning * coefficients[1::2]
-        _multiply(self._tangents, motion.synthesis(series), self._signs, force.samples)
+        moved = motion.synthesis(series)
+        _multiply(self._tangents, self._linked, moved, self._signs, force.samples)
         return force.analysis(len(coefficients) // 2)
 
 
@@ -57,12 +60,21 @@ def _buffers(rank: int, samples: int) -> tuple[Transform, Transform]:
 
 
 @kernel
-def _multiply(tangents: Array, moved: Array, signs: Array, force: Array) -> None:
-    """Write what changes of displacement and velocity, (2 rank, samples), make."""
+def _multiply(
+    tangents: Array,
+    linked: NDArray[np.bool_],
+    moved: Array,
+    signs: Array,
+    force: Array,
+) -> None:
+    """Write what changes of displacement and velocity, (2 rank, samples), make.
+
+    ``linked`` says which coordinates see each other, shape ``(rank, rank)``.
+    """
     rank, seen = tangents.shape[1], tangents.shape[3]
     for row in range(rank):
         force[row] = 0.0
-        for column in range(rank):
+        for column in np.flatnonzero(linked[row]):
             for place in range(seen):
                 force[row, place] += (
                     tangents[0, row, column, place] * moved[column, place]

@@ -16,10 +16,15 @@ from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.curves.homotopy import approaches
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
+from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
+from hbm.solve import frequency_response
+from lap_joint import lap_joint
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
+from microslip_mechanics.laws.elastic_friction import ElasticFriction
+from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from rigs import rig_problem
@@ -145,6 +150,86 @@ def test_products_where_faces_part_are_those_of_the_jacobian() -> None:
     corner = linearised.jacobian[:low, :low]
     assert np.abs(parts.corner - corner).max() <= 1e-11 * np.abs(corner).max()
     assert balance.contact.touched(places) is not None
+
+
+@lru_cache(maxsize=4)
+def remembering(name: str) -> Case:
+    """Return contacts that remember, and a motion near a response of them."""
+    made = {
+        # its outer half lies where friction alone holds it along the beam
+        "joint": lambda: lap_joint(pairs=5, bolts=2e4, drive=1.0),
+        "joint that opens": lambda: lap_joint(pairs=5, bolts=1e3, drive=1.0),
+        "both tangents": _pads,
+    }
+    problem, frequency = made[name](), 2.0 * np.pi * 26.9
+    rest = static_equilibrium(problem)
+    path = along_frequency(problem, rest, frequency, 1.01 * frequency)
+    balance = path.balance(FOURIER)
+    options = CurveOptions(
+        frequency, 1.01 * frequency, harmonics=7, events=False, stability=False
+    )
+    known = next(frequency_response(problem, rest, options))
+    point = balance.point(known.seen(balance.problem.selection), frequency)
+    return Case(balance, point, np.flatnonzero(path.mask(FOURIER.harmonics)))
+
+
+def _pads() -> Problem:
+    """Return masses that slide about on the ground, pressed by springs."""
+    names = [f"{axis}{mass}" for mass in range(4) for axis in "zxy"]
+    law = ElasticFriction(normal_stiffness=4e4, stiffness=2e4, mu=0.5)
+    chain = 2.0 * np.eye(4) - np.eye(4, k=1) - np.eye(4, k=-1)
+    return system(
+        mass=np.ones(12),
+        stiffness=np.kron(1e4 * chain, np.eye(3)) + np.diag([2e4, 1e4, 1e4] * 4),
+        names=names,
+        damping_ratio=0.01,
+        elements=[
+            Element(
+                law,
+                normal=(f"z{mass}", "ground"),
+                tangents=[(f"{axis}{mass}", "ground") for axis in "xy"],
+                name=f"pad {mass}",
+            )
+            for mass in range(4)
+        ],
+        preload={f"z{mass}": 20.0 for mass in range(4)},
+        drive={"x0": 30.0, "y1": (0.0, 30.0), "z2": 30.0},
+    )
+
+
+REMEMBERING = ("joint", "joint that opens", "both tangents")
+
+
+@pytest.mark.parametrize("name", REMEMBERING)
+def test_products_of_what_remembers_are_those_of_the_jacobian(name: str) -> None:
+    balance, point, unknowns = remembering(name)
+    _, linearised = balance(point)
+    assert linearised.parts is not None
+    parts = linearised.parts()
+    step = np.random.default_rng(8).standard_normal(unknowns.size)
+
+    found, expected = parts.product(step), linearised.jacobian @ step
+
+    assert np.abs(found - expected).max() <= 1e-11 * np.abs(expected).max()
+    low = len(parts.corner)
+    corner = linearised.jacobian[:low, :low]
+    assert np.abs(parts.corner - corner).max() <= 1e-11 * np.abs(corner).max()
+
+
+@pytest.mark.parametrize("name", REMEMBERING)
+def test_what_remembers_is_solved_by_iteration(name: str) -> None:
+    balance, point, unknowns = remembering(name)
+    residual, linearised = balance(point)
+    unit = np.zeros(point.size)
+    unit[-1] = 1.0
+    right = np.append(residual, 0.0)
+
+    found = linearised.solve(unit, right)
+
+    assert linearised.parts is not None
+    expected = np.linalg.solve(linearised.jacobian, residual[unknowns])
+    away = np.linalg.norm(found[unknowns] - expected)
+    assert away <= 1e-3 * np.linalg.norm(expected)
 
 
 def test_what_takes_too_many_products_is_solved_by_factors(

@@ -176,7 +176,9 @@ def remembering(name: str) -> Case:
 def _pads() -> Problem:
     """Return masses that slide about on the ground, pressed by springs."""
     names = [f"{axis}{mass}" for mass in range(4) for axis in "zxy"]
-    law = ElasticFriction(normal_stiffness=4e4, stiffness=2e4, mu=0.5)
+    law = ElasticFriction(
+        normal_stiffness=4e4, normal_damping=1e5, stiffness=2e4, mu=0.5
+    )
     chain = 2.0 * np.eye(4) - np.eye(4, k=1) - np.eye(4, k=-1)
     return system(
         mass=np.ones(12),

@@ -16,20 +16,20 @@ from microslip_mechanics.arrays import Array, ComplexArray
 
 LARGE = 1200
 """unknowns from which on iterations cost less than factors of all orders"""
-MANY = 800
-"""unknowns whose factors cost as much as their iterations"""
 
 
 class Split(NamedTuple):
     """How orders are taken apart."""
 
+    many: int
+    """unknowns whose factors cost as much as their iterations"""
     least: int
     """harmonics that are factored however many unknowns they have"""
     width: int
     """difference of two of the other orders up to which their coupling is kept"""
 
 
-USUAL, RECALLED = Split(31, 8), Split(7, 4)
+USUAL, RECALLED = Split(800, 31, 8), Split(400, 7, 4)
 """the second beside contacts that remember, which jam no motion"""
 
 
@@ -40,7 +40,7 @@ class LowOrders:
         """Plan for ``active`` coefficients, shape (2H + 1, rank)."""
         self._active, harmonics = active, len(active) // 2
         low = max((harmonics - 1) // 2, 1)
-        while low > split.least and _count(active, low) > MANY:
+        while low > split.least and _count(active, low) > split.many:
             low = max((low - 1) // 2, split.least)
         self._harmonics = low
         self._terms = terms(active[: 2 * low + 1])

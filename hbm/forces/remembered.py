@@ -7,6 +7,7 @@ is a tangent like any other, the latter a few numbers in a period.
 
 from __future__ import annotations
 
+import itertools
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -42,7 +43,9 @@ class Remembered:
         self._now = np.stack([each.now for each in gradients])
         self._rate = np.stack([each.rate for each in gradients])
         self._run = np.stack([each.run for each in gradients])
-        self._rest = [_rest(each) for each in loops]
+        self._rest = _rests(loops)
+        self._directions = np.flatnonzero(self._seen.any(axis=1))
+        self._damped = bool(self._rate.any())
 
     def product(self, coefficients: Array) -> Array:
         """Return the change of the force [N] with that of the motion [m].
@@ -52,13 +55,18 @@ class Remembered:
         seen: Array = coefficients @ self._seen.T
         seen[0] = self._mean @ coefficients[0]
         points, samples = self._run.shape
-        motion, traction = _buffers(points, samples)
-        before = np.zeros((points, samples + 1, 2))
-        for point, rest in enumerate(self._rest):
-            moved = seen[:, 3 * point : 3 * point + 3]
-            before[point, : len(rest)] = np.tensordot(rest, moved.T, 2)
-        moved = motion.synthesis(np.hstack([seen, derivative(seen)]))
-        _multiply(self._now, self._rate, self._run, before, moved, traction.samples)
+        before = self._rest @ seen.T.reshape(points, -1, 1)
+        series = seen[:, self._directions]
+        if self._damped:
+            series = np.hstack([series, derivative(series)])
+        motion, traction = _buffers(series.shape[1], 2 * points, samples)
+        _multiply(
+            (self._now, self._rate, self._run),
+            before.reshape(points, -1, 2),
+            motion.synthesis(series),
+            self._directions,
+            traction.samples,
+        )
         force: Array = traction.analysis(len(coefficients) // 2) @ self._acts
         return force
 
@@ -79,20 +87,22 @@ class Remembered:
         return both[0], both[1] / self._frequency
 
 
-def _rest(loop: Loop) -> Array:
-    """Return the derivatives by what came before, shape (runs, 2, 3, 2H + 1)."""
-    runs = int(loop.gradient.run.max()) + 1
-    rest = loop.gradient.rest[:runs].copy()
-    still = ~(loop.seen != 0.0).any(axis=1)
-    rest[:, still[1:]] = 0.0
-    rest[:, :, still] = 0.0
-    return rest
+def _rests(loops: list[Loop]) -> Array:
+    """Return the derivatives by what came before, (points, 2 runs, 3 (2H + 1))."""
+    runs = max(int(each.gradient.run.max()) + 1 for each in loops)
+    made = np.zeros((len(loops), runs, 2, 3, loops[0].gradient.rest.shape[3]))
+    for filled, loop in zip(made, loops, strict=True):
+        moves = (loop.seen != 0.0).any(axis=1)
+        kept = int(loop.gradient.run.max()) + 1
+        for row, column in itertools.product(*map(np.flatnonzero, (moves[1:], moves))):
+            filled[:kept, row, column] = loop.gradient.rest[:kept, row, column]
+    return made.reshape(len(loops), 2 * runs, -1)
 
 
 @lru_cache(maxsize=8)
-def _buffers(points: int, samples: int) -> tuple[Transform, Transform]:
-    """Return room for displacement and slope, and for the tractions."""
-    return Transform(6 * points, samples), Transform(2 * points, samples)
+def _buffers(motions: int, tractions: int, samples: int) -> tuple[Transform, Transform]:
+    """Return room for the motions, their slopes too if they count, and tractions."""
+    return Transform(motions, samples), Transform(tractions, samples)
 
 
 _factors = lru_cache(maxsize=8)(Transform)
@@ -100,24 +110,29 @@ _factors = lru_cache(maxsize=8)(Transform)
 
 @kernel
 def _multiply(
-    now: Array,
-    rate: Array,
-    run: NDArray[np.int64],
+    gradient: tuple[Array, Array, NDArray[np.int64]],
     before: Array,
     moved: Array,
+    directions: NDArray[np.int64],
     traction: Array,
 ) -> None:
-    """Write the tractions, (2 points, samples), of displacements and their slopes."""
-    points, samples = run.shape
-    for point in range(points):
+    """Write the tractions, shape (2 points, samples), of displacements and slopes.
+
+    ``gradient`` are now, rate and run, ``directions`` those of the displacements; the
+    slopes lie behind these, or are left out.
+    """
+    now, rate, run = gradient
+    count, samples = directions.size, run.shape[1]
+    for row in range(len(traction)):
+        for place in range(samples):
+            traction[row, place] = before[row // 2, run[row // 2, place], row % 2]
+    for there in range(count):
+        point, column = divmod(directions[there], 3)
         for row in range(2):
             made = traction[2 * point + row]
             for place in range(samples):
-                made[place] = before[point, run[point, place], row]
-            for column in range(3):
-                there, slope = 3 * point + column, 3 * (points + point) + column
+                made[place] += now[point, row, column, place] * moved[there, place]
+            if len(moved) > count:
+                slope = moved[count + there]
                 for place in range(samples):
-                    made[place] += (
-                        now[point, row, column, place] * moved[there, place]
-                        + rate[point, row, column, place] * moved[slope, place]
-                    )
+                    made[place] += rate[point, row, column, place] * slope[place]

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.forces.fourier import Transform
+from hbm.forces.fourier import Transform, derivative
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
 
@@ -34,7 +34,9 @@ class TangentProduct:
             where all samples are given.
         """
         self._tangents, self._samples, self._signs = tangents, samples, signs
-        self._linked: NDArray[np.bool_] = (tangents != 0.0).any(axis=(0, 3))
+        used: NDArray[np.bool_] = (tangents != 0.0).any(axis=3)
+        self._linked: NDArray[np.bool_] = used.any(axis=0)
+        self._damped = bool(used[1].any())
 
     def __call__(self, coefficients: Array, frequency: float) -> Array:
         """Return the change of the force [N] with that of the motion [m].
@@ -42,21 +44,19 @@ class TangentProduct:
         Both have shape ``(2H + 1, rank)``; ``frequency`` is in rad/s.
         """
         rank = coefficients.shape[1]
-        motion, force = _buffers(rank, self._samples)
-        series = np.zeros((len(coefficients), 2 * rank))
-        series[:, :rank] = coefficients
-        turning = frequency * np.arange(1, len(coefficients) // 2 + 1)[:, None]
-        series[1::2, rank:] = turning * coefficients[2::2]
-        series[2::2, rank:] = -turning * coefficients[1::2]
+        series = coefficients
+        if self._damped:
+            series = np.hstack([series, frequency * derivative(series)])
+        motion, force = _buffers(series.shape[1], rank, self._samples)
         moved = motion.synthesis(series)
         _multiply(self._tangents, self._linked, moved, self._signs, force.samples)
         return force.analysis(len(coefficients) // 2)
 
 
 @lru_cache(maxsize=8)
-def _buffers(rank: int, samples: int) -> tuple[Transform, Transform]:
-    """Return room for displacement and velocity, and for the force."""
-    return Transform(2 * rank, samples), Transform(rank, samples)
+def _buffers(motions: int, rank: int, samples: int) -> tuple[Transform, Transform]:
+    """Return room for displacements, velocities too if they count, and the force."""
+    return Transform(motions, samples), Transform(rank, samples)
 
 
 @kernel
@@ -69,7 +69,8 @@ def _multiply(
 ) -> None:
     """Write what changes of displacement and velocity, (2 rank, samples), make.
 
-    ``linked`` says which coordinates see each other, shape ``(rank, rank)``.
+    Velocities are left out where they make nothing. ``linked`` says which coordinates
+    see each other, shape ``(rank, rank)``.
     """
     rank, seen = tangents.shape[1], tangents.shape[3]
     for row in range(rank):
@@ -78,7 +79,12 @@ def _multiply(
             for place in range(seen):
                 force[row, place] += (
                     tangents[0, row, column, place] * moved[column, place]
-                    + tangents[1, row, column, place] * moved[rank + column, place]
+                )
+            if moved.shape[0] == rank:
+                continue
+            for place in range(seen):
+                force[row, place] += (
+                    tangents[1, row, column, place] * moved[rank + column, place]
                 )
         for place in range(seen, force.shape[1]):
             force[row, place] = signs[row] * force[row, place - seen]

@@ -35,7 +35,7 @@ class TangentProduct:
         """
         self._tangents, self._samples, self._signs = tangents, samples, signs
         used: NDArray[np.bool_] = (tangents != 0.0).any(axis=3)
-        self._linked: NDArray[np.bool_] = used.any(axis=0)
+        self._linked: NDArray[np.bool_] = used[0] | used[1]
         self._damped = bool(used[1].any())
 
     def __call__(self, coefficients: Array, frequency: float) -> Array:

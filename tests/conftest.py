@@ -119,6 +119,17 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
+def blank_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Write pictures with nothing on them, where it does not matter what they show."""
+
+    def blank(*_: object) -> Figure:
+        return Figure()
+
+    for name in ("figures.result.result_figure", "figures.curve.curve_figure"):
+        monkeypatch.setattr(f"microslip.{name}", blank)
+
+
+@pytest.fixture
 def axes() -> Axes:
     """Return axes without a screen."""
     return Figure().subplots()

@@ -217,6 +217,7 @@ def test_file_holds_the_scene_with_its_overrides(
     assert stored.scene == f"{quick_scene.read_text()}\n# --set contact.sigma=3e-7"
 
 
+@pytest.mark.usefixtures("blank_picture")
 @pytest.mark.parametrize(
     ("chosen", "name"),
     [
@@ -238,6 +239,7 @@ def test_results_go_where_they_are_wanted(
     assert (tmp_path / f"{name}.png").is_file()
 
 
+@pytest.mark.usefixtures("blank_picture")
 @pytest.mark.parametrize("chosen", ["", ".", "results", "results/"])
 def test_results_in_a_folder_have_the_name_of_the_scene(
     chosen: str, run: Run, quick_scene: Path, tmp_path: Path

@@ -95,6 +95,7 @@ def whole_and_part(
     return words
 
 
+@pytest.mark.usefixtures("blank_picture")
 @pytest.mark.parametrize(
     "torn", [0, *(pytest.param(torn, marks=pytest.mark.long) for torn in (3, 997))]
 )

@@ -30,6 +30,7 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.forces.fourier import FourierBasis, Transform
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
+from lap_joint import lap_joint
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.problem import Problem
@@ -44,7 +45,7 @@ NOISE = 0.1
 SLOWEST = 0.15
 """of one Newton iteration of the full rig with 63 harmonics [s]"""
 HARMONICS = (1, 2, 4, 8, 16, 32, 48, 63)
-MANY = (127, 255, 511)
+MANY, JOINT = (127, 255, 511), (31, 63, 95)
 SAMPLES = (64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384)
 POINTS = (2, 4, 8, 16, 32, 64, 128, 256, 512)
 CONTACTS = (2, 4, 8, 16, 32, 64)
@@ -90,6 +91,7 @@ def main() -> int:
     tables = [
         by_harmonics(rig),
         by_many_harmonics(rig),
+        by_joint(),
         by_samples(rig),
         by_points(),
         by_contacts(),
@@ -125,20 +127,29 @@ def by_harmonics(problem: Problem) -> Sizes:
 
 def by_many_harmonics(problem: Problem) -> Sizes:
     """Measure it beyond, where faces jam; by factors of all orders too."""
-    table = Sizes(
-        "full rig near its peak, 8 (H + 1) samples",
-        "harmonics H",
-        ("Newton [ms]", "by factors [ms]"),
-        (2.5, None),
-    )
-    case, large = Case(problem, 134.9 * HERTZ), hbm.balance.low_orders.LARGE
-    for harmonics in MANY:
+    title = "full rig near its peak, 8 (H + 1) samples"
+    return both_ways(title, Case(problem, 134.9 * HERTZ), MANY)
+
+
+def by_joint() -> Sizes:
+    """Measure a bolted joint, whose contacts remember, likewise."""
+    case = Case(lap_joint(pairs=20, bolts=2e4, drive=2.0), 26.6 * HERTZ)
+    title = "lap joint of 20 pairs near its peak, 8 (H + 1) samples"
+    return both_ways(title, case, JOINT)
+
+
+def both_ways(title: str, case: Case, wanted: Sequence[int]) -> Sizes:
+    """Measure iterations and factors of all orders, by harmonics."""
+    columns = "Newton [ms]", "peak memory [MB]", "by factors [ms]", "its memory [MB]"
+    table = Sizes(title, "harmonics H", columns, (2.5, None, None, None))
+    large = hbm.balance.low_orders.LARGE
+    for harmonics in wanted:
         samples = 8 * (harmonics + 1)
-        iterated, _, _ = case.costs(harmonics, samples)
+        iterated, _, held = case.costs(harmonics, samples)
         hbm.balance.low_orders.LARGE = sys.maxsize
-        factored, _, _ = case.costs(harmonics, samples)
+        factored, _, filled = case.costs(harmonics, samples)
         hbm.balance.low_orders.LARGE = large
-        table.add(harmonics, iterated, factored)
+        table.add(harmonics, iterated, held, factored, filled)
     return table
 
 

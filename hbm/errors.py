@@ -27,14 +27,18 @@ class ContinuationError(MicroslipError):
 
     def with_remedy(self, remedy: str) -> ContinuationError:
         """Return the error with another thing to try."""
-        return ContinuationError(f"{self._text}; {remedy}", self.parameter)
+        return type(self)(f"{self._text}; {remedy}", self.parameter)
 
     def placed(self, name: Callable[[float], str]) -> ContinuationError:
         """Return the error with the place named by a function of the parameter."""
         if self.parameter is None:
             return self
         text = self._text.replace(PLACE, name(self.parameter))
-        return ContinuationError(text, self.parameter)
+        return type(self)(text, self.parameter)
+
+
+class UnboundedError(ContinuationError):
+    """The curve goes on for ever: no restart would lead past that."""
 
 
 @contextlib.contextmanager

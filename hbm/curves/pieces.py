@@ -12,10 +12,11 @@ from hbm.continuation.cornered import REMEMBERED, Cornered
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
+from hbm.curves.bounded import bounded
 from hbm.curves.grown_drive import Resolved
 from hbm.curves.restart import FIRST, LEAPS, Beginning, Restart
-from hbm.errors import PLACE, ContinuationError
-from hbm.paths.path import Path
+from hbm.errors import PLACE, ContinuationError, UnboundedError
+from hbm.paths.path import AlongFrequency, Path
 from hbm.paths.path_metric import path_metric
 from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array
@@ -149,6 +150,8 @@ class Pieces:
                 for correction in self._cornered(begun, heading):
                     way.append(correction)
                     yield correction
+            except UnboundedError:
+                raise
             except ContinuationError:
                 heading = self._onwards(way[-1] if way else None, heading)
                 again = self.restart.finer(way, begun.control)
@@ -161,8 +164,8 @@ class Pieces:
                 return
 
     def _cornered(self, begun: Beginning, heading: float) -> Iterator[Correction]:
-        """Yield corrections of one piece, round its corners."""
-        yield from Cornered(
+        """Yield corrections of one piece, round its corners, while it is bounded."""
+        piece = Cornered(
             self.system,
             begun.guess,
             heading,
@@ -172,6 +175,8 @@ class Pieces:
             self.system,
             begun.direction,
         )
+        along_frequency = isinstance(self.path, AlongFrequency)
+        yield from bounded(piece, self.path.rank) if along_frequency else piece
 
     def _onwards(self, last: Correction | None, heading: float) -> float:
         """Return the end of the range to which the curve was going."""

@@ -54,6 +54,17 @@ def test_frequency_response_shows_absolute_motions_in_millimetres(
     assert axes.get_ylim()[0] == 0.0
 
 
+def test_a_curve_that_nothing_bounds_is_drawn_by_decades(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    small_curve = unmarked(small_curve)
+    small_curve.amplitude[2] *= 1e8
+
+    frequency_response(axes, small_curve)
+
+    assert axes.get_yscale() == "log"
+
+
 def test_curve_that_folds_back_is_drawn_as_it_was_traced(
     axes: Axes, small_curve: ResponseCurve
 ) -> None:

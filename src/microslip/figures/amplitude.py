@@ -30,6 +30,8 @@ NEAR = 0.07
 """of both axes, by which what is located is apart at least, to be told apart well"""
 FLAT = 1e-3
 """of an amplitude, that a close-up of it shows above and below at least"""
+STEEP = 1e6
+"""largest amplitude over the smallest, from which on a curve is nothing but a spike"""
 BESIDE = 0.5
 """of what is located, that a close-up shows to either side of it"""
 
@@ -63,7 +65,11 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
     )
     _unstable(axes, curve)
     _events(axes, curve)
-    from_nothing(axes)
+    highest = _highest(curve)
+    if np.nanmax(highest) > STEEP * np.nanmin(highest) > 0.0:
+        axes.set_yscale("log")
+    else:
+        from_nothing(axes)
     axes.legend(frameon=False)
 
 

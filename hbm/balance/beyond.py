@@ -6,12 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.balance.linearisation import Linearisation
 from hbm.balance.refined import Refined, Resolved
 from hbm.forces.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
 
 REACH = 31
 """harmonics that are looked at, at the least"""
+AGAIN = 2.0
+"""times what an octave changes: all others may change as much, as where each has a mode
+that an order meets"""
 
 
 def wider(fourier: FourierBasis) -> FourierBasis:
@@ -43,11 +47,37 @@ def answered(
         As that of the steps.
     """
     last, low = made.corrected, rank * fourier.coefficients
-    more = rank * wider(fourier).coefficients - low
-    point = np.concatenate([last[:low], np.zeros(more), last[-1:]])
+    point = _widened(last, fourier, rank)
     residual = system.residual(point)
     step = system.answer(point, residual, fourier.harmonics)
     change = np.zeros_like(last)
     change[:low] = (system.residual(point + step) - residual)[:low]
     stepped: Array = last - made.slope.solve(normal, change)
     return stepped
+
+
+def stepped(
+    system: Resolved, made: Refined, fourier: FourierBasis, rank: int, normal: Array
+) -> Array | None:
+    """Return the point once orders beyond have moved it, and others as far again.
+
+    That is two Newton steps with all of them, where iterations give one; nothing where
+    factors would have to. Parameters are those of :func:`answered`.
+    """
+    low = rank * fourier.coefficients
+    point, border = (_widened(each, fourier, rank) for each in (made.corrected, normal))
+    residual, linearised = system(point)
+    if not isinstance(linearised, Linearisation):
+        return None
+    step = linearised.iterated(border, np.append(-residual, 0.0))
+    if step is None:
+        return None
+    moved = point + AGAIN * step
+    return np.append(moved[:low], moved[-1])
+
+
+def _widened(point: Array, fourier: FourierBasis, rank: int) -> Array:
+    """Return a point, or a row, with room for orders beyond."""
+    low = rank * fourier.coefficients
+    more = rank * wider(fourier).coefficients - low
+    return np.concatenate([point[:low], np.zeros(more), point[-1:]])

@@ -127,6 +127,18 @@ class Linearisation:
         solution[self._places] = found
         return solution
 
+    def iterated(self, normal: Array, right: Array) -> Array | None:
+        """Return what :meth:`solve` does if iterations give it, else nothing."""
+        if self.parts is None:
+            return None
+        solution = np.zeros_like(right)
+        try:
+            solver = Iterated(self.parts(), normal[self._places])
+            solution[self._places] = solver.solve(right[self._places])
+        except UnreachedError:
+            return None
+        return solution
+
     def _bordered(self, border: Array, right: Array) -> Array:
         """Return the solution of the unknowns, and keep what solves."""
         if self._factors is None:

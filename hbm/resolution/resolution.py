@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hbm.balance.beyond import answered, wider
+from hbm.balance.beyond import answered, stepped, wider
 from hbm.balance.refined import Refined, Resolved, refined
 from hbm.continuation.correction import Correction
 from hbm.continuation.linearised import Linearised
@@ -116,8 +116,7 @@ class Resolution(ABC):
         """
         point, finer = correction.point, fourier.doubled
         made = refined(self.at(finer), point, finer.harmonics, normal)
-        wide = self.at(wider(finer))
-        beyond = answered(wide, made, finer, self.rank, normal)
+        beyond = self._beyond(made, finer, normal)
         low = made.residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
         newton, sampled = (
@@ -147,6 +146,15 @@ class Resolution(ABC):
             made,
             sizes,
         )
+
+    def _beyond(self, made: Refined, finer: FourierBasis, normal: Array) -> Array:
+        """Return the point after the steps once orders beyond have moved it.
+
+        Those of contacts that remember move it by more than their tangents' mean tells.
+        """
+        seen = self.at(wider(finer)), made, finer, self.rank, normal
+        moved = stepped(*seen) if self.marched else None
+        return answered(*seen) if moved is None else moved
 
     def _resampled(
         self, made: Refined, finer: FourierBasis, normal: Array

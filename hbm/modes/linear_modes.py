@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,8 +34,15 @@ class FreeDecay:
         """Damping ratio."""
         return -self.pole.real / abs(self.pole)
 
+    def __repr__(self) -> str:
+        """Return what motion it is, in a line."""
+        return (
+            f"<{type(self).__name__}: {self.frequency / math.tau:.6g} Hz, "
+            f"damping ratio {self.damping:.4g}>"
+        )
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, repr=False)
 class LinearMode(FreeDecay):
     """Re φ exp(st): a motion so small that the contacts are springs and dashpots."""
 

@@ -35,7 +35,7 @@ SHARPEST = 0.9
 """cosine of the sharpest turn in a step: strands of a narrow fold are told apart"""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class NonlinearMode(FreeDecay):
     """A free decaying motion of one amplitude."""
 
@@ -49,6 +49,13 @@ class NonlinearMode(FreeDecay):
     """estimated, of the damping ratio, relative"""
     harmonics: int
     samples: int
+
+    def __repr__(self) -> str:
+        """Return what motion it is, in a line."""
+        return (
+            f"<NonlinearMode: {1e3 * self.amplitude:.4g} mm, "
+            f"{self.frequency / math.tau:.6g} Hz, damping ratio {self.damping:.4g}>"
+        )
 
     @property
     def amplitude(self) -> float:

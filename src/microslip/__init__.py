@@ -17,17 +17,44 @@ if TYPE_CHECKING:
     from microslip.api.sweep import sweep
     from microslip_mechanics.element import Element
     from microslip_mechanics.errors import MicroslipError
+    from microslip_mechanics.laws.area_contact import AreaContact
+    from microslip_mechanics.laws.bristles import Dahl, LuGre
     from microslip_mechanics.laws.catalogue import LAWS
+    from microslip_mechanics.laws.coulomb import RegularisedCoulomb
+    from microslip_mechanics.laws.dampers import LinearDamper, QuadraticDamper
+    from microslip_mechanics.laws.elastic_friction import ElasticFriction
+    from microslip_mechanics.laws.gkf import GeneralKineticFriction
+    from microslip_mechanics.laws.hunt_crossley import HuntCrossleyContact
+    from microslip_mechanics.laws.iwan import Iwan
+    from microslip_mechanics.laws.jenkins import Jenkins
+    from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
+    from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
+    from microslip_mechanics.laws.unilateral import UnilateralSpring
     from microslip_mechanics.loads.given_loads import BaseMotion, EngineOrder
     from microslip_mechanics.reduction.reduced_problem import reduced_problem
     from microslip_mechanics.system import system
 
 __all__ = [
     "LAWS",
+    "AreaContact",
     "BaseMotion",
+    "CubicSpring",
+    "Dahl",
+    "ElasticFriction",
     "Element",
     "EngineOrder",
+    "GeneralKineticFriction",
+    "HuntCrossleyContact",
+    "Iwan",
+    "Jenkins",
+    "LinearDamper",
+    "LuGre",
     "MicroslipError",
+    "PolynomialSpring",
+    "QuadraticDamper",
+    "RegularisedCoulomb",
+    "RigidCoulomb",
+    "UnilateralSpring",
     "curve",
     "figure",
     "follow",

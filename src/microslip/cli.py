@@ -117,7 +117,7 @@ def _run(options: argparse.Namespace) -> int:
     except MemoryError:
         return _failed("not enough memory: give a longer time step or less data", 1)
     except KeyboardInterrupt:
-        return _failed("interrupted; no file is written but those named above", 130)
+        return _failed("interrupted; files are written only where named above", 130)
 
 
 def _failed(reason: str, status: int) -> int:

@@ -120,7 +120,7 @@ def test_what_cannot_be_solved_is_refused_before_a_head_is_printed(
 
     said = capsys.readouterr()
     assert said.out == ""
-    assert said.err.startswith('microslip: solve = "sector": frc alone')
+    assert said.err.startswith('microslip: solve = "sector": only frc and explain')
 
 
 def test_quantities_may_have_a_unit() -> None:

@@ -138,7 +138,7 @@ def test_what_cannot_be_is_refused_in_one_line(override: str, message: str) -> N
 
 def test_one_sector_has_a_curve_and_nothing_else() -> None:
     scene = scene_of()
-    with pytest.raises(SceneError, match="give --set solve=disk"):
+    with pytest.raises(SceneError, match=r"explain take one .*: give solve=disk$"):
         problem_of(scene)
     with pytest.raises(SceneError, match="give --set solve=disk"):
         trace_sector(sector(scene), scene.curve, wanted=Wanted(detached=True))

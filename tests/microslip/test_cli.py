@@ -174,13 +174,13 @@ def test_sweep_is_written_drawn_and_told(
 
 
 @pytest.mark.usefixtures("no_picture")
-def test_what_pulls_and_pushes_is_told_the_force_of_a_spring(run: Run) -> None:
+def test_what_pulls_and_pushes_has_no_normal_force(run: Run) -> None:
     short = [f"--set=sweep.{key}=0.5" for key in ("end", "duration")]
 
     status, output, _ = run("sweep", "duffing", *short)
 
     assert status == 0
-    assert "spring force [N], least and most\n  cubic " in output
+    assert "\nforce [N], least and most\n  cubic " in output
 
 
 @pytest.mark.usefixtures("no_picture")

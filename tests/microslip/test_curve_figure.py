@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from figure_checks import check_labels, check_lines, legend
 from microslip.figures import curve as curves
 from microslip.figures.abscissa import abscissa
-from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.energies import worded
+from microslip_mechanics.results.response_curve import ResponseCurve, pulling
 
 
 def test_sliding_velocity_shows_relative_motions(
@@ -189,9 +190,18 @@ def test_springs_that_pull_are_not_called_normal(small_curve: ResponseCurve) -> 
 
     curves.normal_forces(axes, pulling)
 
-    assert axes.get_title(loc="left").startswith("Spring forces")
+    assert axes.get_title(loc="left").startswith("Forces: ")
     assert axes.get_ylim()[0] < pulling.normal_smallest.min()
     assert not damped.pulls
+
+
+def test_what_pulls_is_told_beside_a_contact_that_is_pressed_harder() -> None:
+    smallest, largest = np.array([[0.0, -1.0]]), np.array([[1e3, 1.0]])
+
+    assert pulling(smallest, largest)
+    assert not pulling(smallest[:, :1], largest[:, :1])
+    assert worded("normal_damping", pulls=True) == "element damping"
+    assert worded("normal_damping", pulls=False) == "normal damping"
 
 
 def test_curves_that_lie_on_one_another_have_different_dashes(

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.io import netcdf_file
 
 from hbm.curves.detached import Sought
 from hbm.errors import PLACE, ContinuationError
@@ -125,6 +126,8 @@ def test_the_command_keeps_a_curve_that_can_be_drawn_again(
     stored = load(tmp_path / "drive.nc").result
     assert isinstance(stored, ResponseCurve)
     assert stored.along == "excitation.force [N]"
+    with netcdf_file(tmp_path / "drive.nc", mmap=False) as file:
+        assert getattr(file.variables["parameter"], "units") == b"N"  # noqa: B009
     assert (tmp_path / "drive.png").stat().st_size > 10_000
     again = tmp_path / "again.png"
     assert main(["plot", str(tmp_path / "drive.nc"), "-o", str(again)]) == 0

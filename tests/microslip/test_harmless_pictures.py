@@ -11,7 +11,7 @@ from microslip.files.store import Stored, save, save_figure
 from microslip_mechanics.results.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
-SAID = "microslip: interrupted; no file is written but those named above\n"
+SAID = "microslip: interrupted; files are written only where named above\n"
 RANGE = ("--set=curve.lowest=30 Hz", "--set=curve.highest=32 Hz")
 CASES = {
     "frc": (("frc", "jenkins", *RANGE), "points in it.nc", "estimated error"),

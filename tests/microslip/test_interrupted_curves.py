@@ -128,5 +128,5 @@ def test_precision_does_not_compare_on_a_part_of_the_curve(
     status, output, error = run("precision", str(quick_scene), "--quick")
 
     assert (status, output) == (130, "")
-    assert error == "microslip: interrupted; no file is written but those named above\n"
+    assert error == "microslip: interrupted; files are written only where named above\n"
     assert list(tmp_path.iterdir()) == [quick_scene]

@@ -142,7 +142,7 @@ def test_times_before_the_end_of_a_march_are_kept(
     [
         (
             KeyboardInterrupt(),
-            "interrupted; no file is written but those named above",
+            "interrupted; files are written only where named above",
             130,
         ),
         (ContinuationError("stuck: try less"), "stuck: try less", 1),

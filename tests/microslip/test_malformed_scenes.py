@@ -277,6 +277,7 @@ def test_every_command_reads_scenes_alike(
         ("blade.=1", ("blade.=1", "table.key=value")),
         (".length=1", (".length=1", "table.key=value")),
         ("blade.root.length=1", ("blade.root.length=1", "table.key=value")),
+        ("blad.root.length=1", ("no table blad: do you mean blade?",)),
         ("blade.lenght=1", ("[blade] lenght", "length?")),
         ("blades.length=1", ("blades", "blade?")),
         ("modell=A", ("modell", "model?")),

@@ -71,6 +71,8 @@ def test_a_cubic_spring_s_mode_has_its_exact_period(
     assert repr(mode).startswith("<FollowedMode: 0.8717")
     assert repr(mode).endswith(" points, 10 to 5000 mm; complete>")
     largest = mode.points[-1]
+    assert repr(largest).startswith("<NonlinearMode: 5000 mm, ")
+    assert repr(mode.linear).startswith("<LinearMode: 0.8717")
     orders = largest.coefficients[1::2, 0], largest.coefficients[2::2, 0]
     phase = np.linspace(0.0, 2.0 * math.pi, 4001)
     turn = np.outer(phase, np.arange(1, len(orders[0]) + 1))

@@ -47,7 +47,7 @@ def test_normal_force_shows_the_points_of_one_face(
     assert axes.get_ylabel() == "force [N]"
 
 
-def test_forces_that_pull_are_those_of_springs(
+def test_forces_that_pull_are_not_called_normal(
     axes: Axes, small_history: TimeHistory
 ) -> None:
     pulled = small_history.normal_force - small_history.normal_force.mean(axis=0)
@@ -55,7 +55,7 @@ def test_forces_that_pull_are_those_of_springs(
 
     sweeps.normal_force(axes, history, "B", [0, 1])
 
-    assert axes.get_title(loc="left") == "Spring forces, face B"
+    assert axes.get_title(loc="left") == "Forces, face B"
 
 
 def test_friction_power_is_shown_negative_as_in_the_paper(

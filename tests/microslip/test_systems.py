@@ -275,6 +275,11 @@ def test_explain_lists_each_element_with_its_equation(run: Run) -> None:
         ('a = "2 N"', 'c = "2 N"', ("drive", "'c'")),
         ("[drive]", "[base]\ndirection = [1]\nacceleration = 1\n[drive]", ("three",)),
         (
+            "[drive]",
+            "[base]\ndirection = {a = 1}\nacceleration = 1\n[drive]",
+            ("numbers in brackets",),
+        ),
+        (
             'between = ["a", "b"]',
             'between = ["a", "b"]\neach = ["face"]',
             ("slider", "no set 'face'", "[structure.sets]"),

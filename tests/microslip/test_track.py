@@ -56,6 +56,15 @@ def test_a_key_that_the_scene_lacks_is_refused(
     assert "force" in capsys.readouterr().err
 
 
+def test_a_value_that_stands_twice_is_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["track", "two-blades", "excitation.force", "1", "2", "1 N"]) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert "1 N stands there twice: give different values" in said.err
+
+
 def test_values_with_units_lie_in_their_order() -> None:
     texts = ["50 mN", "0.1 N", "1"]
     scenes = [load_scene("duffing", [f"drive.x={text}"]) for text in texts]

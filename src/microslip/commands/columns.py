@@ -81,3 +81,8 @@ def decimal(
 def about(error: float, unit: str = "") -> str:
     """Return the error of a number, to stand behind it; nothing if it is not known."""
     return f" ± {error:.1g}{unit}" if math.isfinite(error) else ""
+
+
+def force(*, pulls: bool) -> str:
+    """Return what forces are called; those of springs and dampers pull, too."""
+    return "force" if pulls else "normal force"

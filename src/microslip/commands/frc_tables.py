@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import about, decimal, headed, tabled, titled
+from microslip.commands.columns import about, decimal, force, headed, tabled, titled
 
 if TYPE_CHECKING:
     from microslip.scenes.scene import Scene
@@ -35,8 +35,8 @@ def table(traced: Traced) -> str:
     if rubs:
         head, units = f"{head}     friction", f"{units}  [mJ/period]"
     if presses:
-        force = "spring force [N]" if curve.pulls else "normal force [N]"
-        head, units = f"{head}      {force}", f"{units}     least      most"
+        title = f"{force(pulls=curve.pulls)} [N]"
+        head, units = f"{head}      {title:>16}", f"{units}     least      most"
     lines = [head, units]
     largest = int(curve.amplitude.max(axis=1).argmax())
     energy = curve.friction_energy
@@ -59,7 +59,7 @@ def table(traced: Traced) -> str:
 
 
 def rest(curve: ResponseCurve, state: StaticState) -> str:
-    """Return the normal forces under the preload alone.
+    """Return the forces of contacts under the preload alone.
 
     Contacts that have none at any time, such as those under a constant load, are left
     out.
@@ -71,7 +71,7 @@ def rest(curve: ResponseCurve, state: StaticState) -> str:
         f"{curve.contacts[place]} {state.normal_force[place]:z.3f}"
         for place in pressed.nonzero()[0]
     )
-    return f"normal force at rest [N]: {forces}"
+    return f"{force(pulls=curve.pulls)} at rest [N]: {forces}"
 
 
 def events(curve: ResponseCurve, *, sector: bool = False) -> str:

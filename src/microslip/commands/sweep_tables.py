@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from microslip.commands.columns import force
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -21,10 +23,11 @@ are too sparse to tell how much it is"""
 def energy_table(result: TimeHistory | Envelope) -> str:
     """Return energies and the closing error of their balance."""
     from microslip_mechanics.arrays import TINY
+    from microslip_mechanics.results.energies import worded
 
     lines = [f"energy until {result.time[-1]:g} s [J]"]
     lines += [
-        f"  {name.replace('_', ' '):20s} {result.of(name)[-1]:12.6g}"
+        f"  {worded(name, pulls=result.pulls):20s} {result.of(name)[-1]:12.6g}"
         for name in result.energies
     ]
     closing = float(abs(result.closing_error).max())
@@ -81,12 +84,12 @@ def extreme_lines(
         lines.append(f"  {name:20s} {1e3 * far:12.6g} {fast:12.6g}")
     lines += _missed("velocity", float(found.errors[1]))
     if pressed:
-        kind = "spring" if pulling(*found.normal) else "normal"
-        lines.append(f"{kind} force [N], least and most")
+        name_of_all = force(pulls=pulling(*found.normal))
+        lines.append(f"{name_of_all} [N], least and most")
         for name, least, most in zip(result.contacts, *found.normal, strict=True):
             if name in pressed:
                 lines.append(f"  {name:20s} {least:12.6g} {most:12.6g}")
-        lines += _missed(f"{kind} force", found.force_error)
+        lines += _missed(name_of_all, found.force_error)
     if result.divided:
         lines.append(f"{result.divided} steps converged only when divided")
     return lines

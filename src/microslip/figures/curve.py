@@ -121,10 +121,11 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
 
 
 def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
-    """Draw what friction and contact damping take out per period."""
+    """Draw what friction and damping of the contacts take out per period."""
+    damping = "element damping" if curve.pulls else "normal contact damping"
     for colour, name, energy in (
         (COLOURS[0], "friction", curve.friction_energy),
-        (COLOURS[1], "normal contact damping", curve.damping_energy),
+        (COLOURS[1], damping, curve.damping_energy),
     ):
         if name != "friction" and not np.nanmax(energy, initial=0.0) > 0.0:
             continue

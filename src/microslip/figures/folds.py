@@ -15,6 +15,7 @@ from microslip.figures.style import (
     framed,
     headline,
     literal,
+    whole_numbers,
 )
 
 MEETINGS = {"cusp": "o", "isola": "D"}
@@ -50,8 +51,8 @@ def folds_figure(folds: Sequence[FoldLine], label: str, title: str) -> Figure:
         _drawn(right, fold, [1e3 * each for each in fold.amplitude], colour)
     framed(left, x=literal(label), y="frequency [Hz]", title="Where the curve folds")
     framed(right, x=literal(label), y="amplitude [mm]", title="Amplitude at the fold")
-    left.ticklabel_format(axis="y", useOffset=False)
     for axes in (left, right):
+        whole_numbers(axes.yaxis)
         axes.margins(x=0.04)
     _legend(left, folds)
     headline(figure, title)

@@ -21,6 +21,7 @@ from microslip.figures.style import (
     one_range,
 )
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.results.energies import worded
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.time_history import TimeHistory
 
@@ -136,7 +137,7 @@ def energies(axes: Axes, march: TimeHistory | Envelope) -> None:
             flow,
             color=colour,
             linewidth=WIDTH * (BROAD if name == "input" else 1.5),
-            label=f"{name.replace('_', ' ')}: {flow[-1]:.4g} J",
+            label=f"{worded(name, pulls=march.pulls)}: {flow[-1]:.4g} J",
         )
     closing = abs(march.closing_error).max()
     title = f"Energy since the start (closing error {closing:.1e} J)"

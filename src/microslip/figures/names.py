@@ -47,8 +47,8 @@ def called(face: str, contacts: Sequence[str]) -> str:
 
 
 def force_kind(smallest: Array, largest: Array) -> str:
-    """Return what titles call normal forces between these [N]."""
-    return "Spring forces" if pulling(smallest, largest) else "Normal forces"
+    """Return what titles call forces between these [N]; those of contacts push."""
+    return "Forces" if pulling(smallest, largest) else "Normal forces"
 
 
 def readable(name: str) -> str:

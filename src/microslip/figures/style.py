@@ -56,10 +56,10 @@ def framed(axes: Axes, *, x: str, y: str, title: str) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.margins(x=0.0)
     axes.grid(visible=True, linewidth=0.3, alpha=0.6)
-    _whole_numbers(axes.xaxis)
+    whole_numbers(axes.xaxis)
 
 
-def _whole_numbers(axis: Axis) -> None:
+def whole_numbers(axis: Axis) -> None:
     """Let an axis have no offset beside it, and few numbers where they are long."""
     formatter = axis.get_major_formatter()
     if not isinstance(formatter, ScalarFormatter):

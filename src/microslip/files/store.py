@@ -72,11 +72,19 @@ def save(path: Path, stored: Stored) -> None:
             setattr(file, name, value)
         for name, values in columns(result, schema).items():
             dimensions, unit, meaning = schema[name]
+            unit = _unit(result, name, unit)
             _dimensions(file, dimensions, values.shape)
             variable = file.createVariable(name, values.dtype, dimensions)
             variable[:] = values
             setattr(variable, "long_name", meaning)  # noqa: B010  (an attribute of the file)
             setattr(variable, "units", unit)  # noqa: B010
+
+
+def _unit(curve: ResponseCurve, name: str, unit: str) -> str:
+    """Return the unit of a column; that of a parameter stands behind its name."""
+    _, bracket, found = curve.along.rpartition(" [")
+    known = name.startswith("parameter") and bracket and found.endswith("]")
+    return found.removesuffix("]") if known else unit
 
 
 def begin(path: Path, block: Growing, *, scene: str, command: str) -> Stream:

@@ -25,9 +25,7 @@ def apply_override(document: dict[str, typing.Any], override: str) -> None:
     *tables, key = key_path(name)
     deepest = 2 if tables[:1] in NESTED else 1
     if not equals or not key or len(tables) > deepest or not all(tables):
-        raise SceneError(
-            f"--set {override}: give table.key=value, such as contact.sigma=3e-7"
-        )
+        raise SceneError(f"--set {override}: {_wanted(document, tables, key, equals)}")
     value = _value(text)
     place = document
     for table in tables:
@@ -41,6 +39,16 @@ def apply_override(document: dict[str, typing.Any], override: str) -> None:
     if isinstance(held, dict) and AMPLITUDE in held and not isinstance(value, dict):
         value = {**held, AMPLITUDE: value}
     place[key] = value
+
+
+def _wanted(
+    document: dict[str, typing.Any], tables: list[str], key: str, equals: str
+) -> str:
+    """Return what is wrong with an override that leads to no place."""
+    held = [name for name, value in document.items() if isinstance(value, dict | list)]
+    if equals and key and len(tables) == 2 and all(tables) and tables[0] not in held:
+        return f"the scene has no table {tables[0]}{meant(tables[0], held)}"
+    return "give table.key=value, such as contact.sigma=3e-7"
 
 
 def _value(text: str) -> typing.Any:  # noqa: ANN401  (whatever TOML may hold)

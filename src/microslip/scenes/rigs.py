@@ -26,8 +26,8 @@ def problem_of(scene: Scene) -> Problem:
 
         if scene.rig.solve == "sector":
             raise SceneError(
-                'solve = "sector": frc alone solves one sector of a disk: give '
-                "--set solve=disk"
+                'solve = "sector": only frc and explain take one sector of a disk: '
+                "give solve=disk"
             )
         return disk(scene.rig)
     from microslip.scenes.systems.build import problem

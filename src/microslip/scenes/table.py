@@ -131,6 +131,8 @@ def _by_power(kind: Quantity, value: object) -> dict[float, float]:
 
 def _several(kind: Quantity, value: object) -> tuple[float, ...]:
     """Return one number or a list of them as a tuple."""
+    if isinstance(value, dict):
+        raise ValueError("is a table: give numbers in brackets")  # noqa: TRY004
     several = value if isinstance(value, list) else [value]
     if not several:
         raise ValueError("is empty: give at least one number")

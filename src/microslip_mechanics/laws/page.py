@@ -16,7 +16,8 @@ of these laws. Symbols: w is the displacement of the element's first end relativ
 second, w_n that along a contact's normal (positive in penetration), w_t that along its
 tangents, ẇ and v their rates. Directions are given as `between`, or as `normal`,
 `tangents` and `rotations`; each is a pair of ends, and the ground is written as
-`"ground"`. A stiffness in N/m^p whose power p is 1 may be written as `"5 kN/m"` too.
+`"ground"`; friction under a constant `load` has no `normal`. A stiffness in N/m^p
+whose power p is 1 may be written as `"5 kN/m"` too.
 
 `python -m microslip_mechanics.laws.page > docs/laws.md` writes this page.
 """
@@ -33,6 +34,8 @@ def _law(name: str, law: type[Any]) -> str:
     lines = [f"## `{name}`", "", f"Python: `microslip.{law.__name__}`", "", equation]
     if more.strip():
         lines += ["", more.strip()]
+    takes = object.__new__(law).takes  # of the numbers that may be left out
+    lines += ["", f"Directions: {', '.join(f'`{key}`' for key in takes)}."]
     lines += ["", "| key | unit | value | if left out |", "|---|---|---|---|"]
     lines += [_row(field) for field in dataclasses.fields(law)]
     return "\n".join([*lines, ""])

@@ -37,3 +37,12 @@ def closing_error(result: Energies) -> Array:
     others = [place for place, name in enumerate(result.energies) if name != "input"]
     spent: Array = result.energy[:, others].sum(axis=1)
     return energy_of(result, "input") + result.stored_at_start - spent
+
+
+def worded(name: str, *, pulls: bool) -> str:
+    """Return the words for an energy; of springs and dampers, which pull, no normal."""
+    return (
+        "element damping"
+        if pulls and name == "normal_damping"
+        else name.replace("_", " ")
+    )

@@ -10,6 +10,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.by_value import ByValue
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.energies import closing_error, energy_of
+from microslip_mechanics.results.response_curve import pulling
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,6 +66,11 @@ class Envelope(ByValue):
             f"<Envelope: {self.time.size} cycles{until}; "
             f"probes {', '.join(self.probes)}; {self.ending}>"
         )
+
+    @property
+    def pulls(self) -> bool:
+        """Whether springs or dampers are among the contacts, which hardly pull."""
+        return pulling(self.normal_smallest, self.normal_largest)
 
     def of(self, energy: str) -> Array:
         """Return one energy at the ends of the cycles [J], shape (cycles,)."""

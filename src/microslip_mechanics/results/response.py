@@ -14,7 +14,7 @@ MARGIN = 1e-5
 one that is double, as of a free mean position, by the root of its own size"""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class PeriodicResponse(ByValue):
     """A periodic motion u = a₀ + Σ aₖ cos kωt + bₖ sin kωt under drive · sin ωt."""
 
@@ -55,6 +55,14 @@ class PeriodicResponse(ByValue):
     """estimated one of the parameter at which a peak or a fold lies; NaN for others"""
     shapes: Array | None = None
     """motion of the coordinates of a reduced structure, shape (dofs, coordinates)"""
+
+    def __repr__(self) -> str:
+        """Return what response it is, in a line."""
+        event = f"; {self.event}" if self.event else ""
+        return (
+            f"<PeriodicResponse: {self.frequency / (2.0 * np.pi):.6g} Hz, "
+            f"{self.harmonics} harmonics{event}; {self.outcome}>"
+        )
 
     def seen(self, rows: Array) -> Array:
         """Return the coefficients of linear forms of the motion, shape (2H + 1, forms).

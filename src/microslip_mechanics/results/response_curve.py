@@ -14,7 +14,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 
 PULL = 0.1
-"""of the largest push: a pull from which a contact is a spring"""
+"""of its largest push: a pull from which what pulls is no contact"""
 PEAK_SAMPLES = 1024
 """of a period, to find the largest value in time"""
 
@@ -70,7 +70,7 @@ class ResponseCurve(ByValue):
 
     @property
     def pulls(self) -> bool:
-        """Whether springs are among the contacts: dampers alone hardly pull."""
+        """Whether springs or dampers are among the contacts, which hardly pull."""
         return pulling(self.normal_smallest, self.normal_largest)
 
     def __repr__(self) -> str:
@@ -87,9 +87,13 @@ class ResponseCurve(ByValue):
 
 
 def pulling(smallest: Array, largest: Array) -> bool:
-    """Return whether normal forces between these are those of springs [N]."""
-    least = float(np.nanmin(smallest, initial=0.0))
-    return least < -PULL * float(np.nanmax(largest, initial=0.0))
+    """Return whether some of these forces [N] are of springs or dampers.
+
+    ``smallest`` and ``largest`` have one column for each contact, or are of one row.
+    """
+    least = np.fmin.reduce(np.atleast_2d(smallest), axis=0, initial=0.0)
+    most = np.fmax.reduce(np.atleast_2d(largest), axis=0, initial=0.0)
+    return bool((least < -PULL * most).any())
 
 
 def response_curve(

@@ -10,6 +10,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.by_value import ByValue
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.energies import closing_error, energy_of
+from microslip_mechanics.results.response_curve import pulling
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -64,6 +65,11 @@ class TimeHistory(ByValue):
             f"<TimeHistory: {self.time.size} times{until}; "
             f"probes {', '.join(self.probes)}; {self.ending}>"
         )
+
+    @property
+    def pulls(self) -> bool:
+        """Whether springs or dampers are among the contacts, which hardly pull."""
+        return pulling(self.normal_force, self.normal_force)
 
     def of(self, energy: str) -> Array:
         """Return one energy over time [J], shape (times,)."""

@@ -44,6 +44,7 @@ def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     check_lines(envelopes.lines[2:], hertz, [1e3 * small_curve.peak[:, 0]])
     assert legend(envelopes) == ["1 x as long", "4 x as long", "curve"]
     check_lines(energies.lines, slower, [[40.0, 10.0, 5.0]])
+    assert energies.lines[0].get_linestyle() == "None"
 
 
 def test_dots_have_the_colours_of_their_lines(small_curve: ResponseCurve) -> None:

@@ -68,11 +68,32 @@ def agreed(slower: float, energy_error: float, envelope: float) -> SweepAgreemen
 @pytest.mark.parametrize("exponent", [0.5, 1.0, 2.0])
 def test_rate_is_the_exponent_by_which_the_difference_falls(exponent: float) -> None:
     found = [
-        agreed(slower, sign * 0.4 * slower**-exponent, 0.1)
-        for slower, sign in ((1.0, 1), (4.0, 1), (10.0, -1))
+        agreed(slower, -0.4 * slower**-exponent, 0.1) for slower in (10.0, 1.0, 4.0)
     ]
 
     assert rate_of(found) == pytest.approx(exponent, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "errors",
+    [
+        (0.0017, -0.0314, -0.0037),
+        (0.4, 0.1, -0.01),
+        (0.1, 0.4, 0.01),
+        (0.4, 0.1, 0.0),
+        (0.0, 0.0),
+        (0.4, math.inf),
+        (math.inf, math.inf),
+        (0.4,),
+    ],
+)
+def test_differences_that_follow_no_power_have_no_exponent(
+    errors: tuple[float, ...],
+) -> None:
+    found = [agreed(4.0**place, error, 0.1) for place, error in enumerate(errors)]
+
+    assert rate_of(found) is None
+    assert "the difference" not in sweep_rows(found)
 
 
 def test_energy_error_is_relative_to_the_slow_sweep() -> None:

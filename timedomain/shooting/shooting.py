@@ -20,6 +20,7 @@ from timedomain.shooting.periodic_orbit import (
     amplitude_error,
     extrapolated,
     first_harmonic,
+    jumps,
 )
 from timedomain.shooting.whole_orbit import whole_orbit
 
@@ -64,7 +65,8 @@ def periodic_orbit(
     """Return the periodic motion near a start, stable or not.
 
     Two orbits, the second with twice the steps, give the extrapolated motion; the
-    difference of the two is the error that is reported.
+    difference of the two is the error that is reported. Where forces jump as faces
+    touch, an orbit before them has a say in it (:func:`amplitude_error`).
 
     Parameters
     ----------
@@ -98,7 +100,7 @@ def periodic_orbit(
     chosen = options or ShootingOptions()
     if beyond_motion(points):
         near = None
-    coarse = _first(problem, frequency, start, chosen, near)
+    before, coarse = None, _first(problem, frequency, start, chosen, near)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
         try:
@@ -107,12 +109,13 @@ def periodic_orbit(
             if 4 * finer.steps > chosen.most:
                 raise
             more = replace(chosen, steps=2 * finer.steps)
-            coarse = _first(problem, frequency, start, more, near)
+            before, coarse = None, _first(problem, frequency, start, more, near)
             continue
-        close = amplitude_error(coarse, fine) <= chosen.error
-        if close or 2 * finer.steps > chosen.most:
-            return extrapolated(coarse, fine)
-        coarse = fine
+        error = amplitude_error(before, coarse, fine)
+        sure = before is not None or not jumps(fine)
+        if (sure and error <= chosen.error) or 2 * finer.steps > chosen.most:
+            return extrapolated(coarse, fine, error)
+        before, coarse = coarse, fine
 
 
 def _first(

@@ -111,8 +111,9 @@ def _envelopes(
 
 
 def _energy(axes: Axes, energies: tuple[Array, Array]) -> None:
+    """Draw the sizes of the differences as dots: their signs may change."""
     slower, error = energies
-    axes.plot(slower, 100.0 * np.abs(error), "o-", color=COLOURS[0], lw=WIDTH, ms=4)
+    axes.plot(slower, 100.0 * np.abs(error), color=COLOURS[0], **DOTS)
     if np.all(error != 0.0):
         axes.set(xscale="log", yscale="log")
     axes.set_xticks(slower, [f"{each:g}" for each in slower])

@@ -144,13 +144,18 @@ def falls(agreements: list[SweepAgreement]) -> bool:
 def rate_of(agreements: list[SweepAgreement]) -> float | None:
     """Return the exponent by which the energies' difference falls with duration.
 
-    None where there are less than two sweeps, or no difference.
+    None where there are less than two sweeps, or where no power of the duration
+    describes them: the difference vanishes, changes its sign, or falls and grows.
     """
-    if len(agreements) < 2 or any(each.energy_error == 0.0 for each in agreements):
+    order = sorted(agreements, key=lambda each: each.slower)
+    error = np.array([each.energy_error for each in order])
+    known = bool(error.all() and np.isfinite(error).all())
+    if len(order) < 2 or not known or np.unique(np.sign(error)).size > 1:
         return None
-    slower = np.log([each.slower for each in agreements])
-    error = np.log([abs(each.energy_error) for each in agreements])
-    return float(-np.polyfit(slower, error, 1)[0])
+    size = np.log(np.abs(error))
+    if np.unique(np.sign(np.diff(size))).size > 1:
+        return None
+    return float(-np.polyfit(np.log([each.slower for each in order]), size, 1)[0])
 
 
 def envelope_of(

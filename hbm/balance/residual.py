@@ -19,8 +19,8 @@ from hbm.balance.relative import RelativeProblem
 from hbm.forces.contact_cycle import ContactCycle
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
 from hbm.forces.memory import marched
+from hbm.forces.remembered import fits
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import PUSHED
 
 
 class HarmonicBalance:
@@ -51,11 +51,10 @@ class HarmonicBalance:
         self._terms = terms(self._active)
         self._places = np.full(shape, -1)
         self._places[self._active] = np.arange(self._terms.unknowns.size)
-        which = marched(problem.points)
-        remembers, pushed = bool(which.any()), problem.points.friction == PUSHED
+        remembers = bool(marched(problem.points).any())
         split = RECALLED if remembers else USUAL
         iterates = LowOrders.serve(self._active, fourier.samples, split)
-        iterates &= not (which & pushed).any()
+        iterates &= fits(problem.points, problem.basis, fourier)
         self._separable = self.rank if remembers else 0
         self._low = LowOrders(self._active, split) if iterates else None
 

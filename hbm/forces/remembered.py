@@ -14,10 +14,28 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.forces.fourier import Transform, derivative
+from hbm.forces.fourier import FourierBasis, Transform, derivative
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.loop_gradient import LoopGradient
+from microslip_mechanics.contact.memory import remembers
+from microslip_mechanics.contact.points import BRISTLE, PUSHED, ContactPoints
 from microslip_mechanics.jit import kernel
+
+FEW, MOST = 16, 5e7
+"""runs of a slider along one direction, and numbers that derivatives may take"""
+
+
+def fits(points: ContactPoints, basis: Array, fourier: FourierBasis) -> bool:
+    """Return whether the derivatives of all loops fit into memory.
+
+    What slides in two directions, and a bristle, which creeps, have a run for each
+    sample. What is pushed has no runs.
+    """
+    moves = (basis.reshape(points.friction.size, 3, -1) != 0.0).any(axis=2)
+    many = moves[:, 1:].all(axis=1) | (points.friction == BRISTLE)
+    runs = np.where(many, fourier.samples, FEW)[remembers(points)].sum()
+    numbers = 6.0 * runs * fourier.coefficients
+    return not (points.friction == PUSHED).any() and bool(numbers <= MOST)
 
 
 class Loop(NamedTuple):

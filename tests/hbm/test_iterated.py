@@ -16,12 +16,14 @@ from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.curves.homotopy import approaches
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
+from hbm.forces.remembered import fits
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from hbm.solve import frequency_response
 from lap_joint import lap_joint
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
+from microslip_mechanics.laws.bristles import Dahl
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.laws.elastic_friction import ElasticFriction
 from microslip_mechanics.problem import Problem
@@ -232,6 +234,25 @@ def test_what_remembers_is_solved_by_iteration(name: str) -> None:
     expected = np.linalg.solve(linearised.jacobian, residual[unknowns])
     away = np.linalg.norm(found[unknowns] - expected)
     assert away <= 1e-3 * np.linalg.norm(expected)
+
+
+def test_derivatives_of_many_bristles_are_too_many_for_products() -> None:
+    law = Dahl(stiffness=1e4, mu=0.3, load=1.0)
+    names = tuple(f"x{each}" for each in range(16))
+    problem = system(
+        mass=np.ones(16),
+        stiffness=1e3 * (2.0 * np.eye(16) - np.eye(16, k=1) - np.eye(16, k=-1)),
+        names=names,
+        damping_ratio=0.01,
+        elements=[Element(law, tangents=[(name, "ground")]) for name in names],
+        drive={"x0": (3.0, 0.0)},
+        probes={"x0": "x0"},
+    )
+    path = along_frequency(problem, static_equilibrium(problem), 30.0, 31.0)
+    points, basis = problem.interface.points, path.problem.basis
+
+    assert fits(points, basis, FourierBasis(63, 512))
+    assert not fits(points, basis, FourierBasis(255, 2048))
 
 
 def test_what_takes_too_many_products_is_solved_by_factors(

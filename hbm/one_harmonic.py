@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hbm.curves.across_curve import responses_across
+from hbm.curves.fitted_peak import fitted_peak
 from hbm.curves.periodic_response import periodic_response
 from hbm.errors import ContinuationError, hertz
 from hbm.forces.equivalent import SAMPLES
@@ -66,7 +67,8 @@ def one_harmonic_response(
     if frequency is not None:
         return _met(curve, frequency)
     rows = problem.probes.rows
-    return max(curve, key=lambda each: float(each.amplitudes(rows).max()))
+    best = max(curve, key=lambda each: float(each.amplitudes(rows).max()))
+    return fitted_peak(problem, rest, best) if best.event == "peak" else best
 
 
 def one_harmonic_error(

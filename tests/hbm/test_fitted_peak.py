@@ -1,0 +1,56 @@
+"""The largest one-harmonic amplitude, where it hardly changes with the frequency."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq, minimize_scalar
+
+from hbm.one_harmonic import one_harmonic_response
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
+from microslip_mechanics.static import static_equilibrium
+
+TURN = 2.0 * np.pi
+MASS, STIFFNESS, DAMPING, SLIDER, DRIVE = 1.0, 1e4, 1.0, 5e3, 0.5
+"""of the scene ``jenkins``"""
+
+
+def jenkins(amplitude: float, limit: float) -> complex:
+    """Return the describing function of Jenkins' element [N/m]."""
+    if amplitude <= limit / SLIDER:
+        return SLIDER
+    angle = np.arccos(1.0 - 2.0 * limit / SLIDER / amplitude)
+    elastic = angle - 0.5 * np.sin(2.0 * angle)
+    return complex(SLIDER / np.pi * (elastic + 1j * np.sin(angle) ** 2))
+
+
+def exact(frequency: float, limit: float) -> float:
+    """Return the one-harmonic amplitude [m] at a frequency [rad/s]."""
+    linear = STIFFNESS - MASS * frequency**2 + 1j * frequency * DAMPING
+    return float(
+        brentq(
+            lambda size: size * abs(linear + jenkins(size, limit)) - DRIVE,
+            1e-9,
+            1.0,
+            xtol=1e-16,
+        )
+    )
+
+
+@pytest.mark.parametrize("limit", [0.5, 1.0, 2.0])
+def test_the_peak_is_where_the_describing_function_has_it(limit: float) -> None:
+    problem = problem_of(load_scene("jenkins", [f"element.slider.limit={limit}"]))
+    best = minimize_scalar(
+        lambda frequency: -1e3 * exact(frequency, limit),
+        bounds=(15.5 * TURN, 21.0 * TURN),
+        method="bounded",
+        options={"xatol": 1e-9},
+    )
+
+    found = one_harmonic_response(
+        problem, static_equilibrium(problem), (14.0 * TURN, 22.0 * TURN)
+    )
+
+    assert found.event == "peak"
+    assert found.frequency == pytest.approx(best.x, rel=3e-6)
+    (size,) = found.amplitudes(problem.probes.rows)
+    assert size == pytest.approx(exact(best.x, limit), rel=3e-6)

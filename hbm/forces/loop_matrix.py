@@ -30,8 +30,8 @@ def block(
     before = np.add.reduceat(analysis, first, axis=1)
     now, rate = gradient.now[row, column], gradient.rate[row, column]
     made = multiplied(now, rate, len(analysis) // 2)
-    block: Array = made + before @ gradient.rest[runs, row, column]
-    return block
+    made += before @ gradient.rest[runs, row, column]
+    return made
 
 
 @kernel

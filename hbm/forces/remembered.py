@@ -31,7 +31,7 @@ def fits(points: ContactPoints, basis: Array, fourier: FourierBasis) -> bool:
     What slides in two directions, and a bristle, which creeps, have a run for each
     sample. What is pushed has no runs.
     """
-    moves = (basis.reshape(points.friction.size, 3, -1) != 0.0).any(axis=2)
+    moves = (basis.reshape(points.friction.size, 3, basis.shape[1]) != 0.0).any(axis=2)
     many = moves[:, 1:].all(axis=1) | (points.friction == BRISTLE)
     runs = np.where(many, fourier.samples, FEW)[remembers(points)].sum()
     numbers = 6.0 * runs * fourier.coefficients

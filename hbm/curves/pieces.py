@@ -175,8 +175,10 @@ class Pieces:
             self.system,
             begun.direction,
         )
-        along_frequency = isinstance(self.path, AlongFrequency)
-        yield from bounded(piece, self.path.rank) if along_frequency else piece
+        if isinstance(self.path, AlongFrequency):
+            yield from bounded(piece, self.path.rank, self.path.vibration)
+        else:
+            yield from piece
 
     def _onwards(self, last: Correction | None, heading: float) -> float:
         """Return the end of the range to which the curve was going."""

@@ -16,6 +16,7 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.balance.rigid import with_pushes
 from hbm.forces.fourier import FourierBasis
 from hbm.stability.stability import SmallMotions, small_motions
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
 
@@ -86,6 +87,13 @@ class AlongFrequency:
     @cached_property
     def _motions(self) -> SmallMotions:
         return small_motions(self.whole)
+
+    def vibration(self, point: Array) -> float:
+        """Return the size of the whole structure's first harmonic at a point."""
+        cosines, sines = point[self.rank : 3 * self.rank].reshape(2, -1)
+        rows, place = np.eye(self.whole.structure.dofs), point[-1:]
+        first = self.problem.first_harmonic((cosines - 1j * sines)[None], place, rows)
+        return float(np.linalg.norm(first))
 
 
 def along_frequency(

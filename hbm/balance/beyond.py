@@ -52,8 +52,8 @@ def answered(
     step = system.answer(point, residual, fourier.harmonics)
     change = np.zeros_like(last)
     change[:low] = (system.residual(point + step) - residual)[:low]
-    stepped: Array = last - made.slope.solve(normal, change)
-    return stepped
+    moved: Array = last - made.slope.solve(normal, change)
+    return moved
 
 
 def stepped(

@@ -29,7 +29,7 @@ def terms(active: NDArray[np.bool_]) -> Terms:
 
     Cosine and sine of one order are active together.
     """
-    place = np.cumsum(active.ravel()).reshape(active.shape) - 1
+    place = numbered(active)
     rows = [
         (coordinate, order, place[max(2 * order - 1, 0), coordinate], sine)
         for coordinate in range(active.shape[1])
@@ -40,6 +40,11 @@ def terms(active: NDArray[np.bool_]) -> Terms:
     table = np.array(rows, dtype=np.int64).reshape(-1, 4).T
     coordinate, order, cosine, sine = np.ascontiguousarray(table)
     return Terms(coordinate, order, cosine, sine, np.flatnonzero(active))
+
+
+def numbered(active: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Return which unknown each active coefficient is, −1 for the others."""
+    return np.where(active, active.cumsum().reshape(active.shape) - 1, -1)
 
 
 @kernel

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hbm.balance.banded_orders import BandedOrders
 from hbm.balance.iterated import Parts
-from hbm.balance.jacobian import assemble, terms
+from hbm.balance.jacobian import assemble, numbered, terms
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.fourier import to_complex, to_real
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -46,7 +46,7 @@ class LowOrders:
         self._terms = terms(active[: 2 * low + 1])
         self._unknowns = np.flatnonzero(active)
         self._places = np.where(active, 0, -1)
-        self._corner = _numbered(active[: 2 * low + 1])
+        self._corner = numbered(active[: 2 * low + 1])
         self._high = BandedOrders(active[2 * low + 1 :: 2], low + 1, split.width)
 
     @staticmethod
@@ -106,11 +106,6 @@ class LowOrders:
             return forces if touched is None else forces + touched.product(step)
 
         return Parts(times, corner, high.solve, slope)
-
-
-def _numbered(active: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Return which unknown each active coefficient is, −1 for the others."""
-    return np.where(active, active.cumsum().reshape(active.shape) - 1, -1)
 
 
 def _count(active: NDArray[np.bool_], harmonics: int) -> int:

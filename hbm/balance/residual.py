@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from hbm.balance.answers import answers
 from hbm.balance.iterated import Parts
-from hbm.balance.jacobian import assemble, terms
+from hbm.balance.jacobian import assemble, numbered, terms
 from hbm.balance.linear_balance import LinearBalance
 from hbm.balance.linearisation import Linearisation
 from hbm.balance.low_orders import RECALLED, USUAL, LowOrders
@@ -49,8 +49,7 @@ class HarmonicBalance:
         self._wanted = np.vstack([self._active[:1], self._active[1::2]])
         self._take(problem)
         self._terms = terms(self._active)
-        self._places = np.full(shape, -1)
-        self._places[self._active] = np.arange(self._terms.unknowns.size)
+        self._places = numbered(self._active)
         remembers = bool(marched(problem.points).any())
         split = RECALLED if remembers else USUAL
         iterates = LowOrders.serve(self._active, fourier.samples, split)

@@ -43,9 +43,7 @@ def test_friction_bounds_a_resonance_that_drives_less_than_it_takes() -> None:
     assert largest < 1e-2
 
 
-def test_a_resonance_that_drives_more_than_friction_takes_is_told_and_not_passed() -> (
-    None
-):
+def test_a_resonance_that_drives_more_than_friction_takes_is_told() -> None:
     found, ending = curve(1.5 * 4.0 * LIMIT / np.pi)
 
     assert ending.startswith("the response is not bounded at 15.9154")

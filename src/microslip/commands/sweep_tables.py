@@ -25,9 +25,9 @@ def energy_table(result: TimeHistory | Envelope) -> str:
     from microslip_mechanics.arrays import TINY
     from microslip_mechanics.results.energies import worded
 
-    lines = [f"energy until {result.time[-1]:g} s [J]"]
+    lines, pulls = [f"energy until {result.time[-1]:g} s [J]"], result.pulls
     lines += [
-        f"  {worded(name, pulls=result.pulls):20s} {result.of(name)[-1]:12.6g}"
+        f"  {worded(name, pulls=pulls):20s} {result.of(name)[-1]:12.6g}"
         for name in result.energies
     ]
     closing = float(abs(result.closing_error).max())

@@ -127,7 +127,7 @@ def energies(axes: Axes, march: TimeHistory | Envelope) -> None:
     The input is a broad line, on which another that is as large can be seen.
     """
     names = ("input", "friction", "normal_damping", "structural_damping")
-    flows = {name: march.of(name) for name in names}
+    flows, pulls = {name: march.of(name) for name in names}, march.pulls
     least = ROUNDING * max(float(np.abs(flow).max()) for flow in flows.values())
     for colour, (name, flow) in zip(COLOURS, flows.items(), strict=False):
         if np.abs(flow).max() <= least:
@@ -137,7 +137,7 @@ def energies(axes: Axes, march: TimeHistory | Envelope) -> None:
             flow,
             color=colour,
             linewidth=WIDTH * (BROAD if name == "input" else 1.5),
-            label=f"{worded(name, pulls=march.pulls)}: {flow[-1]:.4g} J",
+            label=f"{worded(name, pulls=pulls)}: {flow[-1]:.4g} J",
         )
     closing = abs(march.closing_error).max()
     title = f"Energy since the start (closing error {closing:.1e} J)"

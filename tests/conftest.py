@@ -144,6 +144,8 @@ def small_curve() -> ResponseCurve:
         frequency=2.0 * np.pi * np.array([130.0, 131.0, 133.0, 134.0]),
         probes=PROBES,
         amplitude=draw.uniform(1e-5, 1e-3, of_probes),
+        amplitude_lowest=draw.uniform(1e-7, 1e-5, of_probes),
+        amplitude_highest=draw.uniform(1e-3, 2e-3, of_probes),
         peak=draw.uniform(1e-5, 1e-3, of_probes),
         velocity_peak=draw.uniform(1e-3, 1.0, of_probes),
         contacts=CONTACTS,

@@ -10,6 +10,7 @@ import numpy as np
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
+from hbm.curves.residual_tractions import amplitude_range
 from hbm.errors import ContinuationError
 from hbm.events.crossed import BRANCH, TORUS, crossings
 from hbm.events.crossings import ASTRAY
@@ -91,6 +92,7 @@ class Curve:
             error=error,
             event=event,
             parameter=float(kept[-1]),
+            amplitude_range=amplitude_range(balance, point, self.problem.probes.rows),
         )
         settled = self.system.settled
         coarser = (correction.point, settled) if settled != fourier else None

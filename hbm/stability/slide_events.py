@@ -50,17 +50,23 @@ def slid_orbit(
     steps
         Over the period, without those that events add.
     """
-    even = np.linspace(0.0, TURN, steps + 1)
-    moved, _ = orbit.at(even)
-    along = moved[:, sliders.point, 1 + sliders.axis]
-    first = sliders.stiffness * (along[0] - along[:-1].mean(axis=0))
-    first += sliders.seen(sliders.bent(moved[:-1].mean(axis=0)))
-    made = _settled(sliders, orbit, even, first)
+    made = even_slides(sliders, orbit, steps)
+    even = made.phase
     for around in AROUND:
         found = _events(sliders, orbit, made, around * TURN / steps)
         phase = _joined(even, np.concatenate([pressed, found]))
         made = _settled(sliders, orbit, phase, made.slides.traction[-1])
     return made
+
+
+def even_slides(sliders: Sliders, orbit: SampledOrbit, steps: int) -> SlidOrbit:
+    """Return what slides from one of so many equal steps to the next."""
+    even = np.linspace(0.0, TURN, steps + 1)
+    moved, _ = orbit.at(even)
+    along = moved[:, sliders.point, 1 + sliders.axis]
+    first = sliders.stiffness * (along[0] - along[:-1].mean(axis=0))
+    first += sliders.seen(sliders.bent(moved[:-1].mean(axis=0)))
+    return _settled(sliders, orbit, even, first)
 
 
 def _settled(

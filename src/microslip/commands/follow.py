@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.columns import about, decimal, headed, tabled, titled
+from microslip.commands.residual_range import residual_range
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def _run(options: argparse.Namespace) -> int:
     save(data, Stored(curve, followed.scene.text, options.command))
     title = f"{arguments.title(options)}, {options.frequency:g} Hz"
     with written(f"{curve.frequency.size} points in {data}", picture):
-        print(_table(curve))
+        print(_table(curve), *residual_range(curve), sep="\n")
         save_figure(picture, curve_figure(curve, title))
     return arguments.ended(curve.ending)
 

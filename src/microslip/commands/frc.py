@@ -7,6 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc_tables
+from microslip.commands.residual_range import residual_range
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -104,7 +105,8 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in frc_tables.barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")
-    print(frc_tables.resolution(traced.curve), *frc_tables.uncounted(scene), sep="\n")
+    more = *frc_tables.uncounted(scene), *residual_range(traced.curve)
+    print(frc_tables.resolution(traced.curve), *more, sep="\n")
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
 

@@ -10,6 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.abscissa import abscissa, abscissa_name
 from microslip.figures.names import absolute, readable
+from microslip.figures.residual_range import residual_range
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, from_nothing
 from microslip_mechanics.results.response_curve import ResponseCurve
 
@@ -63,6 +64,7 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
         y="amplitude [mm]",
         title=f"First harmonic{some(shown, watched)}",
     )
+    residual_range(axes, curve, shown)
     _unstable(axes, curve)
     _events(axes, curve)
     highest = _highest(curve)

@@ -22,6 +22,8 @@ Schema: TypeAlias = dict[str, tuple[tuple[str, ...], str, str]]
 CURVE: Schema = {
     "frequency": (("point",), "rad/s", "excitation frequency"),
     "amplitude": (("point", "probe"), "m", "first-harmonic amplitude"),
+    "amplitude_lowest": (("point", "probe"), "m", "by other residual tractions"),
+    "amplitude_highest": (("point", "probe"), "m", "by other residual tractions"),
     "peak": (("point", "probe"), "m", "half of the way from least to largest in time"),
     "velocity_peak": (("point", "probe"), "m/s", "largest velocity in time"),
     "normal_smallest": (("point", "contact"), "N", "smallest normal force"),
@@ -46,6 +48,8 @@ CURVE: Schema = {
     "probes": (("probe", "name"), "", "what is watched"),
     "contacts": (("contact", "name"), "", "contact points"),
 }
+REPEATED = {"amplitude_lowest": "amplitude", "amplitude_highest": "amplitude"}
+"""variables that are left out where they are the same as another one"""
 NAMES: Schema = {
     "probes": (("probe", "name"), "", "what is watched"),
     "contacts": (("contact", "name"), "", "contact points"),
@@ -107,9 +111,13 @@ def kind_of(result: Result) -> tuple[str, Schema]:
 def columns(result: Result, schema: Schema) -> dict[str, np.ndarray]:
     """Return what the file holds of each variable; those without content are left out.
 
-    A dimension of length zero would be netCDF 3's sign for an unlimited one.
+    A dimension of length zero would be netCDF 3's sign for an unlimited one. So is what
+    only repeats another variable.
     """
     found = {name: getattr(result, name) for name in schema}
+    for name, other in REPEATED.items():
+        if name in found and np.array_equal(found[name], found[other], equal_nan=True):
+            del found[name]
     names = [
         each for value in found.values() if isinstance(value, tuple) for each in value
     ]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.io import netcdf_file
 
-from microslip.files.schema import CURVE, names_of
+from microslip.files.schema import CURVE, REPEATED, names_of
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 LATER = ("parameter_error",)
@@ -38,6 +38,8 @@ def _variable(file: netcdf_file, name: str, dimensions: tuple[str, ...]) -> obje
     sizes = [file.dimensions.get(each) or 0 for each in dimensions]
     if name not in file.variables and 0 in sizes:
         return () if "name" in dimensions else np.zeros(sizes)
+    if name not in file.variables and name in REPEATED:
+        return _variable(file, REPEATED[name], dimensions)
     if name not in file.variables and name in LATER:
         return np.full(sizes, np.nan)
     data = file.variables[name].data

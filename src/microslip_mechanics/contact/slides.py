@@ -42,6 +42,8 @@ class Slides(NamedTuple):
     """H, shape (times, sliders, sliders)"""
     stuck: NDArray[np.bool_]
     """which sliders never slip, shape (sliders,)"""
+    load: Array
+    """normal load by depth [N/m] and by approach [N s/m], (times, points, 2)"""
     brink: Brink
     """by how much the mean traction of these can come nearer to none, or to what
     :meth:`~microslip_mechanics.contact.sliders.Sliders.bent` has"""
@@ -85,6 +87,7 @@ def slides_of(
         past,
         kept,
         sticking[sliders.point],
+        load,
         brink_of(sliders, tractions, limits, held, sticking, load, frequency),
     )
 

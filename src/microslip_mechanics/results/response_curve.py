@@ -28,6 +28,11 @@ class ResponseCurve(ByValue):
     probes: tuple[str, ...]
     amplitude: Array
     """first harmonic of each probe [m], shape (points, probes)"""
+    amplitude_lowest: Array
+    """the least by any residual tractions of contacts that stick, to first order [m],
+    shape (points, probes); the amplitude itself where these change nothing"""
+    amplitude_highest: Array
+    """the greatest [m], shape (points, probes)"""
     peak: Array
     """half of the way from least to largest in time [m], shape (points, probes)"""
     velocity_peak: Array
@@ -119,6 +124,7 @@ def response_curve(
         column("frequency"),
         problem.probes.names,
         amplitude,
+        *_range(points, amplitude),
         peak,
         velocity_peak,
         problem.interface.names,
@@ -140,6 +146,19 @@ def response_curve(
         along,
         ending,
     )
+
+
+def _range(points: Sequence[PeriodicResponse], amplitude: Array) -> tuple[Array, Array]:
+    """Return the lowest and the highest amplitudes [m], each (points, probes)."""
+    low, high = amplitude.copy(), amplitude.copy()
+    for place, point in enumerate(points):
+        if point.amplitude_range.size:
+            down, up = point.amplitude_range
+            low[place], high[place] = (
+                np.maximum(low[place] + down, 0.0),
+                high[place] + up,
+            )
+    return low, high
 
 
 def _seen(point: PeriodicResponse, rows: Array) -> tuple[Array, Array, Array]:

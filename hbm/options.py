@@ -48,6 +48,9 @@ class CurveOptions:
     second half of a period that mirrors the first, tangents that a law does not have"""
     events: bool = True
     """whether peaks, folds and changes of stability are located"""
+    residual_range: bool = False
+    """whether the range of amplitudes by other residual tractions is sought, see
+    :mod:`~hbm.curves.residual_range`"""
     most_harmonics: int = HARMONICS
     """that an error tolerance may ask for; reported points have up to twice as many"""
     effort: float | None = None

@@ -55,6 +55,9 @@ class RelativeProblem:
     """whether tangents that the contacts' laws do not have are left out"""
     tractions: Tractions | None = None
     """of rigid contacts: pushes on them are the last coordinates"""
+    bent: Array | None = None
+    """by how much sliders that never slip are bent in the mean [m], (points, 3); none
+    of them is if left out"""
 
     @property
     def rank(self) -> int:
@@ -75,10 +78,15 @@ class RelativeProblem:
 
     @property
     def floating(self) -> Floating | None:
-        """How far what only friction holds has moved from rest; None if all is held."""
-        if not self.loose.size:
+        """How far what only friction holds has moved from rest; None if all is held.
+
+        And how sliders are bent, if some are.
+        """
+        if not self.loose.size and self.bent is None:
             return None
-        return Floating(self.basis @ self.loose, self.basis @ self.rest + self.offset)
+        bent = 0.0 if self.bent is None else self.bent
+        place = self.basis @ self.rest + self.offset
+        return Floating(self.basis @ self.loose, place, bent)
 
     def smoothed(self, threshold: float) -> RelativeProblem:
         """Return the problem with no threshold velocity below the given one [m/s]."""

@@ -10,7 +10,7 @@ import numpy as np
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
-from hbm.curves.residual_tractions import amplitude_range
+from hbm.curves.residual_range import ResidualRange
 from hbm.errors import ContinuationError
 from hbm.events.crossed import BRANCH, TORUS, crossings
 from hbm.events.crossings import ASTRAY
@@ -43,6 +43,8 @@ class Curve:
     multipliers: Multipliers
     events: Events | None
     """what finds them, if they are wanted"""
+    residual_range: ResidualRange | None
+    """what finds that of amplitudes, if it is wanted"""
 
     def followed(
         self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
@@ -55,6 +57,8 @@ class Curve:
         summits = Summits(self.problem.probes.rows)
         for correction in corrections:
             mark = beginning if before is None else "restart"
+            if self.residual_range and not correction.joined:
+                self.residual_range.begin()
             made, after = self.made(correction, "" if correction.joined else mark)
             if self.events and correction.tangent is not None:
                 after = self.events.directed(after, metric)
@@ -92,8 +96,9 @@ class Curve:
             error=error,
             event=event,
             parameter=float(kept[-1]),
-            amplitude_range=amplitude_range(balance, point, self.problem.probes.rows),
         )
+        if self.residual_range:
+            made = replace(made, residual_range=self.residual_range.at(kept))
         settled = self.system.settled
         coarser = (correction.point, settled) if settled != fourier else None
         told, finer = self._examined(made, kept, fourier, coarser)

@@ -12,6 +12,7 @@ from hbm.continuation.corrected import correct_at
 from hbm.continuation.effort import Effort
 from hbm.curves.curve import Curve
 from hbm.curves.pieces import Pieces
+from hbm.curves.residual_range import ResidualRange
 from hbm.events.amplitude_growth import AmplitudeGrowth
 from hbm.events.events import Events
 from hbm.events.multipliers import Multipliers
@@ -64,6 +65,9 @@ class Tracer:
             resolution,
             multipliers,
             events if options.events else None,
+            ResidualRange(resolution, problem.probes.rows, self.control.tolerance)
+            if options.residual_range
+            else None,
         )
         self.pieces = Pieces(
             path,

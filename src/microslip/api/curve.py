@@ -44,7 +44,7 @@ def curve(
         If an argument is of no use, or if there is not even a first point; else
         ``ending`` says how the curve ends.
     """
-    from microslip.studies.curve import trace_curve
+    from microslip.studies.curve import Wanted, trace_curve
 
     wanted: Curve = resolved(
         NAME,
@@ -58,4 +58,4 @@ def curve(
     check_apart(NAME, wanted.lowest, wanted.highest)
     given = checked(NAME, problem)
     with named(NAME):
-        return trace_curve(given, wanted).curve
+        return trace_curve(given, wanted, wanted=Wanted(residual_range=True)).curve

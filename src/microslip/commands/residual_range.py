@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from microslip_mechanics.arrays import Array
     from microslip_mechanics.results.response_curve import ResponseCurve
 
 SEEN = 1e-3
@@ -14,10 +13,7 @@ SEEN = 1e-3
 
 
 def residual_range(curve: ResponseCurve) -> list[str]:
-    """Return lines that say how far amplitudes are not unique; none if they are.
-
-    What is smaller than the error of its point, or :data:`SEEN`, is not told.
-    """
+    """Return lines that say how far amplitudes are not unique; none if they are."""
     import numpy as np
 
     points = np.arange(curve.frequency.size)
@@ -27,38 +23,33 @@ def residual_range(curve: ResponseCurve) -> list[str]:
         for each in (curve.amplitude, curve.amplitude_lowest, curve.amplitude_highest)
     )
     with np.errstate(divide="ignore", invalid="ignore"):
-        change = np.nan_to_num(np.stack([low, high]) / amplitude - 1.0, posinf=np.inf)
-    told = np.abs(change).max(axis=0) > np.maximum(curve.error, SEEN)
+        change = np.nan_to_num(np.stack([low, high]) / amplitude - 1.0)
+    told = np.abs(change).max(axis=0) > SEEN
     if not told.any():
         return []
     lines = [
         "not unique: contacts that stick all the time may carry other residual "
-        "tractions, left by what came before; to first order these change the "
-        f"amplitude at {told.sum()} of {told.size} points, by {_most(curve, change)}"
+        "tractions, left by what came before; with such the amplitude is another one "
+        f"at {told.sum()} of {told.size} points, by up to "
+        + " and ".join(
+            f"{100.0 * values[place]:+.2g} % at {_place(curve, int(place))}"
+            for values, place in zip(
+                change, (change[0].argmin(), change[1].argmax()), strict=True
+            )
+            if abs(values[place]) > SEEN
+        )
     ]
-    for place, event in enumerate(curve.event):
-        if event == "peak" and told[place]:
-            hertz = curve.frequency[place] / math.tau
-            lines.append(f"of the peak at {hertz:.6f} Hz by {_both(*change[:, place])}")
+    top = int(high.argmax())
+    if high[top] > (1.0 + SEEN) * amplitude.max():
+        lines.append(
+            f"largest amplitude that was found: {1e3 * high[top]:.6g} mm at "
+            f"{_place(curve, top)}, in place of {1e3 * amplitude.max():.6g} mm"
+        )
     return lines
 
 
-def _most(curve: ResponseCurve, change: Array) -> str:
-    """Return the largest change to both sides, and where it is."""
-    sides = []
-    for values, place in zip(
-        change, (change[0].argmin(), change[1].argmax()), strict=True
-    ):
-        where = f"{curve.frequency[place] / math.tau:.4f} Hz"
-        sides.append(f"{_percent(values[place])} at {where}")
-    return " and ".join(sides)
-
-
-def _both(low: float, high: float) -> str:
-    """Return changes to both sides."""
-    return f"{_percent(low)} to {_percent(high)}"
-
-
-def _percent(change: float) -> str:
-    """Return a relative change in percent, with its sign."""
-    return f"{100.0 * change:+.2g} %" if math.isfinite(change) else "no bound"
+def _place(curve: ResponseCurve, point: int) -> str:
+    """Return where a point is."""
+    if curve.along:
+        return f"{curve.parameter[point]:.6g}"
+    return f"{curve.frequency[point] / math.tau:.4f} Hz"

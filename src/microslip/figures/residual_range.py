@@ -21,7 +21,7 @@ def residual_range(axes: Axes, curve: ResponseCurve, shown: list[int]) -> None:
     at, label = abscissa(curve), "by other residual tractions"
     for colour, place in zip(COLOURS, shown, strict=False):
         low, high = (
-            1e3 * np.where(np.isfinite(each[:, place]), each[:, place], np.nan)
+            1e3 * each[:, place]
             for each in (curve.amplitude_lowest, curve.amplitude_highest)
         )
         if not np.nanmax(high - low, initial=0.0) > SEEN * np.nanmax(high, initial=0.0):

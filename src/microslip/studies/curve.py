@@ -51,6 +51,8 @@ class Wanted:
     """curves that do not hang together with it"""
     effort: float = 1.0
     """that the search for them may take, over the usual"""
+    residual_range: bool = False
+    """the range of amplitudes by other residual tractions of contacts that stick"""
 
 
 ALONE = Wanted()
@@ -73,7 +75,12 @@ def trace_curve(
     ``stability``, whether its points have multipliers.
     """
     rest = static_equilibrium(problem)
-    options = replace(curve_options(curve), pruned=pruned, stability=stability)
+    options = replace(
+        curve_options(curve),
+        pruned=pruned,
+        stability=stability,
+        residual_range=wanted.residual_range,
+    )
     traced = traced_of(problem, rest, _all(problem, rest, options, wanted), watch)
     ending = traced.curve.ending
     ended = ending == "complete" or ending.startswith((LOST, MISSING, BROKEN))

@@ -75,6 +75,7 @@ def along(
         error=resolution.tolerance,
         harmonics=resolution.harmonics,
         samples=resolution.samples,
+        residual_range=True,
     )
     traced = told_along(parameter_response(problem_at, frequency, options), label)
     found, ending = gathered(watch(traced))

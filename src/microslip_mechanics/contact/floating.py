@@ -1,4 +1,4 @@
-"""Mean motions of contacts that nothing but friction holds (theory §6.5)."""
+"""Mean motions that nothing but friction holds, and what it carries (theory §6.5)."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ class Floating:
     """of the contact points, orthonormal, shape (3 points, motions)"""
     rest: Array
     """the points' displacement at rest [m], shape (3 points,)"""
+    bent: Array | float = 0.0
+    """by how much sliders that never slip are bent besides [m], shape (points, 3)"""
 
     def lean(self, mean: Array) -> Array:
         """Return by how much sliders are bent in the mean [m], shape (points, 3).
@@ -26,4 +28,4 @@ class Floating:
         ``mean`` is the points' mean displacement [m], shape ``(3 points,)``.
         """
         along = self.directions.T @ (mean - self.rest)
-        return (self.directions @ along).reshape(-1, 3)
+        return (self.directions @ along).reshape(-1, 3) + self.bent

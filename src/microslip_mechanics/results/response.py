@@ -53,10 +53,10 @@ class PeriodicResponse(ByValue):
     """of the scene, along which the point was found; ω itself along frequency"""
     parameter_error: float = np.nan
     """estimated one of the parameter at which a peak or a fold lies; NaN for others"""
-    amplitude_range: Array = field(default_factory=lambda: np.empty((0, 0)))
-    """by how much amplitudes of probes may be lower and higher [m], to first order,
-    with other residual tractions of contacts that stick, shape (2, probes); empty if no
-    load follows them (theory §6.5)"""
+    residual_range: Array = field(default_factory=lambda: np.empty((0, 0)))
+    """by how much amplitudes of probes were found lower and higher, relative, with
+    other residual tractions of contacts that stick, shape (2, probes); empty if no load
+    follows them (theory §6.5)"""
     shapes: Array | None = None
     """motion of the coordinates of a reduced structure, shape (dofs, coordinates)"""
 

@@ -29,8 +29,8 @@ class ResponseCurve(ByValue):
     amplitude: Array
     """first harmonic of each probe [m], shape (points, probes)"""
     amplitude_lowest: Array
-    """the least by any residual tractions of contacts that stick, to first order [m],
-    shape (points, probes); the amplitude itself where these change nothing"""
+    """the least that was found with other residual tractions of contacts that stick
+    [m], shape (points, probes); the amplitude itself where these change nothing"""
     amplitude_highest: Array
     """the greatest [m], shape (points, probes)"""
     peak: Array
@@ -152,12 +152,9 @@ def _range(points: Sequence[PeriodicResponse], amplitude: Array) -> tuple[Array,
     """Return the lowest and the highest amplitudes [m], each (points, probes)."""
     low, high = amplitude.copy(), amplitude.copy()
     for place, point in enumerate(points):
-        if point.amplitude_range.size:
-            down, up = point.amplitude_range
-            low[place], high[place] = (
-                np.maximum(low[place] + down, 0.0),
-                high[place] + up,
-            )
+        if point.residual_range.size:
+            low[place] *= 1.0 + point.residual_range[0]
+            high[place] *= 1.0 + point.residual_range[1]
     return low, high
 
 

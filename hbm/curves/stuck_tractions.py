@@ -1,81 +1,28 @@
-"""What other residual tractions would make of an amplitude (theory §6.5).
-
-A slider that never slips may carry any mean traction within its limit: what came before
-decides. Where normal loads follow that, amplitudes do. To first order the extremes of
-an amplitude are those of a linear programme: the tractions of all such sliders vary,
-and none may exceed its limit, which varies with them, at any time of the period.
-"""
+"""What sliders carry that never slip, and what else limits allow (theory §6.5)."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hbm.balance.residual import HarmonicBalance
-from hbm.continuation.arc import upright
-from hbm.continuation.linearised import SingularError
 from hbm.forces.fourier import derivative, waves
 from hbm.forces.sampled_orbit import SampledOrbit
 from hbm.stability.slide_events import even_slides
-from microslip_mechanics.arrays import TINY, Array, largest
-from microslip_mechanics.contact.points import ELASTIC, ContactPoints
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.sliders import Sliders
 
 STEPS, EACH = 256, 4
 """of the period, in which slips are looked for; limits are kept after so many each"""
 DIRECTIONS = 16
 """of a traction along two tangents, in which its limit is kept"""
-NONE = 1e-6
-"""change of an amplitude, relative, that is none"""
-
-
-def amplitude_range(balance: HarmonicBalance, point: Array, rows: Array) -> Array:
-    """Return by how much amplitudes may be lower and higher [m], shape (2, probes).
-
-    Parameters
-    ----------
-    balance
-        That is solved at ``point``, of shape ``(size,)``.
-    rows
-        Probes of the motion, shape ``(probes, dofs)``.
-
-    Returns
-    -------
-    Zero where all tractions are determined, infinite where their limits do not bound
-    them or the curve turns; of shape ``(0, probes)`` if no load follows a traction.
-    """
-    if not may_vary(balance.contact.points):
-        return np.zeros((0, len(rows)))
-    _, linearised = balance(point)
-    stuck = _Stuck.of(balance, float(point[-1]))
-    if not stuck.along.size:
-        return np.zeros((2, len(rows)))
-    pulled = np.zeros((point.size, len(stuck.along)))
-    pulled[: balance.rank] = -stuck.along.T
-    try:
-        changes = linearised.solve(upright(point), pulled)
-    except SingularError:
-        return np.outer([-np.inf, np.inf], np.ones(len(rows)))
-    amplitude, slopes = _slopes(balance, point, changes, rows)
-    bounds = stuck.bounds(changes[:-1].reshape(-1, balance.rank, len(stuck.along)))
-    found = np.zeros((2, len(rows)))
-    most = 2.0 * np.abs(slopes) @ stuck.limit.max(axis=0)
-    for probe in np.flatnonzero(most > NONE * amplitude):
-        slope = slopes[probe]
-        found[:, probe] = -_most(-slope, *bounds), _most(slope, *bounds)
-    return found
-
-
-def may_vary(points: ContactPoints) -> bool:
-    """Return whether a load may follow what a stuck slider carries in the mean."""
-    return bool((points.friction == ELASTIC).any() and not points.constant_load.all())
 
 
 @dataclass(frozen=True, slots=True)
-class _Stuck:
-    """Sliders that never slip in an orbit, at some times of the period."""
+class StuckTractions:
+    """What sliders carry that never slip, at some times of the period."""
 
     sliders: Sliders
     places: NDArray[np.int64]
@@ -87,15 +34,22 @@ class _Stuck:
     """[N], shape (times, stuck)"""
     load: Array
     """by depth and by approach, shape (times, stuck, 2)"""
+    own: Array
+    """mean traction but for that by how far bodies have moved [N], shape (stuck,)"""
 
     @classmethod
-    def of(cls, balance: HarmonicBalance, frequency: float) -> _Stuck:
+    def of(cls, balance: HarmonicBalance, frequency: float) -> StuckTractions:
         """Return those of the orbit at which the contacts were just called."""
         contact = balance.contact
         sliders = Sliders.of(contact.points, balance.problem.basis, contact.floating)
         orbit = SampledOrbit.of(contact, frequency)
         slides = even_slides(sliders, orbit, STEPS).slides
         places = np.flatnonzero(slides.stuck)
+        moved = sliders
+        if contact.floating is not None:
+            moved = replace(sliders, floating=replace(contact.floating, bent=0.0))
+        mean = orbit.spectrum[0].real.reshape(-1, 3)
+        own = slides.traction[:-1].mean(axis=0) - moved.seen(moved.bent(mean))
         return cls(
             sliders,
             places,
@@ -103,12 +57,29 @@ class _Stuck:
             slides.traction[:-1:EACH, places],
             slides.limit[:-1:EACH, places],
             slides.load[:-1:EACH, sliders.point[places]],
+            own[places],
         )
+
+    @property
+    def rank(self) -> int:
+        """Number of coordinates."""
+        return int(self.sliders.basis.shape[1])
 
     @property
     def along(self) -> Array:
         """Displacement of each from the coordinates, shape (stuck, rank)."""
         return self.sliders.along[self.places]
+
+    def bent(self, change: Array) -> Array:
+        """Return by how much sliders are bent in the mean [m], shape (points, 3).
+
+        ``change`` is that of the mean tractions of these [N], shape ``(stuck,)``; what
+        slips has no say.
+        """
+        made = np.zeros((self.sliders.points.load.size, 3))
+        places = self.sliders.point[self.places], 1 + self.sliders.axis[self.places]
+        made[places] = (self.own + change) / self.sliders.stiffness[self.places]
+        return made
 
     def bounds(self, changes: Array) -> tuple[Array, Array]:
         """Return the limits of tractions as matrix · change ≤ room.
@@ -154,28 +125,3 @@ def _directions(axes: int) -> Array:
         return np.array([[-1.0], [1.0]])
     angles = 2.0 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
     return np.stack([np.cos(angles), np.sin(angles)], axis=1)
-
-
-def _slopes(
-    balance: HarmonicBalance, point: Array, changes: Array, rows: Array
-) -> tuple[Array, Array]:
-    """Return amplitudes of probes and their derivatives, (probes, causes)."""
-    here = balance.motion(point)[1:3] @ rows.T
-    amplitude = np.hypot(*here)
-    moved = [balance.motion(point + each)[1:3] @ rows.T - here for each in changes.T]
-    slopes: Array = np.einsum("cp,scp->ps", here, np.array(moved))
-    slopes /= np.maximum(amplitude, TINY)[:, None]
-    return amplitude, slopes
-
-
-def _most(slope: Array, matrix: Array, room: Array) -> float:
-    """Return the largest slope · change within limits; infinite if there is no end."""
-    from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
-
-    unit, size = largest(room), largest(slope)
-    if unit == 0.0 or size == 0.0:
-        return 0.0
-    found = linprog(-slope / size, matrix, room / unit, bounds=(None, None))
-    if found.x is None:
-        return np.inf
-    return float(slope @ found.x) * unit

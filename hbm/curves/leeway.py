@@ -1,0 +1,94 @@
+"""What mean tractions of stuck sliders change of amplitudes, to first order (§6.5).
+
+The farthest that an amplitude goes is a linear programme: the tractions of all such
+sliders vary, and none may exceed its limit, which varies with them, at any time of the
+period.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hbm.balance.residual import HarmonicBalance
+from hbm.continuation.arc import upright
+from hbm.curves.stuck_tractions import StuckTractions
+from microslip_mechanics.arrays import TINY, Array, largest
+
+
+@dataclass(frozen=True)
+class Leeway:
+    """What mean tractions of stuck sliders change of a point, to first order."""
+
+    stuck: StuckTractions
+    changes: Array
+    """of the point by each of them, shape (size, stuck)"""
+    amplitude: Array
+    """of the probes [m], shape (probes,)"""
+    slopes: Array
+    """of these by each of them [m/N], shape (probes, stuck)"""
+
+    @classmethod
+    def of(cls, balance: HarmonicBalance, point: Array, rows: Array) -> Leeway:
+        """Return that at a point, at its frequency.
+
+        Raises
+        ------
+        SingularError
+            If the curve turns there.
+        """
+        _, linearised = balance(point)
+        stuck = StuckTractions.of(balance, float(point[-1]))
+        pulled = np.zeros((point.size, len(stuck.along)))
+        pulled[: balance.rank] = -stuck.along.T
+        changes: Array = pulled
+        if pulled.size:
+            changes = linearised.solve(upright(point), pulled)
+        return cls(stuck, changes, *_slopes(balance, point, changes, rows))
+
+    def opens(self, least: float) -> list[int]:
+        """Return the probes whose amplitudes may change by a share of that, or more."""
+        most = 2.0 * np.abs(self.slopes) @ self.stuck.limit.max(axis=0)
+        open_ = (most > least * self.amplitude) & (self.amplitude > 0.0)
+        found: list[int] = np.flatnonzero(open_).tolist()
+        return found
+
+    def farthest(self, probe: int, sign: float) -> Array:
+        """Return the changes of tractions [N] for the greatest amplitude, (stuck,).
+
+        The least one for a negative ``sign``. No traction changes by more than its
+        largest limit.
+        """
+        from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
+
+        slope = sign * self.slopes[probe]
+        matrix, room = self._bounds if slope.any() else np.zeros((2, 0))
+        if not room.any():
+            return np.zeros_like(slope)
+        unit, size = largest(room), largest(slope)
+        ends = self.stuck.limit.max(axis=0) / unit  # > 0: what has no limit slips
+        bounds = list(zip(-ends, ends, strict=True))
+        found = linprog(-slope / size, matrix, room / unit, bounds=bounds)
+        return np.zeros_like(slope) if found.x is None else unit * np.asarray(found.x)
+
+    @cached_property
+    def _bounds(self) -> tuple[Array, Array]:
+        """The limits of tractions, as matrix · change ≤ room."""
+        rank, count = self.stuck.rank, len(self.stuck.along)
+        return self.stuck.bounds(self.changes[:-1].reshape(-1, rank, count))
+
+
+def _slopes(
+    balance: HarmonicBalance, point: Array, changes: Array, rows: Array
+) -> tuple[Array, Array]:
+    """Return amplitudes of probes and their derivatives, (probes, causes)."""
+    here = balance.motion(point)[1:3] @ rows.T
+    amplitude = np.hypot(*here)
+    slopes = np.zeros((len(rows), changes.shape[1]))
+    for cause, change in enumerate(changes.T):
+        moved = balance.motion(point + change)[1:3] @ rows.T - here
+        slopes[:, cause] = (here * moved).sum(axis=0)
+    slopes /= np.maximum(amplitude, TINY)[:, None]
+    return amplitude, slopes

@@ -119,6 +119,21 @@ def test_curve_of_an_earlier_version_has_no_errors_of_its_parameter(
     check_same(expected, load(tmp_path / "result.nc").result)
 
 
+def test_amplitudes_that_are_unique_are_stored_once(
+    small_curve: ResponseCurve, tmp_path: Path
+) -> None:
+    amplitude = small_curve.amplitude
+    unique = dataclasses.replace(
+        small_curve, amplitude_lowest=amplitude, amplitude_highest=amplitude
+    )
+
+    save(tmp_path / "result.nc", Stored(unique, SCENE, COMMAND))
+
+    check_same(unique, load(tmp_path / "result.nc").result)
+    with netcdf_file(tmp_path / "result.nc", "r", mmap=False) as file:
+        assert not {"amplitude_lowest", "amplitude_highest"} & set(file.variables)
+
+
 def test_every_field_is_a_variable_or_an_attribute(result: Result, saved: Path) -> None:
     names = {field.name for field in dataclasses.fields(result)}
 

@@ -1,0 +1,92 @@
+"""How far amplitudes are not unique, in words and in a picture."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+
+from figure_checks import legend
+from microslip.commands.residual_range import residual_range
+from microslip.figures.amplitude import frequency_response
+from microslip_mechanics.results.response_curve import ResponseCurve
+
+
+def unique(curve: ResponseCurve) -> ResponseCurve:
+    """Return a curve whose amplitudes no residual traction changes."""
+    return replace(
+        curve, amplitude_lowest=curve.amplitude, amplitude_highest=curve.amplitude
+    )
+
+
+def changed(curve: ResponseCurve, low: float, high: float) -> ResponseCurve:
+    """Return a curve whose second point may change by these shares."""
+    lowest, highest = curve.amplitude.copy(), curve.amplitude.copy()
+    lowest[1] *= 1.0 + low
+    highest[1] *= 1.0 + high
+    return replace(curve, amplitude_lowest=lowest, amplitude_highest=highest)
+
+
+def test_nothing_is_told_of_unique_amplitudes(small_curve: ResponseCurve) -> None:
+    assert residual_range(unique(small_curve)) == []
+    assert residual_range(changed(small_curve, -5e-4, 5e-4)) == []
+
+
+def test_both_sides_are_told_with_their_place(small_curve: ResponseCurve) -> None:
+    told = " ".join(residual_range(changed(small_curve, -0.125, 0.25)))
+
+    assert "1 of 4 points" in told
+    assert "-12 % at 131.0000 Hz and +25 % at 131.0000 Hz" in told
+
+
+def test_a_side_without_change_is_not_told(small_curve: ResponseCurve) -> None:
+    told = " ".join(residual_range(changed(small_curve, 0.0, 0.25)))
+
+    assert "by up to +25 % at 131.0000 Hz" in told
+
+
+def test_along_a_parameter_its_value_is_told(small_curve: ResponseCurve) -> None:
+    curve = replace(
+        changed(small_curve, 0.0, 0.5),
+        along="mu",
+        parameter=np.array([0.1, 0.2, 0.3, 0.4]),
+    )
+
+    assert "+50 % at 0.2" in " ".join(residual_range(curve))
+
+
+def test_the_largest_amplitude_is_told_if_it_is_larger(
+    small_curve: ResponseCurve,
+) -> None:
+    curve = changed(small_curve, 0.0, 9.0)
+    highest = 1e3 * curve.amplitude_highest.max()
+
+    *_, told = residual_range(curve)
+
+    assert f"{highest:.6g} mm at 131.0000 Hz" in told
+    assert f"in place of {1e3 * curve.amplitude.max():.6g} mm" in told
+
+
+def test_a_band_is_drawn_where_amplitudes_vary(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curve = changed(small_curve, -0.5, 0.5)
+
+    frequency_response(axes, curve)
+
+    assert legend(axes).count("by other residual tractions") == 1
+    bands = [np.vstack([p.vertices for p in c.get_paths()]) for c in axes.collections]
+    assert bands
+    for band in bands:
+        at = np.isclose(band[:, 0], 131.0)
+        values = np.unique(np.round(band[at, 1], 12))
+        assert values.max() / values.min() == pytest.approx(3.0)  # 1.5 and 0.5 times
+
+
+def test_no_band_is_drawn_of_unique_amplitudes(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    frequency_response(axes, unique(small_curve))
+
+    assert not axes.collections
+    assert "by other residual tractions" not in legend(axes)

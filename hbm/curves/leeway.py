@@ -7,7 +7,7 @@ period.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,9 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import upright
 from hbm.curves.stuck_tractions import StuckTractions
 from microslip_mechanics.arrays import TINY, Array, largest
+
+WITHIN = 1e-6
+"""of what slips have changed, by which a traction is taken to be within its limit"""
 
 
 @dataclass(frozen=True)
@@ -39,8 +42,12 @@ class Leeway:
         SingularError
             If the curve turns there.
         """
-        _, linearised = balance(point)
+        balance.residual(point)
         stuck = StuckTractions.of(balance, float(point[-1]))
+        # what has slipped into its limits, and sticks there, may go on
+        bent = stuck.bent(WITHIN * stuck.slipped(balance.problem.bent))
+        free = balance.with_problem(replace(balance.problem, bent=bent))
+        _, linearised = free(point)
         pulled = np.zeros((point.size, len(stuck.along)))
         pulled[: balance.rank] = -stuck.along.T
         changes: Array = pulled
@@ -64,7 +71,7 @@ class Leeway:
         from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
 
         slope = sign * self.slopes[probe]
-        matrix, room = self._bounds if slope.any() else np.zeros((2, 0))
+        matrix, room = self.bounds if slope.any() else np.zeros((2, 0))
         if not room.any():
             return np.zeros_like(slope)
         unit, size = largest(room), largest(slope)
@@ -74,7 +81,7 @@ class Leeway:
         return np.zeros_like(slope) if found.x is None else unit * np.asarray(found.x)
 
     @cached_property
-    def _bounds(self) -> tuple[Array, Array]:
+    def bounds(self) -> tuple[Array, Array]:
         """The limits of tractions, as matrix · change ≤ room."""
         rank, count = self.stuck.rank, len(self.stuck.along)
         return self.stuck.bounds(self.changes[:-1].reshape(-1, rank, count))

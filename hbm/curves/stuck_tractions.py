@@ -15,7 +15,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.sliders import Sliders
 
 STEPS, EACH = 256, 4
-"""of the period, in which slips are looked for; limits are kept after so many each"""
+"""of the period, in which slips are looked for; in so many each the limit is kept"""
 DIRECTIONS = 16
 """of a traction along two tangents, in which its limit is kept"""
 
@@ -33,7 +33,7 @@ class StuckTractions:
     limit: Array
     """[N], shape (times, stuck)"""
     load: Array
-    """by depth and by approach, shape (times, stuck, 2)"""
+    """by depth and by approach at some of the times, (times / EACH, stuck, 2)"""
     own: Array
     """mean traction but for that by how far bodies have moved [N], shape (stuck,)"""
 
@@ -54,8 +54,8 @@ class StuckTractions:
             sliders,
             places,
             frequency,
-            slides.traction[:-1:EACH, places],
-            slides.limit[:-1:EACH, places],
+            slides.traction[:-1, places],
+            slides.limit[:-1, places],
             slides.load[:-1:EACH, sliders.point[places]],
             own[places],
         )
@@ -77,9 +77,28 @@ class StuckTractions:
         slips has no say.
         """
         made = np.zeros((self.sliders.points.load.size, 3))
-        places = self.sliders.point[self.places], 1 + self.sliders.axis[self.places]
-        made[places] = (self.own + change) / self.sliders.stiffness[self.places]
+        made[self._entries] = (self.own + change) / self._stiffness
         return made
+
+    def slipped(self, bent: Array | None) -> Array:
+        """Return what slips have made of mean tractions [N], shape (stuck,).
+
+        ``bent`` is how sliders were when the orbit began.
+        """
+        if bent is None:
+            return self.own
+        return self.own - self._stiffness * bent[self._entries]
+
+    @property
+    def _entries(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Where each is in a table of shape (points, 3)."""
+        point, axis = self.sliders.point[self.places], self.sliders.axis[self.places]
+        return point, 1 + axis
+
+    @property
+    def _stiffness(self) -> Array:
+        """k_t [N/m], shape (stuck,)."""
+        return self.sliders.stiffness[self.places]
 
     def bounds(self, changes: Array) -> tuple[Array, Array]:
         """Return the limits of tractions as matrix · change ≤ room.
@@ -95,23 +114,25 @@ class StuckTractions:
             for way in _directions(own.size):
                 outward = np.einsum("a,tas->ts", way, traction[:, own])
                 matrices.append(outward - limit[:, own[0]])
-                rooms.append(self.limit[:, own[0]] - self.traction[:, own] @ way)
+                room = self.limit[:, own[0]] - self.traction[:, own] @ way
+                rooms.append(room.reshape(-1, EACH).min(axis=1))
         return np.vstack(matrices), np.maximum(np.concatenate(rooms), 0.0)
 
     def _changes(self, changes: Array) -> tuple[Array, Array]:
         """Return what mean tractions change of tractions and limits.
 
-        Each has shape ``(times, stuck, stuck)``, the last axis being that of the cause.
+        Each has shape ``(times / EACH, stuck, stuck)``, the last axis being that of the
+        cause.
         """
         own, table = self.places, self.sliders.points
         points = self.sliders.point[own]
-        there, _ = waves(len(changes) // 2, len(self.limit))
+        there, _ = waves(len(changes) // 2, len(self.load))
         moved, turned = (
             np.tensordot(there, each, axes=(0, 0))
             for each in (changes, derivative(changes))
         )
-        traction = self.sliders.stiffness[own, None] * (self.along @ moved)
-        traction -= self.sliders.stiffness[own, None] * (self.along @ changes[0])
+        traction = self._stiffness[:, None] * (self.along @ moved)
+        traction -= self._stiffness[:, None] * (self.along @ changes[0])
         traction += self.sliders.bending[own] @ changes[0] + np.eye(own.size)
         normal = self.sliders.basis[3 * points]
         limit = self.load[:, :, :1] * (normal @ moved)

@@ -10,8 +10,10 @@ from figure_checks import check_labels, check_lines, legend
 from microslip.figures import curve as curves
 from microslip.figures import march
 from microslip.figures import sweep as sweeps
+from microslip.figures.envelope import envelope_figure
 from microslip.figures.passes import Pass, amplitude
 from microslip.figures.style import alike, legend_beside, one_range
+from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.results.time_history import TimeHistory
 
@@ -45,6 +47,31 @@ def test_normal_force_shows_the_points_of_one_face(
     check_lines(axes.lines, small_history.time, [*small_history.normal_force.T[:2]])
     assert legend(axes) == ["B1", "B2"]
     assert axes.get_ylabel() == "force [N]"
+
+
+def test_a_force_that_does_not_change_is_not_magnified(
+    small_history: TimeHistory, small_envelope: Envelope
+) -> None:
+    contacts, cycles = len(small_history.contacts), len(small_envelope.time)
+    steady = 1.06741573 + 1e-12 * np.linspace(-1.0, 1.0, 6)[:, None].repeat(contacts, 1)
+    history = dataclasses.replace(small_history, normal_force=steady)
+    envelope = dataclasses.replace(
+        small_envelope,
+        normal_smallest=steady[:cycles] - 1e-12,
+        normal_largest=steady[:cycles],
+    )
+
+    for figure in (sweeps.sweep_figure(history, ""), envelope_figure(envelope, "")):
+        figure.draw_without_rendering()
+        pressed = [
+            axes
+            for axes in figure.axes
+            if axes.get_title(loc="left").startswith("Normal forces")
+        ]
+        assert pressed
+        for axes in pressed:
+            assert np.ptp(axes.get_ylim()) > 1e-6
+            assert axes.yaxis.get_offset_text().get_text() == ""
 
 
 def test_forces_that_pull_are_not_called_normal(

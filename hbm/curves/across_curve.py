@@ -94,5 +94,6 @@ def _normal(path: AlongFrequency, balance: HarmonicBalance, point: Array) -> Arr
 
 def _longer(balance: HarmonicBalance, point: Array) -> Array:
     """Return a point with room for the harmonics of a balance."""
-    coefficients = point[:-1].reshape(-1, balance.rank)
+    held = point[:-1]  # nothing where the structure moves freely
+    coefficients = held.reshape(held.size // max(balance.rank, 1), balance.rank)
     return balance.point(coefficients, float(point[-1]))

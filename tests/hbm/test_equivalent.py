@@ -23,6 +23,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from rigs import rig_problem
 from small_problems import dwelled, last_harmonic, sliding_block
 from sparse_problems import dense, net
@@ -318,6 +319,21 @@ def test_the_error_at_a_bent_peak_is_that_of_the_peak_with_more_harmonics() -> N
     assert error.frequency == pytest.approx(shift, abs=1e-6)
     assert error.amplitude == pytest.approx(abs(float(size[0]) - 1.0), abs=1e-5)
     assert 1e-4 < error.frequency < error.amplitude < 1e-3
+
+
+def test_a_structure_without_elements_answers_in_one_harmonic() -> None:
+    ratio, natural = 0.01, 100.0
+    problem = system(
+        mass=[1.0], stiffness=[natural**2], damping_ratio=ratio, drive={"x1": 1.0}
+    )
+    rest, limits = static_equilibrium(problem), (60.0, 140.0)
+
+    found = one_harmonic_response(problem, rest, limits)
+    error = one_harmonic_error(problem, rest, found, limits, 1e-6, free=True)
+
+    resonance = natural * np.sqrt(1.0 - 2.0 * ratio**2)
+    assert found.frequency == pytest.approx(resonance, rel=1e-6)
+    assert (error.amplitude, error.frequency) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
 def test_the_shift_is_unknown_where_only_the_same_frequency_has_a_response(

@@ -189,6 +189,14 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
         {"mass": [True, True]},
         ("mass is no matrix of numbers",),
     ),
+    "structural damping in a list": (
+        {"stiffness": [[2e4 + 40j, -1e4], [-1e4, 1e4]]},
+        ("stiffness is complex", "loss_factor"),
+    ),
+    "rows of unequal length": (
+        {"stiffness": [[2e4], [-1e4, 1e4]]},
+        ("stiffness is no matrix of numbers", "rows of equal length"),
+    ),
     "half an engine order": (
         {"engine_order": EngineOrder(("x1", "x2"), 1.5, 1.0)},  # type: ignore[arg-type]
         ("engine order 1.5", "whole number"),

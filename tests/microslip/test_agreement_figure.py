@@ -26,7 +26,10 @@ def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     figure = agreement_figure(
         unmarked(small_curve),
         (frequency, marched, difference, admitted),
-        [("1 x as long", swept, 1e-4 * swept), ("4 x as long", swept, 2e-4 * swept)],
+        [
+            ("1 x as long", swept, 1e-4 * swept[:, None]),
+            ("4 x as long", swept, 2e-4 * swept[:, None]),
+        ],
         (slower, error),
         "two-blades",
     )
@@ -45,6 +48,29 @@ def test_agreement_figure_shows_curve_orbits_envelopes_and_energies(
     assert legend(envelopes) == ["1 x as long", "4 x as long", "curve"]
     check_lines(energies.lines, slower, [[40.0, 10.0, 5.0]])
     assert energies.lines[0].get_linestyle() == "None"
+
+
+def test_envelopes_are_those_of_a_probe_that_moves(small_curve: ResponseCurve) -> None:
+    peak = small_curve.peak * 1e-14
+    peak[:, 1] *= 1e14
+    still = dataclasses.replace(small_curve, peak=peak)
+    nothing, swept = np.zeros(0), np.linspace(130.0, 134.0, 9)
+    envelope = np.stack([0.0 * swept, 1e-4 * swept], axis=1)
+
+    figure = agreement_figure(
+        unmarked(still),
+        (nothing, np.empty((0, 4)), nothing, nothing),
+        [("1 x as long", swept, envelope)],
+        (nothing, nothing),
+        "",
+    )
+
+    (envelopes,) = (
+        axes for axes in figure.axes if "Envelope" in axes.get_title("left")
+    )
+    assert envelopes.get_title("left").endswith(small_curve.probes[1].replace("-", " "))
+    check_lines(envelopes.lines[:1], swept, [0.1 * swept])
+    check_lines(envelopes.lines[1:], abscissa(still), [1e3 * peak[:, 1]])
 
 
 def test_dots_have_the_colours_of_their_lines(small_curve: ResponseCurve) -> None:

@@ -144,6 +144,9 @@ def test_a_close_up_shows_what_is_around_a_crowd(
 
     close_up(axes, curve)
 
+    # not where the amplitude is largest of all: that is elsewhere
+    title = "Close-up of the first harmonic, largest of probes"
+    assert axes.get_title(loc="left") == title
     np.testing.assert_allclose(axes.get_xlim(), (134.9, 135.3))
     low, high = axes.get_ylim()
     assert 1.4 < low < 1.5

@@ -27,6 +27,21 @@ def test_sliding_velocity_shows_relative_motions(
     assert axes.get_yscale() == "log"
 
 
+def test_velocities_of_rounding_errors_do_not_stretch_the_axis(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    moves, rests = np.array([1e-2, 0.3, 0.1, 1e-12]), np.full(4, 1e-17)
+    velocity = np.stack([rests, moves, rests], axis=1)
+    probes = ("still", "mass", "other")
+    curve = dataclasses.replace(small_curve, probes=probes, velocity_peak=velocity)
+
+    curves.sliding_velocity(axes, curve)
+
+    check_lines(axes.lines, abscissa(curve), [moves])
+    assert axes.get_ylim()[0] == pytest.approx(0.3e-6)
+    assert axes.get_title(loc="left") == "Largest velocity: the greatest 1 of 3"
+
+
 def test_dissipated_energy_shows_friction_and_contact_damping_in_millijoules(
     axes: Axes, small_curve: ResponseCurve
 ) -> None:

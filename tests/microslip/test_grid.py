@@ -94,3 +94,17 @@ def test_a_scene_without_these_numbers_is_refused_in_a_line(
     assert output == ""
     assert error.startswith("microslip: grid changes the numbers of two blades")
     assert error.count("\n") == 1
+
+
+def test_an_override_of_what_the_grid_varies_is_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    sets = ["--set", "model=A", "--set", "friction.law=none"]
+
+    assert main(["grid", "two-blades", *sets]) == 2
+    output, error = capsys.readouterr()
+    assert output == ""
+    assert error == (
+        "microslip: --set friction.law=none: grid gives friction.law its own values: "
+        "leave it out\n"
+    )

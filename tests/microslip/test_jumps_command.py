@@ -17,6 +17,7 @@ from microslip.studies.jumps.folds import Fold, folds_of
 from microslip.studies.jumps.jumps import LEAST, Jump
 from microslip.studies.jumps.sweeps import Sweep
 from microslip.studies.verify.verify import StudyError
+from microslip_mechanics.problem import Probes
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 from small_problems import cubic_oscillator
@@ -95,6 +96,20 @@ def test_a_jump_lands_on_the_nearest_stable_motion_behind_the_fold(
     ):
         found = folds_of(problem, other, lead=0.1)
         assert [each.height for each in found] == [up.height, down.height]
+
+
+def test_a_jump_is_seen_where_the_motion_jumps(traced: Traced) -> None:
+    problem = cubic_oscillator(drive=0.3, damping=0.1)
+    rows = problem.probes.rows
+    still = np.concatenate([1e-9 * rows, rows])
+    watched = dataclasses.replace(problem, probes=Probes(("still", "mass"), still))
+    curve = response_curve(watched, traced.responses, "complete")
+
+    seen = folds_of(watched, dataclasses.replace(traced, curve=curve), lead=0.1)
+
+    for fold, alone in zip(seen, folds_of(problem, traced, lead=0.1), strict=True):
+        assert (alone.probe, fold.probe) == (0, 1)
+        assert (fold.height, fold.falls) == (alone.height, alone.falls)
 
 
 def upper_fold(traced: Traced) -> int:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import microslip
 from hbm.errors import ContinuationError
 from hbm.modes.linear_modes import LinearMode
 from hbm.modes.mode_options import ModeOptions
@@ -51,6 +52,31 @@ def test_the_command_writes_a_table_and_a_picture(
         rows = list(csv.DictReader(file))
     assert float(rows[0]["frequency_hz"]) == pytest.approx(134.978, abs=1e-3)
     assert float(rows[-1]["damping_ratio"]) > 1.2 * float(rows[0]["damping_ratio"])
+
+
+@pytest.mark.parametrize(("coupling", "apart"), [(1.0, False), (1e-4, True)])
+def test_a_mode_that_begins_as_another_motion_is_told(
+    coupling: float, *, apart: bool
+) -> None:
+    # at 0.01 mm the cubic spring stiffens by 0.004 N/m, more than a weak coupling
+    problem = microslip.system(
+        mass=[1.0, 1.0],
+        stiffness=[[1e3, coupling], [coupling, 1e3]],
+        damping_ratio=0.01,
+        elements=[
+            microslip.Element(
+                microslip.CubicSpring(5e7), between=("x2", "ground"), name="cubic"
+            )
+        ],
+    )
+    options = ModeOptions(1e-5, 1.1e-5, harmonics=3)
+
+    found = list(followed(problem, (30.0, 33.0), options))
+
+    assert [mode.apart for mode in found] == [apart] * 2
+    for mode in found:
+        said = "begin with smaller --amplitudes"
+        assert (said in mode_table(mode, "in small motions")[-1]) == apart
 
 
 def test_harmonics_follow_from_a_tolerance(
@@ -197,14 +223,13 @@ def fake_growth(
     """Return modes of given amplitudes that stop at one that harmonics decide."""
 
     def growth(*given: Any) -> Iterator[NonlinearMode]:
-        harmonics = given[-1].harmonics
+        harmonics, shape = given[-1].harmonics, given[-2].shape
+        motion = np.array([0.0 * shape.real, shape.real, -shape.imag])
         for amplitude in fine:
             if amplitude > ends[harmonics]:
                 raise ContinuationError("the curve does not go on")
             moved = np.array([amplitude + 0j])
-            yield NonlinearMode(
-                -1.0 + 9j, moved, np.zeros((3, 1)), 0.0, 0.0, harmonics or 31, 64
-            )
+            yield NonlinearMode(-1.0 + 9j, moved, motion, 0.0, 0.0, harmonics or 31, 64)
 
     return growth
 

@@ -156,6 +156,22 @@ def test_the_command_writes_a_table_and_a_picture(run: Run, tmp_path: Path) -> N
     assert {hertz for hertz, _ in printed} < in_table
 
 
+def test_poles_of_a_scene_without_elements_are_those_of_its_structure(
+    run: Run, tmp_path: Path
+) -> None:
+    scene = tmp_path / "linear.toml"
+    scene.write_text(
+        'scene = "system"\nstructure = {mass = [1], stiffness = [1e4], '
+        "damping_ratio = 0.01}\ndrive = {x1 = 1}\ncurve = {lowest = 10, highest = 20}\n"
+    )
+
+    status, output, error = run("poles", str(scene), "structure.damping_ratio", ".1")
+
+    assert (status, error) == (0, "")
+    damped = 100.0 * np.sqrt(1.0 - 0.1**2) / (2.0 * np.pi)
+    assert f"{damped:.4f} (10.000)" in output
+
+
 def test_the_frequency_of_the_response_may_be_given(run: Run, tmp_path: Path) -> None:
     status, output, _ = run(
         *("poles", "two-blades", "friction", "0.3", "--set", "model=A"),

@@ -45,6 +45,17 @@ def test_errors_are_relative_and_know_no_mean() -> None:
     assert other.errors(exact) == pytest.approx((0.02, 0.05, 0.02))
 
 
+def test_the_peak_is_that_of_a_probe_that_moves() -> None:
+    rounding = np.array([1e-17, 0.0])
+    exact, other = (
+        Orbit(np.outer(np.sin(PHASE), [rest, size]), 2.0)
+        for rest, size in zip(rounding, (1.0, 1.02), strict=True)
+    )
+
+    assert exact.peak == pytest.approx(1.0)
+    assert other.errors(exact) == pytest.approx((0.02, 0.0, 0.02))
+
+
 def test_costs_are_interpolated_along_the_best_runs() -> None:
     found = [run(1.0, 1e-2), run(4.0, 1e-4), run(2.0, 5e-2), run(9.0, 1e-6, "stopped")]
 

@@ -1,5 +1,6 @@
 """Damping, sets, reduction, rotation, moving ground and engine orders of scenes."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -195,6 +196,22 @@ def test_a_turning_beam_is_stretched_stiffened_and_gyroscopic(tmp_path: Path) ->
         for each in (still, turning)
     ]
     assert lowest[1] > lowest[0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('speed = "6000 rpm"\n', "", "[structure.rotation] speed is missing: add it"),
+        ("6000 rpm", "fast", '[structure.rotation] speed = "fast": is not a number'),
+        ("[0, 1, 0]", "[0, 1]", "axis of rotation: give three numbers"),
+        ("[0, 1, 0]", "[0, 0, 0]", "axis of rotation is zero: give a direction"),
+    ],
+)
+def test_a_table_in_a_table_has_both_names(
+    old: str, new: str, said: str, tmp_path: Path
+) -> None:
+    with pytest.raises(SceneError, match=re.escape(said)):
+        made(tmp_path, BEAM + TURN.replace(old, new) + PULL)
 
 
 def test_a_rig_that_turns_presses_its_element_by_its_own_weight() -> None:

@@ -10,8 +10,11 @@ from figure_checks import check_labels, check_lines, legend
 from microslip.figures import curve as curves
 from microslip.figures import march
 from microslip.figures import sweep as sweeps
+from microslip.figures.envelope import envelope_figure
+from microslip.figures.names import foremost
 from microslip.figures.passes import Pass, amplitude
 from microslip.figures.style import alike, legend_beside, one_range
+from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.results.time_history import TimeHistory
 
@@ -45,6 +48,31 @@ def test_normal_force_shows_the_points_of_one_face(
     check_lines(axes.lines, small_history.time, [*small_history.normal_force.T[:2]])
     assert legend(axes) == ["B1", "B2"]
     assert axes.get_ylabel() == "force [N]"
+
+
+def test_a_force_that_does_not_change_is_not_magnified(
+    small_history: TimeHistory, small_envelope: Envelope
+) -> None:
+    contacts, cycles = len(small_history.contacts), len(small_envelope.time)
+    steady = 1.06741573 + 1e-12 * np.linspace(-1.0, 1.0, 6)[:, None].repeat(contacts, 1)
+    history = dataclasses.replace(small_history, normal_force=steady)
+    envelope = dataclasses.replace(
+        small_envelope,
+        normal_smallest=steady[:cycles] - 1e-12,
+        normal_largest=steady[:cycles],
+    )
+
+    for figure in (sweeps.sweep_figure(history, ""), envelope_figure(envelope, "")):
+        figure.draw_without_rendering()
+        pressed = [
+            axes
+            for axes in figure.axes
+            if axes.get_title(loc="left").startswith("Normal forces")
+        ]
+        assert pressed
+        for axes in pressed:
+            assert np.ptp(axes.get_ylim()) > 1e-6
+            assert axes.yaxis.get_offset_text().get_text() == ""
 
 
 def test_forces_that_pull_are_not_called_normal(
@@ -167,11 +195,13 @@ def test_the_three_largest_motions_have_panels_where_there_are_no_relative_ones(
     small_history: TimeHistory,
 ) -> None:
     sizes = np.array([1.0, 0.1, 3.0, 2.0])
+    rows = np.multiply.outer(np.sin(small_history.time), sizes)
+    rows[:, 1] += 10.0  # moves least, wherever it stands
     count = len(small_history.time)
     history = dataclasses.replace(
         small_history,
         probes=("x1", "x2", "x3", "x4"),
-        displacement=np.tile(sizes, (count, 1)),
+        displacement=rows,
         velocity=np.zeros((count, 4)),
     )
 
@@ -180,6 +210,14 @@ def test_the_three_largest_motions_have_panels_where_there_are_no_relative_ones(
     titles = [axes.get_title(loc="left") for axes in figure.axes]
     shown = [title for title in titles if title.startswith("Displacement")]
     assert shown == [f"Displacement, {name}" for name in ("x1", "x3", "x4")]
+
+
+def test_what_rests_beside_what_moves_has_no_panel() -> None:
+    assert foremost(("still", "x", "y"), np.array([1e-17, 1e-3, 1e-9])) == [1, 2]
+    assert foremost(("x", "still"), np.array([1e-3, 0.0])) == [0]
+    assert foremost(("x", "y"), np.zeros(2)) == [0, 1]
+    assert foremost(("still", "x", "x-to-still"), np.array([0.0, 1.0, 1.0])) == [1]
+    assert foremost(("x-to-y",), np.ones(1)) == []
 
 
 @pytest.mark.parametrize("panel", ["sweep", "curve"])

@@ -113,6 +113,10 @@ def test_a_curve_that_differs_at_an_end_is_told_apart() -> None:
     assert difference(some, other) == pytest.approx(1e-3, rel=1e-3)
 
 
+def test_curves_of_a_scene_that_nothing_drives_do_not_differ() -> None:
+    assert difference(*both("jenkins", "drive.x=0")) == 0.0
+
+
 def test_a_curve_that_differs_where_it_is_largest_is_told_apart() -> None:
     lowest, highest = "17.5", "19.5"
     sets = [*COARSE[:2], f"curve.lowest={lowest}", f"curve.highest={highest}"]

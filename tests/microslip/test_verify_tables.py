@@ -10,14 +10,17 @@ from microslip.commands.frc_tables import events, resolution, table
 from microslip.commands.verify_findings import Findings, verdict
 from microslip.commands.verify_tables import (
     HELD,
+    march_rows,
     marches_said,
-    orbit_row,
+    orbit_rows,
     sweep_rows,
     sweeps_said,
 )
 from microslip.studies.curve import Traced
 from microslip.studies.verify.orbits import Verdict
 from microslip.studies.verify.verify import SweepAgreement
+from microslip_mechanics.arrays import Array
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.results.response_curve import ResponseCurve
 from microslip_mechanics.static import StaticState
 from small_problems import prescribed
@@ -156,6 +159,27 @@ def test_a_curve_that_came_back_is_told_from_the_one_that_follows(
     assert said not in events(curve)
 
 
+def compared(response: PeriodicResponse, size: Array) -> Comparison:
+    """Return an orbit of such amplitudes [m], by both solvers."""
+    return Comparison(
+        response, size, size, 1e-4, 1e-4, np.zeros(2), 0.0, 0.2, 1e-3, 1024
+    )
+
+
+@pytest.mark.parametrize(
+    ("size", "shown"), [(2e-3, "  2.000000"), (4e-9, " 4.000e-06")]
+)
+def test_the_amplitude_is_that_of_a_probe_that_moves(size: float, shown: str) -> None:
+    made = compared(UNMOVED, size * np.array([1e-14, 1.0, 1.5]))
+    march = dataclasses.replace(left(0.0, 0), predicted=made.found, marched=made.found)
+
+    orbits = orbit_rows([Verdict(UNMOVED, "stable", made, "")])
+    marches = march_rows([march], ["still", "x", "y"])
+
+    assert f"   4.0000 {shown} {shown}  " in orbits
+    assert f"   4.0000 {shown}  " in marches
+
+
 @pytest.mark.parametrize(
     ("unstable", "shown"), [(-1, ["-", "0.2000"]), (0, ["0.0000"])]
 )
@@ -164,12 +188,9 @@ def test_a_multiplier_that_is_not_known_has_no_number(
 ) -> None:
     multipliers = np.empty(0, complex) if unstable < 0 else np.zeros(1, complex)
     response = dataclasses.replace(UNMOVED, multipliers=multipliers)
-    size = np.array([1e-3])
-    made = Comparison(
-        response, size, size, 1e-4, 1e-4, np.zeros(2), 0.0, 0.2, 1e-3, 1024
-    )
+    made = compared(response, np.array([1e-3]))
 
-    row = orbit_row(Verdict(response, "stable", made, ""))
+    row = orbit_rows([Verdict(response, "stable", made, "")]).splitlines()[-1]
 
     assert row.split()[6 : 6 + len(shown)] == shown
 

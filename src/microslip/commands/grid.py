@@ -52,11 +52,12 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
     from microslip.scenes.scene_file import load_scene
-    from microslip.studies.grid import QUICK, attempts, cases
+    from microslip.studies.grid import QUICK, attempts, cases, demand_free
 
     table = arguments.table(options)
     scene = load_scene(options.scene, options.overrides)
     chosen = cases(scene)[:: QUICK if options.quick else 1]
+    demand_free(options.overrides, chosen)
     found: list[Attempt] = []
     print(HEADER)
     try:

@@ -157,6 +157,7 @@ def _draw(
             _late(each, each.extrapolated),
             each.error,
             each.envelopes,
+            each.fold.probe,
         )
         for each in found
     ]

@@ -42,6 +42,13 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
         f"{100.0 * median(errors):.2g} % in the median, above 5 % at "
         f"{sum(error > 0.05 for error in errors)} points"
     )
+    if mode.apart:
+        rows.append(
+            f"where it begins, at {1e3 * mode.points[0].amplitude:.4g} mm, its "
+            f"motion is another one than {state}, and may be that of another mode of "
+            "nearly the same frequency: begin with smaller --amplitudes, which helps "
+            "unless the frequencies are equal"
+        )
     if mode.coarser is not None:
         first = mode.points[mode.coarser]
         rows.append(

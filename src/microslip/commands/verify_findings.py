@@ -34,9 +34,7 @@ class Findings:
 def report(found: Findings) -> None:
     """Print what was found."""
     if found.orbits:
-        print(verify_tables.ORBITS)
-    for each in found.orbits:
-        print(verify_tables.orbit_row(each))
+        print(verify_tables.orbit_rows(found.orbits))
     if found.marches:
         print(verify_tables.march_rows(found.marches, found.probes))
     if found.sweeps:
@@ -63,7 +61,7 @@ def draw(found: Findings, curve: ResponseCurve, picture: Path, title: str) -> No
             np.array([each.admitted for each in made]),
         ),
         [
-            (f"{s.slower:g} x as long", s.envelope_frequency, s.envelope[:, 0])
+            (f"{s.slower:g} x as long", s.envelope_frequency, s.envelope)
             for s in found.sweeps
         ],
         (

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import SHOWN, headed, titled
+from microslip.commands.columns import SHOWN, decimal, headed, titled
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from microslip.studies.verify.orbits import Verdict
     from microslip.studies.verify.verify import SweepAgreement
+    from microslip_mechanics.arrays import Array
     from timedomain.verify import Agreement
 
 ORBITS = """\
@@ -32,8 +33,15 @@ HELD = (
 ENVELOPE = "  envelope  closing error"
 
 
-def orbit_row(verdict: Verdict) -> str:
-    """Return one orbit as a line."""
+def orbit_rows(verdicts: Sequence[Verdict]) -> str:
+    """Return the orbits as a table; the amplitude is that of a probe that moves."""
+    made = [each.comparison for each in verdicts if each.comparison is not None]
+    probe, largest = _moving([each.predicted for each in made])
+    return "\n".join([ORBITS, *(orbit_row(each, probe, largest) for each in verdicts)])
+
+
+def orbit_row(verdict: Verdict, probe: int, largest: float) -> str:
+    """Return one orbit as a line: the amplitude of a probe, whose largest is given."""
     hertz, made = verdict.response.frequency / math.tau, verdict.comparison
     sign = "DISAGREE" if verdict.cause else "agree"
     if made is not None and not verdict.cause and not made.as_estimated:
@@ -42,8 +50,12 @@ def orbit_row(verdict: Verdict) -> str:
     unknown = verdict.response.unstable < 0
     if made is None:
         return f"{hertz:9.4f}  no orbit by shooting  {sign}, {verdict.whereabouts}"
+    predicted, found = (
+        decimal(1e3 * each[probe], 1e3 * largest, 6)
+        for each in (made.predicted, made.found)
+    )
     return (
-        f"{hertz:9.4f} {1e3 * made.predicted[0]:10.6f} {1e3 * made.found[0]:10.6f}"
+        f"{hertz:9.4f} {predicted} {found}"
         f"  {made.difference:10.1e} {made.predicted_error:8.1e} {made.found_error:8.1e}"
         f"   {'-' if unknown else f'{made.multiplier:.4f}':>7}"
         f" {made.found_multiplier:8.4f}  {sign}, {verdict.whereabouts}"
@@ -51,13 +63,15 @@ def orbit_row(verdict: Verdict) -> str:
 
 
 def march_rows(marches: Sequence[Agreement], probes: Sequence[str]) -> str:
-    """Return the marches as a table; the amplitude is that of the first probe."""
+    """Return the marches as a table; the amplitude is that of a probe that moves."""
+    probe, largest = _moving([march.predicted for march in marches])
     places = _watched(probes)
     names = [probes[place] for place in places[:SHOWN]]
     deviation = titled("off by [%]", names, len(places))
     lines = [MARCHES.format(deviation=deviation, heads=headed(names))]
     lines += [
-        f"{march.frequency / math.tau:9.4f} {1e3 * march.predicted[0]:10.6f}  "
+        f"{march.frequency / math.tau:9.4f} "
+        f"{decimal(1e3 * march.predicted[probe], 1e3 * largest, 6)}  "
         + " ".join(f"{100.0 * march.deviation[each]:10.4f}" for each in places[:SHOWN])
         + f"  {march.first_distance:10.1e}{march.last_distance:10.1e}"
         f"{march.drift:9.1e}"
@@ -182,6 +196,19 @@ def marches_said(
         f"tolerance {100.0 * tolerance:g} %"
     )
     return said, stays
+
+
+def _moving(amplitudes: Sequence[Array]) -> tuple[int, float]:
+    """Return a probe that moves, and the largest of its amplitudes [m]."""
+    import numpy as np
+
+    from microslip_mechanics.results.moving_probe import moving_probe
+
+    if not amplitudes:
+        return 0, 0.0
+    sizes = np.array(amplitudes)
+    probe = moving_probe(sizes)
+    return probe, float(sizes[:, probe].max())
 
 
 def _watched(probes: Sequence[str]) -> list[int]:

@@ -14,6 +14,7 @@ from microslip.figures.amplitude import frequency_response, greatest
 from microslip.figures.names import absolute, readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.results.moving_probe import moving_probe
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 DOTS: dict[str, Any] = {"linestyle": "", "marker": "o", "ms": 4, "clip_on": False}
@@ -43,7 +44,8 @@ def agreement_figure(
         shape ``(orbits, probes)``, relative difference, and what the estimated errors
         of both solvers admit.
     sweeps
-        Name, frequency [Hz] and envelope [m] of the first probe, of each sweep.
+        Name, frequency [Hz] and envelope [m] of each sweep, the latter of shape
+        ``(cycles, probes)``, of which one that moves is drawn.
     energies
         How many times slower each sweep is, and its relative energy difference; empty
         without friction.
@@ -100,12 +102,13 @@ def _differences(axes: Axes, found: tuple[Array, Array, Array, Array]) -> None:
 def _envelopes(
     axes: Axes, curve: ResponseCurve, sweeps: Sequence[tuple[str, Array, Array]]
 ) -> None:
+    probe = moving_probe(curve.peak)
     for colour, (name, frequency, envelope) in zip(COLOURS[1:], sweeps, strict=False):
-        axes.plot(frequency, 1e3 * envelope, color=colour, lw=WIDTH, label=name)
-    axes.plot(
-        abscissa(curve), 1e3 * curve.peak[:, 0], "k", lw=WIDTH * 1.5, label="curve"
-    )
-    title = f"Envelope of the sweeps, {readable(curve.probes[0])}"
+        seen = 1e3 * envelope[:, probe]
+        axes.plot(frequency, seen, color=colour, lw=WIDTH, label=name)
+    peak = 1e3 * curve.peak[:, probe]
+    axes.plot(abscissa(curve), peak, "k", lw=WIDTH * 1.5, label="curve")
+    title = f"Envelope of the sweeps, {readable(curve.probes[probe])}"
     framed(axes, x=FREQUENCY, y="peak [mm]", title=title)
     axes.legend(frameon=False)
 

@@ -101,11 +101,12 @@ def close_up(axes: Axes, curve: ResponseCurve) -> None:
     stretch = np.cumsum(~inside)  # the same for all points from coming in to leaving
     shown = size[inside & np.isin(stretch, stretch[crowd(curve)])]
     room = max(0.1 * float(np.ptp(shown)), FLAT * float(shown.max()))
+    of_several = ", largest of probes" if len(absolute(curve.probes)) > 1 else ""
     framed(
         axes,
         x=abscissa_name(curve),
         y="amplitude [mm]",
-        title="Close-up of the largest first harmonic",
+        title=f"Close-up of the first harmonic{of_several}",
     )
     axes.set_xlim(low, high)
     axes.set_ylim(shown.min() - room, shown.max() + room)

@@ -37,7 +37,7 @@ ROWS = {2: (1, 1), 3: (1, 2), 4: (2, 2), 5: (2, 3), 6: (3, 3)}
 WIDE = 4
 """panels up to which a picture has the usual width"""
 SMALL = 1e-6
-"""of the largest error, below which errors are not worth a look"""
+"""of the largest error, or velocity, below which they are not worth a look"""
 STEADY = 1e-3
 """of the largest force, by which normal forces vary at least, if they are drawn"""
 
@@ -92,11 +92,15 @@ def _largest(values: np.ndarray) -> float:
 def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
     """Draw the largest relative velocity in time, logarithmically.
 
-    The largest velocity of the probes, where none of them is a relative motion.
+    The largest velocity of the probes, where none of them is a relative motion. What
+    does not move has none but rounding errors.
     """
     slips = relative(curve.probes)
     watched = slips or absolute(curve.probes)
-    shown = greatest(watched, curve.velocity_peak, len(COLOURS))
+    highest = np.nanmax(curve.velocity_peak, axis=0, initial=0.0)
+    most = highest[watched].max(initial=0.0)
+    moving = [place for place in watched if highest[place] >= SMALL * most]
+    shown = greatest(moving, curve.velocity_peak, len(COLOURS))
     looks = zip(COLOURS, itertools.cycle(STYLES), shown, strict=False)
     for colour, style, place in looks:
         axes.plot(
@@ -110,6 +114,8 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
     seen = curve.velocity_peak[:, shown]
     if np.nanmax(seen, initial=0.0) > SHORT * np.nanmin(seen, initial=np.inf) > 0.0:
         axes.set_yscale("log")
+        if np.nanmin(seen) < SMALL * most:
+            axes.set_ylim(bottom=SMALL * most)
         plain_logarithmic(axes.yaxis)
     framed(
         axes,

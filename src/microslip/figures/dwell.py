@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.amplitude import greatest
 from microslip.figures.march import energies
-from microslip.figures.names import absolute, foremost, readable, relative
+from microslip.figures.names import absolute, foremost, readable, relative, swings
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip.figures.sweep import displacement
 from microslip_mechanics.results.time_history import TimeHistory
@@ -38,7 +38,7 @@ def dwell_figure(
     """
     figure = Figure(figsize=(10.0, 7.8), layout="constrained")
     panels = figure.subplots(3, 2)
-    sizes = abs(history.displacement).max(axis=0, initial=0.0)
+    sizes = swings([history.displacement])
     shown = greatest(foremost(history.probes, sizes), sizes[None], len(panels[0]))
     for axes, colour, place in zip(panels[0], COLOURS, shown, strict=False):
         displacement(axes, history, place, colour)

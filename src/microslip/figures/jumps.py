@@ -40,6 +40,8 @@ class JumpLine:
     """its error [Hz]"""
     envelopes: Sequence[tuple[Array, Array]]
     """frequency [Hz] and largest deflection [m] of each cycle"""
+    probe: int = 0
+    """of which the deflection is"""
 
 
 def jumps_figure(curve: ResponseCurve, jumps: Sequence[JumpLine], title: str) -> Figure:
@@ -63,20 +65,22 @@ def jumps_figure(curve: ResponseCurve, jumps: Sequence[JumpLine], title: str) ->
 
 
 def _envelopes(axes: Axes, curve: ResponseCurve, jumps: Sequence[JumpLine]) -> None:
-    whole = parted(curve)
-    at, peak = abscissa(whole), 1e3 * whole.peak[:, 0]
+    whole, probes = parted(curve), sorted({jump.probe for jump in jumps})
+    at, peaks = abscissa(whole), 1e3 * whole.peak[:, probes]
     for shown, style, name in zip(
         stretches(whole), STYLES, (steady(whole), "unstable"), strict=False
     ):
         if not shown.any():
             continue
-        line = np.where(shown, peak, np.nan)
-        axes.plot(at, line, style, color="k", lw=2 * WIDTH, label=name)
+        line = np.where(shown[:, None], peaks, np.nan)
+        first, *_ = axes.plot(at, line, style, color="k", lw=2 * WIDTH)
+        first.set_label(name)
     for colour, jump in zip(COLOURS, jumps, strict=False):
         for hertz, envelope in jump.envelopes:
             axes.plot(hertz, 1e3 * envelope, color=colour, lw=WIDTH)
         axes.axvline(jump.fold, color=colour, ls=":", lw=WIDTH)
-    title = f"Curve, and envelopes of the sweeps, {readable(curve.probes[0])}"
+    names = ", ".join(readable(curve.probes[probe]) for probe in probes)
+    title = f"Curve, and envelopes of the sweeps, {names}"
     framed(axes, x=FREQUENCY, y="peak [mm]", title=title)
     axes.legend(frameon=False)
     swept = [hertz for jump in jumps for hertz, _ in jump.envelopes]
@@ -84,7 +88,7 @@ def _envelopes(axes: Axes, curve: ResponseCurve, jumps: Sequence[JumpLine]) -> N
         low, high = np.min(np.concatenate(swept)), np.max(np.concatenate(swept))
         room = BESIDE * (high - low)
         axes.set_xlim(low - room, high + room)
-        inside = peak[(at >= low - room) & (at <= high + room)]
+        inside = peaks[(at >= low - room) & (at <= high + room)]
         heights = [1e3 * each for jump in jumps for _, each in jump.envelopes]
         highest = max(np.nanmax(each, initial=0.0) for each in (inside, *heights))
         axes.set_ylim(0.0, ROOM * highest)

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.names import faces, foremost, relative
+from microslip.figures.names import faces, foremost, relative, swings
 from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
     COLOURS,
@@ -76,8 +76,7 @@ def march_figure(
     """
     slips = relative(march.probes)
     shrouds = _pressed(faces(march.contacts), forces)
-    sizes = np.max([abs(each).max(axis=0, initial=0.0) for each in motions], axis=0)
-    blades, ways = foremost(march.probes, sizes), passes(march)
+    blades, ways = foremost(march.probes, swings(motions)), passes(march)
     count = len(blades) + len(slips) + len(shrouds) + int(rubs) + 1
     figure, free, others = _grid(count, len(blades) if ways else 0)
     limits = one_range(1e3 * each[:, place] for each in motions for place in blades)

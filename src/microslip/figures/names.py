@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response_curve import pulling
+
+RESTS = 1e-9
+"""of the largest motion, below which another one is nothing but rounding errors"""
 
 
 def absolute(probes: Iterable[str]) -> list[int]:
@@ -17,12 +22,21 @@ def foremost(probes: Sequence[str], sizes: Array) -> list[int]:
     """Return the places of the motions that have panels of their own, in their order.
 
     Beside relative motions, which have theirs too, they are the first two, else the
-    three of largest ``sizes``, shape (probes,).
+    three of largest swings, the ``sizes``, shape (probes,). What rests has none beside
+    them.
     """
     places = absolute(probes)
-    if len(places) < len(probes):
+    least = RESTS * max((float(sizes[place]) for place in places), default=0.0)
+    places = [place for place in places if sizes[place] >= least]
+    if relative(probes):
         return places[:2]
     return sorted(sorted(places, key=lambda place: -sizes[place])[:3])
+
+
+def swings(motions: Sequence[Array]) -> Array:
+    """Return how far each probe swings [m], of motions (rows, probes) each."""
+    every = np.concatenate(motions)
+    return np.ptp(every, axis=0) if len(every) else np.zeros(every.shape[1])
 
 
 def relative(probes: Iterable[str]) -> list[int]:

@@ -7,7 +7,14 @@ from matplotlib.figure import Figure
 
 from microslip.figures.march import TIME, Panels, march_figure
 from microslip.figures.names import called, force_kind, readable
-from microslip.figures.style import COLOURS, alike, framed, legend_beside
+from microslip.figures.style import (
+    COLOURS,
+    alike,
+    framed,
+    legend_beside,
+    whole_numbers,
+    widened,
+)
 from microslip_mechanics.results.time_history import TimeHistory
 
 
@@ -62,6 +69,8 @@ def normal_force(
     shown = history.normal_force[:, places]
     title = f"{force_kind(shown, shown)}, {where}"
     framed(axes, x=TIME, y="force [N]", title=title)
+    widened(axes)
+    whole_numbers(axes.yaxis)
     legend_beside(axes, shown)
     legend = axes.get_legend()
     for line in legend.get_lines() if legend else ():

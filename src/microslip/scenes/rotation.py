@@ -21,6 +21,6 @@ class SteadyRotation:
         """Check that there is an axis."""
         for name in ("axis", "centre"):
             if len(getattr(self, name)) != 3:
-                raise ValueError(f"[rotation] {name}: give three numbers")
+                raise ValueError(f"{name} of rotation: give three numbers")
         if not any(self.axis):
-            raise ValueError("[rotation] axis is zero: give a direction")
+            raise ValueError("axis of rotation is zero: give a direction")

@@ -30,7 +30,7 @@ def read_table(
                 f"{meant(key, [*fields, *known])}"
             )
     missing = [
-        name if "quantity" in field.metadata else f"table [{name}]"
+        name if "quantity" in field.metadata else f"table {_inside(place, name)}"
         for name, field in fields.items()
         if name not in values and field.default is dataclasses.MISSING
     ]
@@ -45,6 +45,12 @@ def read_table(
             for name, value in values.items()
         }
     )
+
+
+def _inside(place: str, key: str) -> str:
+    """Return the name of a table in a table, such as ``[structure.beam]``."""
+    outer = place.strip().removeprefix("[").removesuffix("]")
+    return f"[{outer}.{key}]" if place.startswith("[") else f"[{key}]"
 
 
 def _kind(
@@ -72,7 +78,8 @@ def _value(
     if _optional(hint):
         hint = typing.get_args(hint)[0]
     if kind is None:  # a table in the table
-        return read_table(source, f"[{key}] ", typing.cast("type", hint), value)
+        inner = _inside(place, key)
+        return read_table(source, f"{inner} ", typing.cast("type", hint), value)
     try:
         return _scalar(kind, hint, value)
     except ValueError as error:

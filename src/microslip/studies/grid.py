@@ -104,6 +104,23 @@ def cases(scene: Scene) -> list[Case]:
     ]
 
 
+def demand_free(overrides: Sequence[str], chosen: Sequence[Case]) -> None:
+    """Check that no override is lost: the grid gives its own numbers their values.
+
+    Raises
+    ------
+    SceneError
+        If one is.
+    """
+    varied = {each.partition("=")[0] for case in chosen for each in case.overrides}
+    for override in overrides:
+        name = override.partition("=")[0].strip()
+        if name in varied:
+            raise SceneError(
+                f"--set {override}: grid gives {name} its own values: leave it out"
+            )
+
+
 def attempts(
     scene: str,
     overrides: Sequence[str],

@@ -22,6 +22,9 @@ from microslip_mechanics.static import static_equilibrium
 COARSER = (7, 3, 1)
 """harmonics with which a mode is followed on, in turn, that does not go on with those
 that its error asks for: they may meet modes of the structure, where it branches"""
+ALIKE = 0.9
+"""likeness, below which a motion is another one: it is one but for parts in a thousand
+where motions are small, unless another mode has nearly the same frequency"""
 SHOWN = 20
 """points of a mode in a table, beside the most damped one"""
 
@@ -41,6 +44,14 @@ class FollowedMode:
     """"complete", "interrupted", or the cause"""
     coarser: int | None = None
     """place from which on points have fewer harmonics than their error asks for"""
+    likeness: float = 1.0
+    """of the first point's motion to the linear mode, from 0 to 1: see
+    :func:`likeness`"""
+
+    @property
+    def apart(self) -> bool:
+        """Whether it begins with another motion than the linear mode."""
+        return self.likeness < ALIKE
 
     def __repr__(self) -> str:
         """Return what the mode is, in a line."""
@@ -93,9 +104,25 @@ def followed(
             fewer = replace(options, harmonics=harmonics)
             growth = nonlinear_mode(problem, rest, linear, fewer)
             mode = _farther(mode, growth, watch)
+        if mode.points:
+            alike = likeness(problem, linear, mode.points[0])
+            mode = replace(mode, likeness=alike)
         yield mode
         if mode.ending == "interrupted":
             return
+
+
+def likeness(problem: Problem, linear: LinearMode, point: NonlinearMode) -> float:
+    """Return which share of a motion has the shape of a linear mode.
+
+    Of the first harmonic, by kinetic energy: the modal assurance criterion with the
+    mass matrix.
+    """
+    mass, shape = problem.structure.mass, linear.shape
+    moved = point.coefficients[1] - 1j * point.coefficients[2]
+    both = abs(shape.conj() @ (mass @ moved)) ** 2
+    alone = [float((each.conj() @ (mass @ each)).real) for each in (shape, moved)]
+    return float(both / (alone[0] * alone[1]))
 
 
 def _followed(

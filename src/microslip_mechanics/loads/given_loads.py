@@ -39,7 +39,8 @@ class BaseMotion:
     """Ground that moves all supports alike; motions are then relative to it."""
 
     direction: Sequence[float]
-    """x, y, z; degrees of freedom say theirs by names such as ``12.z`` or ``tip.uz``"""
+    """x, y, z, of any length; degrees of freedom say theirs by names such as ``12.z``
+    or ``tip.uz``"""
     acceleration: float
     """amplitude along it [m/s²]"""
 

@@ -15,7 +15,7 @@ from microslip_mechanics.quantity import LARGEST
 def square_matrix(given: Matrix, what: str) -> Matrix:
     """Return a square matrix, of floating point numbers, that is nobody else's."""
     sparse = bool(scipy.sparse.issparse(given))
-    if (sparse or isinstance(given, np.ndarray)) and np.iscomplexobj(given):
+    if _complex(given):
         raise ValueError(
             f"{what} is complex: give real values, structural damping as loss_factor"
         )
@@ -41,6 +41,14 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
         )
     _check_entries(matrix, what)
     return matrix
+
+
+def _complex(given: Matrix) -> bool:
+    """Return whether there are complex entries; rows of unequal length have none."""
+    try:
+        return bool(np.iscomplexobj(given))
+    except ValueError:
+        return False
 
 
 def _check_entries(matrix: Array, what: str) -> None:

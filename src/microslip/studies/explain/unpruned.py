@@ -20,6 +20,7 @@ from microslip.progress import Watch
 from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
 from microslip.scenes.scene import Scene
 from microslip.studies.curve import curve_options, gathered
+from microslip_mechanics.arrays import TINY
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction.reduction import reduced
 from microslip_mechanics.results.response import PeriodicResponse
@@ -135,7 +136,7 @@ def difference(some: Timed, every: Timed) -> float:
     one = some.curve.amplitude[[0, largest, -1], :count]
     ends = every.curve.amplitude[[0, -1], :count]
     other = np.insert(ends, 1, there.amplitude[0, :count], axis=0)
-    return float(np.abs(other - one).max() / one.max())
+    return float(np.abs(other - one).max() / max(one.max(), TINY))
 
 
 def _unpruned_at(every: Timed, frequency: float, amplitude: float) -> ResponseCurve:

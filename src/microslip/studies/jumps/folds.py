@@ -11,6 +11,7 @@ from hbm.curves.detached import MARKS
 from microslip.studies.curve import Traced
 from microslip.studies.verify.verify import StudyError
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.moving_probe import moving_probe
 from microslip_mechanics.results.response import PeriodicResponse
 
 BEYOND = 1e-4
@@ -33,9 +34,11 @@ class Fold:
     end: float
     """frequency behind it to which sweeps go [Hz]"""
     height: float
-    """amplitude of the first probe half way to where the motion lands [m]"""
+    """amplitude of a probe half way to where the motion lands [m]"""
     falls: bool
     """whether it is smaller there"""
+    probe: int
+    """which one: the first whose amplitude jumps"""
 
     @property
     def hertz(self) -> float:
@@ -144,15 +147,16 @@ def _landing(
     way: range,
     *,
     upward: bool,
-) -> tuple[float, bool] | None:
+) -> tuple[float, bool, int] | None:
     """Return half way between the fold and the stable motion behind it [m].
 
-    And whether that one is smaller; None if there is none. It does not lie on the
-    ``way`` to the fold, whose last points may be behind that by their errors.
+    And whether that one is smaller, and of which probe this is told; None if there is
+    no such motion. It does not lie on the ``way`` to the fold, whose last points may be
+    behind that by their errors.
     """
     behind = fold.frequency * (1.0 + (BEYOND if upward else -BEYOND))
-    frequency, seen = traced.curve.frequency, traced.curve.amplitude[:, 0]
-    here = float(np.hypot(*fold.seen(problem.probes.rows[:1])[1:3, 0]))
+    frequency, seen = traced.curve.frequency, traced.curve.amplitude
+    here = np.hypot(*fold.seen(problem.probes.rows)[1:3])
     landings = []
     for first in range(len(frequency) - 1):
         if first in way or traced.curve.event[first + 1] in MARKS:
@@ -164,5 +168,7 @@ def _landing(
             landings.append(seen[first] + share * (seen[first + 1] - seen[first]))
     if not landings:
         return None
-    landing = float(min(landings, key=lambda each: abs(each - here)))
-    return 0.5 * (here + landing), landing < here
+    landing = min(landings, key=lambda each: np.abs(each - here).max())
+    probe = moving_probe(landing - here)
+    height = 0.5 * float(here[probe] + landing[probe])
+    return height, bool(landing[probe] < here[probe]), probe

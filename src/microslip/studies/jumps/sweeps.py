@@ -22,7 +22,7 @@ BLOCK = 200
 """periods after which one looks whether the motion has jumped"""
 
 Envelope: TypeAlias = tuple[Array, Array]
-"""frequency [Hz] and largest deflection [m] of each cycle"""
+"""frequency [Hz] and largest deflection of the fold's probe [m] of each cycle"""
 Sweep: TypeAlias = tuple[float, float, Envelope]
 """where it jumps, and where with steps twice as long [Hz]; its envelope"""
 
@@ -61,10 +61,11 @@ def _marched(
         blocks.append(block)
         history = joined(blocks, "complete")
         driven = sweep.frequency(history.time)
-        hertz, envelope = envelope_of(history, driven, 0.0, duration)
-        place = _passed(fold, hertz, envelope[:, 0])
+        hertz, every = envelope_of(history, driven, 0.0, duration)
+        envelope = every[:, fold.probe]
+        place = _passed(fold, hertz, envelope)
         if place is not None:
-            return place, (hertz, envelope[:, 0])
+            return place, (hertz, envelope)
     raise StudyError(
         f"no jump within {abs(fold.end - fold.hertz):.3g} Hz behind the fold at "
         f"{fold.hertz:.6g} Hz at {rate:.3g} Hz/s: give slower sweeps, or a longer lead"

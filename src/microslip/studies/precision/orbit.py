@@ -14,6 +14,7 @@ import numpy as np
 from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.moving_probe import moving_probe
 from microslip_mechanics.results.response import PeriodicResponse
 
 PHASES = 128
@@ -21,7 +22,7 @@ PHASES = 128
 FINER = 16
 """times as many, between which the largest value is sought"""
 QUANTITIES = ("amplitude", "energy", "distance")
-"""that are compared: peak of the first probe, energy per period, distance of orbits"""
+"""that are compared: peak of a probe, energy per period, distance of orbits"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,24 +41,32 @@ class Orbit:
         return self.displacement - mean
 
     @property
-    def peak(self) -> float:
-        """Largest deviation of the first probe from its mean [m].
+    def peaks(self) -> Array:
+        """Largest deviations of the probes from their means [m], shape (probes,).
 
-        Between the samples it is a trigonometric sum.
+        Between the samples they are trigonometric sums.
         """
-        spectrum = np.fft.rfft(self.vibration[:, 0])
-        fine = np.fft.irfft(spectrum, FINER * PHASES) * FINER
-        return float(np.abs(fine).max())
+        spectrum = np.fft.rfft(self.vibration, axis=0)
+        fine = np.fft.irfft(spectrum, FINER * PHASES, axis=0) * FINER
+        largest: Array = np.abs(fine).max(axis=0)
+        return largest
+
+    @property
+    def peak(self) -> float:
+        """That of the first probe that moves [m]."""
+        return float(self.peaks[moving_probe(self.peaks)])
 
     def errors(self, exact: Orbit) -> tuple[float, float, float]:
         """Return the relative errors of :data:`QUANTITIES`.
 
-        The distance is the root mean square over time and probes.
+        The peak is that of the probe by which ``exact`` is told. The distance is the
+        root mean square over time and probes.
         """
+        peak = float(self.peaks[moving_probe(exact.peaks)])
         away = float(np.linalg.norm(self.vibration - exact.vibration))
         size = max(float(np.linalg.norm(exact.vibration)), TINY)
         return (
-            abs(self.peak - exact.peak) / max(exact.peak, TINY),
+            abs(peak - exact.peak) / max(exact.peak, TINY),
             abs(self.energy - exact.energy) / max(abs(exact.energy), TINY),
             away / size,
         )

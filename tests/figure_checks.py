@@ -51,6 +51,13 @@ def check_labels(figure: Figure) -> None:
 def unmarked(curve: ResponseCurve) -> ResponseCurve:
     """Return a curve of whose stability and events nothing is known."""
     points = len(curve.event)
+    return unique(
+        dataclasses.replace(curve, unstable=np.full(points, -1.0), event=("",) * points)
+    )
+
+
+def unique(curve: ResponseCurve) -> ResponseCurve:
+    """Return a curve whose amplitudes no residual traction changes."""
     return dataclasses.replace(
-        curve, unstable=np.full(points, -1.0), event=("",) * points
+        curve, amplitude_lowest=curve.amplitude, amplitude_highest=curve.amplitude
     )

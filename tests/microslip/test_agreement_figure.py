@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from figure_checks import UNIT, check_lines, legend, unmarked
+from figure_checks import UNIT, check_lines, legend, unique, unmarked
 from microslip.figures.abscissa import abscissa
 from microslip.figures.agreement import agreement_figure
 from microslip.figures.track import track_figure
@@ -86,7 +86,7 @@ def test_dots_have_the_colours_of_their_lines(small_curve: ResponseCurve) -> Non
     one = np.array([1e-5])
 
     figure = agreement_figure(
-        many, (np.array([132.0]), size[None], one, one), [], (one, one), ""
+        unique(many), (np.array([132.0]), size[None], one, one), [], (one, one), ""
     )
 
     *lines, largest = figure.axes[0].lines[:5]

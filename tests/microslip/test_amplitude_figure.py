@@ -7,7 +7,7 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_checks import check_lines, legend, unmarked
+from figure_checks import check_lines, legend, unique, unmarked
 from microslip.figures.abscissa import abscissa
 from microslip.figures.amplitude import (
     close_up,
@@ -85,7 +85,7 @@ def test_of_many_motions_the_greatest_are_drawn(small_curve: ResponseCurve) -> N
     )
     axes = Figure().subplots()
 
-    frequency_response(axes, curve)
+    frequency_response(axes, unique(curve))
 
     labels = [line.get_label() for line in axes.lines]
     assert labels[:5] == ["tip 0", "tip 2", "tip 4", "tip 5", "largest"]
@@ -98,13 +98,14 @@ def _located(
 ) -> ResponseCurve:
     """Return a curve of other points, at which all motions are of one size."""
     count = len(hertz)
-    return dataclasses.replace(
+    made = dataclasses.replace(
         curve,
         frequency=2.0 * np.pi * np.array(hertz),
         amplitude=np.full((count, len(curve.probes)), 1e-3),
         unstable=np.zeros(count),
         event=events,
     )
+    return unique(made)
 
 
 def test_a_change_of_stability_ends_both_lines(small_curve: ResponseCurve) -> None:
@@ -165,7 +166,8 @@ def test_an_amplitude_that_hardly_changes_does_not_lie_on_the_frame(
     axes: Axes, small_curve: ResponseCurve
 ) -> None:
     size = np.linspace(1.0, 1.001, 4)[:, None] * np.ones(len(small_curve.probes))
+    curve = unique(dataclasses.replace(small_curve, amplitude=1e-3 * size))
 
-    frequency_response(axes, dataclasses.replace(small_curve, amplitude=1e-3 * size))
+    frequency_response(axes, curve)
 
     assert axes.get_ylim() == pytest.approx((0.0, 1.04 * 1.001))

@@ -6,17 +6,10 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
-from figure_checks import legend
+from figure_checks import legend, unique
 from microslip.commands.residual_range import residual_range
 from microslip.figures.amplitude import frequency_response
 from microslip_mechanics.results.response_curve import ResponseCurve
-
-
-def unique(curve: ResponseCurve) -> ResponseCurve:
-    """Return a curve whose amplitudes no residual traction changes."""
-    return replace(
-        curve, amplitude_lowest=curve.amplitude, amplitude_highest=curve.amplitude
-    )
 
 
 def changed(curve: ResponseCurve, low: float, high: float) -> ResponseCurve:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
-from hbm.curves.residual_range import ResidualRange
 from hbm.errors import ContinuationError
 from hbm.events.crossed import BRANCH, TORUS, crossings
 from hbm.events.crossings import ASTRAY
@@ -25,6 +25,9 @@ from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.points import ONE_SIDED
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
+
+if TYPE_CHECKING:
+    from hbm.curves.residual_range import ResidualRange
 
 TURN = 2.0 * np.pi
 ASIDE = 0.05

@@ -24,7 +24,6 @@ from hbm.curves.leeway import Leeway
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path_resolution import PathResolution
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import ELASTIC, ContactPoints
 
 FOURIER = FourierBasis(15, 256)
 """resolution of the responses"""
@@ -96,12 +95,10 @@ class ResidualRange:
         """Return by how much amplitudes may change, relative, shape (2, probes).
 
         The first row is that of lower ones. ``point`` is one of the curve, with any
-        number of harmonics. The shape is ``(0, probes)`` if no load follows a traction.
+        number of harmonics.
         """
         balance, guess = self._resolution.at(FOURIER).at_frequency(self._cut(point))
         found = np.zeros((2, len(self._rows)))
-        if not may_vary(balance.contact.points):
-            return found[:0]
         last, self.last = self.last, {}
         here = self._solved(balance, balance.problem.bent, guess)
         if here is None:
@@ -182,8 +179,3 @@ class ResidualRange:
         if made.outcome is not Outcome.CONVERGED:
             return None
         return Reached(balance, made.point, self._rows)
-
-
-def may_vary(points: ContactPoints) -> bool:
-    """Return whether a load may follow what a stuck slider carries in the mean."""
-    return bool((points.friction == ELASTIC).any() and not points.constant_load.all())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,7 +13,6 @@ from hbm.continuation.corrected import correct_at
 from hbm.continuation.effort import Effort
 from hbm.curves.curve import Curve
 from hbm.curves.pieces import Pieces
-from hbm.curves.residual_range import ResidualRange
 from hbm.events.amplitude_growth import AmplitudeGrowth
 from hbm.events.events import Events
 from hbm.events.multipliers import Multipliers
@@ -25,9 +25,13 @@ from hbm.resolution.adaptive import AdaptiveBalance
 from hbm.structure.linear_curve import Place
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.memory import remembers
-from microslip_mechanics.contact.points import RIGID
+from microslip_mechanics.contact.points import ELASTIC, RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
+
+if TYPE_CHECKING:
+    from hbm.continuation.step_control import StepControl
+    from hbm.curves.residual_range import ResidualRange
 
 
 class Tracer:
@@ -65,7 +69,7 @@ class Tracer:
             resolution,
             multipliers,
             events if options.events else None,
-            ResidualRange(resolution, problem.probes.rows, self.control.tolerance)
+            _residual_range(problem, resolution, self.control)
             if options.residual_range
             else None,
         )
@@ -135,6 +139,21 @@ def _resolution(problem: Problem, path: Path) -> PathResolution:
     points = problem.interface.points
     by_steps = bool((points.friction == RIGID).any() or marched(points).any())
     return PathResolution(path, problem.probes.rows, marched=by_steps)
+
+
+def _residual_range(
+    problem: Problem, resolution: PathResolution, control: StepControl
+) -> ResidualRange | None:
+    """Return what finds that; None if no load may follow what a stuck slider carries.
+
+    What hardly a scene needs is loaded by those alone that do.
+    """
+    points = problem.interface.points
+    if points.constant_load.all() or not (points.friction == ELASTIC).any():
+        return None
+    from hbm.curves.residual_range import ResidualRange
+
+    return ResidualRange(resolution, problem.probes.rows, control.tolerance)
 
 
 def _adaptive(

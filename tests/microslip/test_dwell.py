@@ -98,6 +98,8 @@ def test_dwell_is_written_drawn_and_told(
     np.testing.assert_allclose(history.frequency, 2.0 * np.pi * 130.0)
     assert (tmp_path / "quick-dwell.png").stat().st_size > 10_000
     assert run("plot", "quick-dwell.nc")[0] == 0
+    assert run("plot", "quick-dwell.nc", "-o", "again")[0] == 0
+    assert Path("again.png").stat().st_size > 0
 
 
 @pytest.mark.parametrize("scene", ["jenkins", "duffing"])

@@ -24,7 +24,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--output",
         type=Path,
         metavar="PATH",
-        help="picture to write: .png, .pdf or .svg (default: FILE with .png)",
+        help="picture to write: .png, also without an ending, .pdf or .svg (default: "
+        "FILE with .png)",
     )
     parser.set_defaults(run=_run)
 
@@ -35,7 +36,9 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.files.store import save_figure
 
     stored = load(options.file, arguments.MOST_ROWS)
-    picture = options.output or options.file.with_suffix(".png")
+    picture: Path = options.output or options.file.with_suffix(".png")
+    if not picture.suffix:
+        picture = picture.with_suffix(".png")
     demand_place(picture)
     demand_apart(picture, options.file)
     title = f"{options.file.name}: {stored.command}"

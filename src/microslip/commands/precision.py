@@ -55,7 +55,7 @@ def _run(options: argparse.Namespace) -> int:
     data, picture = arguments.outputs(options, "precision", ".csv", ".png")
     case = case_of(load_scene(options.scene, options.overrides), options.frequency)
     exact = reference(case, QUICK if options.quick else BUDGET)
-    print(f"{case.frequency / math.tau:.6g} Hz; " + precision_tables.reference(exact))
+    print(f"{case.frequency / math.tau:.9g} Hz; " + precision_tables.reference(exact))
     print(precision_tables.multiplier(case.slope))
     chosen = list(settings(case, quick=options.quick))
     found: list[Run] = []

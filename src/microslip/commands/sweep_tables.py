@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from microslip_mechanics.results.extremes import Extremes
     from microslip_mechanics.results.time_history import TimeHistory
 
+ROUNDING = 1e-14
+"""of the largest energy, up to which another one is none"""
 PARTED = 30.0
 """times its tolerance from which a march's peak is known less than steps explain"""
 TOLD, SPARSE = 0.01, 0.2
@@ -26,10 +28,11 @@ def energy_table(result: TimeHistory | Envelope) -> str:
     from microslip_mechanics.results.energies import worded
 
     lines, pulls = [f"energy until {result.time[-1]:g} s [J]"], result.pulls
-    lines += [
-        f"  {worded(name, pulls=pulls):20s} {result.of(name)[-1]:12.6g}"
-        for name in result.energies
-    ]
+    least = ROUNDING * float(abs(result.energy[-1]).max())
+    for name in result.energies:
+        last = float(result.of(name)[-1])
+        shown = last if abs(last) > least else 0.0
+        lines.append(f"  {worded(name, pulls=pulls):20s} {shown:12.6g}")
     closing = float(abs(result.closing_error).max())
     share = closing / max(float(abs(result.of("input")).max()), TINY)
     lines.append(f"  {'closing error':20s} {closing:12.2g}  ({share:.1e} of the input)")

@@ -16,6 +16,7 @@ from scipy.io import netcdf_file
 from microslip.errors import GivenError
 from microslip.files.record_layout import Value
 from microslip.files.schema import (
+    CURVE,
     Growing,
     Result,
     attributes,
@@ -81,7 +82,12 @@ def save(path: Path, stored: Stored) -> None:
 
 
 def _unit(curve: ResponseCurve, name: str, unit: str) -> str:
-    """Return the unit of a column; that of a parameter stands behind its name."""
+    """Return the unit of a column.
+
+    That of a parameter stands behind its name; along frequency it is that of this.
+    """
+    if name.startswith("parameter") and not curve.along:
+        return CURVE["frequency"][1]
     _, bracket, found = curve.along.rpartition(" [")
     known = name.startswith("parameter") and bracket and found.endswith("]")
     return found.removesuffix("]") if known else unit

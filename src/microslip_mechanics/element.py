@@ -135,21 +135,29 @@ def _numbered(key: str, place: int) -> str:
 
 def _check_count(element: Element, name: str, key: str, count: int) -> None:
     """Check that the law takes so many directions of a key."""
-    kind = type(element.law).__name__
     if key not in element.law.takes:
         if count:
             takes = ", ".join(element.law.takes)
             raise ValueError(
-                f"element {name}: {key} is nothing that {kind} takes here: give {takes}"
+                f"element {name}: {key} is nothing that {_kind(element.law)} takes "
+                f"here: give {takes}"
             )
         return
     least, most = element.law.takes[key]
     if not least <= count <= most:
         wanted = f"{least}" if least == most else f"{least} or {most}"
         raise ValueError(
-            f"element {name}: {key} has {count} directions: {kind} needs {wanted}, "
-            'each with two ends; the ground is written as "ground"'
+            f"element {name}: {key} has {count} directions: {_kind(element.law)} needs "
+            f'{wanted}, each with two ends; the ground is written as "ground"'
         )
+
+
+def _kind(law: Law) -> str:
+    """Return what a law is called, in scene files too."""
+    from microslip_mechanics.laws.catalogue import LAWS  # all laws, for an error
+
+    names = [f' (law = "{name}")' for name, made in LAWS.items() if made is type(law)]
+    return type(law).__name__ + "".join(names)
 
 
 def _lines(row: Row, directions: dict[Direction, Array], dofs: int) -> list[Array]:

@@ -216,7 +216,7 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "both grounded": (between("ground", "ground"), ("slider", "do not move")),
     "no direction": (
         {"elements": [Element(SLIDER, name="slider")]},
-        ("slider: between has 0", "Jenkins needs 1"),
+        ("slider: between has 0", 'Jenkins (law = "jenkins") needs 1'),
     ),
     "direction not taken": (
         {"elements": [Element(SLIDER, normal=("x1", "ground"), name="slider")]},

@@ -29,7 +29,7 @@ def test_both_sides_are_told_with_their_place(small_curve: ResponseCurve) -> Non
     told = " ".join(residual_range(changed(small_curve, -0.125, 0.25)))
 
     assert "1 of 4 points" in told
-    assert "-12 % at 131.0000 Hz and +25 % at 131.0000 Hz" in told
+    assert "-12.5 % at 131.0000 Hz and +25 % at 131.0000 Hz" in told
 
 
 def test_a_side_without_change_is_not_told(small_curve: ResponseCurve) -> None:

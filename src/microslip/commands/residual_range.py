@@ -32,7 +32,7 @@ def residual_range(curve: ResponseCurve) -> list[str]:
         "tractions, left by what came before; with such the amplitude is another one "
         f"at {told.sum()} of {told.size} points, by up to "
         + " and ".join(
-            f"{100.0 * values[place]:+.2g} % at {_place(curve, int(place))}"
+            f"{100.0 * values[place]:+.3g} % at {_place(curve, int(place))}"
             for values, place in zip(
                 change, (change[0].argmin(), change[1].argmax()), strict=True
             )

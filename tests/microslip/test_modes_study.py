@@ -23,6 +23,7 @@ from microslip.mode_lines import mode_lines
 from microslip.studies import modes
 from microslip.studies.modes import FollowedMode, followed
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.problem import Problem
 from rigs import rig_problem
 
 RANGE = (800.0, 900.0)
@@ -54,12 +55,9 @@ def test_the_command_writes_a_table_and_a_picture(
     assert float(rows[-1]["damping_ratio"]) > 1.2 * float(rows[0]["damping_ratio"])
 
 
-@pytest.mark.parametrize(("coupling", "apart"), [(1.0, False), (1e-4, True)])
-def test_a_mode_that_begins_as_another_motion_is_told(
-    coupling: float, *, apart: bool
-) -> None:
-    # at 0.01 mm the cubic spring stiffens by 0.004 N/m, more than a weak coupling
-    problem = microslip.system(
+def _coupled(coupling: float) -> Problem:
+    """Return two equal masses, of which one has a cubic spring."""
+    return microslip.system(
         mass=[1.0, 1.0],
         stiffness=[[1e3, coupling], [coupling, 1e3]],
         damping_ratio=0.01,
@@ -69,14 +67,38 @@ def test_a_mode_that_begins_as_another_motion_is_told(
             )
         ],
     )
+
+
+@pytest.mark.parametrize(("coupling", "apart"), [(1.0, False), (1e-4, True)])
+def test_a_mode_that_begins_as_another_motion_is_told(
+    coupling: float, *, apart: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("microslip.studies.modes.SMALLER", 0)
     options = ModeOptions(1e-5, 1.1e-5, harmonics=3)
 
-    found = list(followed(problem, (30.0, 33.0), options))
+    found = list(followed(_coupled(coupling), (30.0, 33.0), options))
 
     assert [mode.apart for mode in found] == [apart] * 2
     for mode in found:
         said = "begin with smaller --amplitudes"
         assert (said in mode_table(mode, "in small motions")[-1]) == apart
+
+
+def test_a_mode_begins_where_it_is_the_linear_one() -> None:
+    # at 0.01 mm the cubic spring stiffens by 0.004 N/m, more than a weak coupling
+    options = ModeOptions(1e-5, 1e-2, harmonics=1)
+
+    soft, hard = followed(_coupled(1e-4), (30.0, 33.0), options)
+
+    assert not soft.apart
+    assert not hard.apart
+    assert hard.points[0].amplitude < 0.2 * options.smallest
+    ends = [mode.points[-1].frequency for mode in (soft, hard)]
+    # of one harmonic: k + 3/4 of the cubic force over the amplitude
+    amplitude = np.hypot(*hard.points[-1].coefficients[1:3, 1])
+    stiff = 1e3 + 0.75 * 5e7 * amplitude**2
+    assert ends[0] == pytest.approx(np.sqrt(1e3), rel=1e-4)
+    assert ends[1] == pytest.approx(np.sqrt(stiff), rel=1e-4)
 
 
 def test_harmonics_follow_from_a_tolerance(

@@ -20,7 +20,7 @@ from microslip.cli import main
 from microslip.commands.modes_tables import ending_of, mode_table
 from microslip.figures.modes import modes_figure
 from microslip.mode_lines import mode_lines
-from microslip.studies import modes
+from microslip.studies import mode_beginning, modes
 from microslip.studies.modes import FollowedMode, followed
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
@@ -73,7 +73,7 @@ def _coupled(coupling: float) -> Problem:
 def test_a_mode_that_begins_as_another_motion_is_told(
     coupling: float, *, apart: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("microslip.studies.modes.SMALLER", 0)
+    monkeypatch.setattr(mode_beginning, "SMALLER", 0)
     options = ModeOptions(1e-5, 1.1e-5, harmonics=3)
 
     found = list(followed(_coupled(coupling), (30.0, 33.0), options))
@@ -195,7 +195,8 @@ def test_a_mode_without_a_first_point_leaves_the_others(
             raise ContinuationError("no first point: try less")
         yield from nonlinear_mode(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("microslip.studies.modes.nonlinear_mode", lost)
+    for module in (mode_beginning, modes):
+        monkeypatch.setattr(module, "nonlinear_mode", lost)
 
     status, output, error = two_modes(tmp_path, capsys)
 
@@ -219,7 +220,8 @@ def test_modes_without_any_point_leave_no_file(
     def lost(*_: object) -> Iterator[NonlinearMode]:
         raise ContinuationError("no first point: try less")
 
-    monkeypatch.setattr("microslip.studies.modes.nonlinear_mode", lost)
+    for module in (mode_beginning, modes):
+        monkeypatch.setattr(module, "nonlinear_mode", lost)
 
     status, _, error = two_modes(tmp_path, capsys)
 
@@ -274,7 +276,8 @@ def test_a_mode_that_stops_goes_on_with_fewer_harmonics(
     ending: str,
 ) -> None:
     fine = [1.0, 2.0, 3.0, 4.0, 5.0]
-    monkeypatch.setattr(modes, "nonlinear_mode", fake_growth(fine, ends))
+    for module in (mode_beginning, modes):
+        monkeypatch.setattr(module, "nonlinear_mode", fake_growth(fine, ends))
 
     (mode,) = followed(rig_problem(), RANGE, ModeOptions(1.0, 5.0))
 

@@ -14,19 +14,15 @@ from hbm.modes.modes import NonlinearMode, modes_in_range, nonlinear_mode
 from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.scenes.quantity import SceneError
+from microslip.studies.mode_beginning import ALIKE, begun, likeness
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.static import StaticState, static_equilibrium
+from microslip_mechanics.static import static_equilibrium
 
 COARSER = (7, 3, 1)
 """harmonics with which a mode is followed on, in turn, that does not go on with those
 that its error asks for: they may meet modes of the structure, where it branches"""
-ALIKE = 0.9
-"""likeness, below which a motion is another one: it is one but for parts in a thousand
-where motions are small, unless another mode has nearly the same frequency"""
-SMALLER = 4
-"""powers of ten by which amplitudes may begin smaller than asked for, until they are"""
 SHOWN = 20
 """points of a mode in a table, beside the most damped one"""
 
@@ -48,7 +44,7 @@ class FollowedMode:
     """place from which on points have fewer harmonics than their error asks for"""
     likeness: float = 1.0
     """of the first point's motion to the linear mode, from 0 to 1: see
-    :func:`likeness`"""
+    :func:`~microslip.studies.mode_beginning.likeness`"""
 
     @property
     def apart(self) -> bool:
@@ -99,7 +95,7 @@ def followed(
             f"no mode has a natural frequency in this range{stuck}: give another range"
         )
     for linear in found:
-        mode = _followed(linear, _begun(problem, rest, linear, options), watch)
+        mode = _followed(linear, begun(problem, rest, linear, options), watch)
         for harmonics in COARSER if options.harmonics is None else ():
             if mode.ending in ("complete", "interrupted"):
                 break
@@ -112,43 +108,6 @@ def followed(
         yield mode
         if mode.ending == "interrupted":
             return
-
-
-def _begun(
-    problem: Problem, rest: StaticState, linear: LinearMode, options: ModeOptions
-) -> Iterator[NonlinearMode]:
-    """Yield the points of a mode from an amplitude on at which it is the linear one.
-
-    Where another mode has nearly the same frequency that is smaller than asked for. If
-    none is found, it begins as it was asked to.
-    """
-    for power in range(SMALLER + 1):
-        begins = replace(options, smallest=options.smallest / 10.0**power)
-        growth = nonlinear_mode(problem, rest, linear, begins)
-        try:
-            first = next(growth, None)
-        except ContinuationError:
-            if power == 0:
-                raise
-            break
-        if first is not None and likeness(problem, linear, first) >= ALIKE:
-            yield first
-            yield from growth
-            return
-    yield from nonlinear_mode(problem, rest, linear, options)
-
-
-def likeness(problem: Problem, linear: LinearMode, point: NonlinearMode) -> float:
-    """Return which share of a motion has the shape of a linear mode.
-
-    Of the first harmonic, by kinetic energy: the modal assurance criterion with the
-    mass matrix.
-    """
-    mass, shape = problem.structure.mass, linear.shape
-    moved = point.coefficients[1] - 1j * point.coefficients[2]
-    both = abs(shape.conj() @ (mass @ moved)) ** 2
-    alone = [float((each.conj() @ (mass @ each)).real) for each in (shape, moved)]
-    return float(both / (alone[0] * alone[1]))
 
 
 def _followed(

@@ -68,10 +68,47 @@ class Leeway:
         The least one for a negative ``sign``. No traction changes by more than its
         largest limit.
         """
+        slope = sign * self.slopes[probe]
+        if not slope.any():
+            return np.zeros_like(slope)
+        return self._greatest(slope, *self.bounds)
+
+    def loosening(self) -> Array:
+        """Return the changes of tractions [N] that let a stuck slider slip, (stuck,).
+
+        Where all stick no amplitude depends on them to first order, but loads do: it is
+        the slider that these can relieve of most of what holds it. Zero if they can let
+        none slip.
+        """
+        if not self.changes.size:
+            return np.zeros(self.changes.shape[1])
+        reliefs = self.stuck.reliefs(self._coefficients)
+        most = np.abs(reliefs) @ self.stuck.limit.max(axis=0)
+        share = most / np.maximum(self.stuck.spare, TINY)
+        if share.max(initial=0.0) <= 1.0:
+            return np.zeros(len(share))
+        first = int(share.argmax())
+        limits = self.stuck.bounds(self._coefficients, loose=first)
+        return self._greatest(-reliefs[first], *limits)
+
+    @cached_property
+    def bounds(self) -> tuple[Array, Array]:
+        """The limits of tractions, as matrix · change ≤ room."""
+        return self.stuck.bounds(self._coefficients)
+
+    @property
+    def _coefficients(self) -> Array:
+        """Changes of those of y by each of them, shape (2H + 1, rank, stuck)."""
+        count = len(self.stuck.along)
+        return self.changes[:-1].reshape(-1, self.stuck.rank, count)
+
+    def _greatest(self, slope: Array, matrix: Array, room: Array) -> Array:
+        """Return the changes [N] with the greatest slope · change, shape (stuck,).
+
+        Zero if there is no room.
+        """
         from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
 
-        slope = sign * self.slopes[probe]
-        matrix, room = self.bounds if slope.any() else np.zeros((2, 0))
         if not room.any():
             return np.zeros_like(slope)
         unit, size = largest(room), largest(slope)
@@ -79,12 +116,6 @@ class Leeway:
         bounds = list(zip(-ends, ends, strict=True))
         found = linprog(-slope / size, matrix, room / unit, bounds=bounds)
         return np.zeros_like(slope) if found.x is None else unit * np.asarray(found.x)
-
-    @cached_property
-    def bounds(self) -> tuple[Array, Array]:
-        """The limits of tractions, as matrix · change ≤ room."""
-        rank, count = self.stuck.rank, len(self.stuck.along)
-        return self.stuck.bounds(self.changes[:-1].reshape(-1, rank, count))
 
 
 def _slopes(

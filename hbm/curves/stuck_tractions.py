@@ -100,16 +100,39 @@ class StuckTractions:
         """k_t [N/m], shape (stuck,)."""
         return self.sliders.stiffness[self.places]
 
-    def bounds(self, changes: Array) -> tuple[Array, Array]:
+    @property
+    def spare(self) -> Array:
+        """What each limit may lose at all times before the slider slips [N], (stuck,).
+
+        Whatever mean traction it carries then.
+        """
+        one, other = (
+            (self.limit - side * self.traction).min(axis=0) for side in (-1.0, 1.0)
+        )
+        spare: Array = 0.5 * (one + other)
+        return spare
+
+    def reliefs(self, changes: Array) -> Array:
+        """Return what mean tractions change of mean limits, shape (stuck, stuck).
+
+        ``changes`` are as for :meth:`bounds`; the last axis is that of the cause.
+        """
+        _, limit = self._changes(changes)
+        mean: Array = limit.mean(axis=0)
+        return mean
+
+    def bounds(self, changes: Array, loose: int | None = None) -> tuple[Array, Array]:
         """Return the limits of tractions as matrix · change ≤ room.
 
         ``changes`` are coefficients of y by each mean traction, shape
         ``(2H + 1, rank, stuck)``. The matrix has shape ``(conditions, stuck)``.
+        ``loose`` is one of these whose point may slip.
         """
         traction, limit = self._changes(changes)
-        matrices, rooms = [], []
+        matrices, rooms = [np.zeros((0, len(self.places)))], [np.zeros(0)]
         points = self.sliders.point[self.places]
-        for point in np.unique(points):
+        held = points if loose is None else points[points != points[loose]]
+        for point in np.unique(held):
             own = np.flatnonzero(points == point)
             for way in _directions(own.size):
                 outward = np.einsum("a,tas->ts", way, traction[:, own])

@@ -32,6 +32,14 @@ def test_both_sides_are_told_with_their_place(small_curve: ResponseCurve) -> Non
     assert "-12 % at 131.0000 Hz and +25 % at 131.0000 Hz" in told
 
 
+def test_large_changes_are_told_without_powers_of_ten(
+    small_curve: ResponseCurve,
+) -> None:
+    told = " ".join(residual_range(changed(small_curve, -0.5, 36.04)))
+
+    assert "-50 % at 131.0000 Hz and +3600 % at 131.0000 Hz" in told
+
+
 def test_a_side_without_change_is_not_told(small_curve: ResponseCurve) -> None:
     told = " ".join(residual_range(changed(small_curve, 0.0, 0.25)))
 

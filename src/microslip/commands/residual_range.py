@@ -32,7 +32,7 @@ def residual_range(curve: ResponseCurve) -> list[str]:
         "tractions, left by what came before; with such the amplitude is another one "
         f"at {told.sum()} of {told.size} points, by up to "
         + " and ".join(
-            f"{100.0 * values[place]:+.2g} % at {_place(curve, int(place))}"
+            f"{_percent(values[place])} at {_place(curve, int(place))}"
             for values, place in zip(
                 change, (change[0].argmin(), change[1].argmax()), strict=True
             )
@@ -46,6 +46,11 @@ def residual_range(curve: ResponseCurve) -> list[str]:
             f"{_place(curve, top)}, in place of {1e3 * amplitude.max():.6g} mm"
         )
     return lines
+
+
+def _percent(change: float) -> str:
+    """Return a relative change in percent, with two digits and no power of ten."""
+    return f"{float(f'{100.0 * change:.2g}'):+.10g} %"
 
 
 def _place(curve: ResponseCurve, point: int) -> str:

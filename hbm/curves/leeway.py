@@ -19,6 +19,10 @@ from microslip_mechanics.arrays import TINY, Array, largest
 
 WITHIN = 1e-6
 """of what slips have changed, by which a traction is taken to be within its limit"""
+KEPT = 1e-10
+"""of the largest room, by which a condition may be broken"""
+TAKEN = 4
+"""conditions that are taken at once, for each traction"""
 
 
 @dataclass(frozen=True)
@@ -89,7 +93,9 @@ class Leeway:
             return np.zeros(len(share))
         first = int(share.argmax())
         limits = self.stuck.bounds(self._coefficients, loose=first)
-        return self._greatest(-reliefs[first], *limits)
+        change = self._greatest(-reliefs[first], *limits)
+        lets = -reliefs[first] @ change > self.stuck.spare[first]
+        return change if lets else np.zeros_like(change)
 
     @cached_property
     def bounds(self) -> tuple[Array, Array]:
@@ -107,15 +113,33 @@ class Leeway:
 
         Zero if there is no room.
         """
-        from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
-
         if not room.any():
             return np.zeros_like(slope)
         unit, size = largest(room), largest(slope)
         ends = self.stuck.limit.max(axis=0) / unit  # > 0: what has no limit slips
-        bounds = list(zip(-ends, ends, strict=True))
-        found = linprog(-slope / size, matrix, room / unit, bounds=bounds)
-        return np.zeros_like(slope) if found.x is None else unit * np.asarray(found.x)
+        return unit * _programme(slope / size, matrix, room / unit, ends)
+
+
+def _programme(slope: Array, matrix: Array, room: Array, ends: Array) -> Array:
+    """Return the x with the greatest slope · x, |x| ≤ ends, matrix · x ≤ room.
+
+    Few of the many conditions are met at their ends: those are taken that a solution
+    without them does not keep, until it keeps all. Zero if there is no solution.
+    """
+    from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
+
+    bounds = list(zip(-ends, ends, strict=True))
+    taken = np.zeros(room.size, dtype=bool)
+    while True:
+        found = linprog(-slope, matrix[taken], room[taken], bounds=bounds)
+        if found.x is None:
+            return np.zeros_like(slope)
+        excess = np.where(taken, -np.inf, matrix @ found.x - room)
+        worst = np.argsort(-excess)[: TAKEN * ends.size]
+        worst = worst[excess[worst] > KEPT]
+        if not worst.size:
+            return np.asarray(found.x)
+        taken[worst] = True
 
 
 def _slopes(

@@ -11,11 +11,13 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.forces.fourier import derivative, waves
 from hbm.forces.sampled_orbit import SampledOrbit
 from hbm.stability.slide_events import even_slides
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.sliders import Sliders
 
 STEPS, EACH = 256, 4
 """of the period, in which slips are looked for; in so many each the limit is kept"""
+STEADY = 1e-9
+"""relative change over the period of what counts as constant: one time tells all"""
 DIRECTIONS = 16
 """of a traction along two tangents, in which its limit is kept"""
 
@@ -136,9 +138,12 @@ class StuckTractions:
             own = np.flatnonzero(points == point)
             for way in _directions(own.size):
                 outward = np.einsum("a,tas->ts", way, traction[:, own])
-                matrices.append(outward - limit[:, own[0]])
+                outward -= limit[:, own[0]]
                 room = self.limit[:, own[0]] - self.traction[:, own] @ way
-                rooms.append(room.reshape(-1, EACH).min(axis=1))
+                room = room.reshape(-1, EACH).min(axis=1)
+                steady = np.ptp(outward, axis=0).max() <= STEADY * largest(outward)
+                matrices.append(outward[:1] if steady else outward)
+                rooms.append(room.min(keepdims=True) if steady else room)
         return np.vstack(matrices), np.maximum(np.concatenate(rooms), 0.0)
 
     def _changes(self, changes: Array) -> tuple[Array, Array]:

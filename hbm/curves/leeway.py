@@ -19,6 +19,13 @@ from microslip_mechanics.arrays import TINY, Array, largest
 
 WITHIN = 1e-6
 """of what slips have changed, by which a traction is taken to be within its limit"""
+KEPT = 1e-10
+"""of the largest room, by which a condition may be broken"""
+TAKEN = 4
+"""conditions that are taken at once, for each traction"""
+FEW = 8
+"""sliders that stick, of which it is found out what lets them slip: each round of that
+costs more than the point, where they are many"""
 
 
 @dataclass(frozen=True)
@@ -68,23 +75,75 @@ class Leeway:
         The least one for a negative ``sign``. No traction changes by more than its
         largest limit.
         """
-        from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
-
         slope = sign * self.slopes[probe]
-        matrix, room = self.bounds if slope.any() else np.zeros((2, 0))
-        if not room.any():
+        if not slope.any():
             return np.zeros_like(slope)
-        unit, size = largest(room), largest(slope)
-        ends = self.stuck.limit.max(axis=0) / unit  # > 0: what has no limit slips
-        bounds = list(zip(-ends, ends, strict=True))
-        found = linprog(-slope / size, matrix, room / unit, bounds=bounds)
-        return np.zeros_like(slope) if found.x is None else unit * np.asarray(found.x)
+        return self._greatest(slope, *self.bounds)
+
+    def loosening(self) -> Array:
+        """Return the changes of tractions [N] that let a stuck slider slip, (stuck,).
+
+        Where all stick no amplitude depends on them to first order, but loads do: it is
+        the slider that these can relieve of most of what holds it. Zero if they can let
+        none slip, or if it is one of more than :data:`FEW`.
+        """
+        count = len(self.stuck.along)
+        if not 0 < count <= FEW:
+            return np.zeros(count)
+        reliefs = self.stuck.reliefs(self._coefficients)
+        most = np.abs(reliefs) @ self.stuck.limit.max(axis=0)
+        share = most / np.maximum(self.stuck.spare, TINY)
+        if share.max(initial=0.0) <= 1.0:
+            return np.zeros(len(share))
+        first = int(share.argmax())
+        limits = self.stuck.bounds(self._coefficients, loose=first)
+        change = self._greatest(-reliefs[first], *limits)
+        lets = -reliefs[first] @ change > self.stuck.spare[first]
+        return change if lets else np.zeros_like(change)
 
     @cached_property
     def bounds(self) -> tuple[Array, Array]:
         """The limits of tractions, as matrix · change ≤ room."""
-        rank, count = self.stuck.rank, len(self.stuck.along)
-        return self.stuck.bounds(self.changes[:-1].reshape(-1, rank, count))
+        return self.stuck.bounds(self._coefficients)
+
+    @property
+    def _coefficients(self) -> Array:
+        """Changes of those of y by each of them, shape (2H + 1, rank, stuck)."""
+        count = len(self.stuck.along)
+        return self.changes[:-1].reshape(-1, self.stuck.rank, count)
+
+    def _greatest(self, slope: Array, matrix: Array, room: Array) -> Array:
+        """Return the changes [N] with the greatest slope · change, shape (stuck,).
+
+        Zero if there is no room.
+        """
+        if not room.any():
+            return np.zeros_like(slope)
+        unit, size = largest(room), largest(slope)
+        ends = self.stuck.limit.max(axis=0) / unit  # > 0: what has no limit slips
+        return unit * _programme(slope / size, matrix, room / unit, ends)
+
+
+def _programme(slope: Array, matrix: Array, room: Array, ends: Array) -> Array:
+    """Return the x with the greatest slope · x, |x| ≤ ends, matrix · x ≤ room.
+
+    Few of the many conditions are met at their ends: those are taken that a solution
+    without them does not keep, until it keeps all. Zero if there is no solution.
+    """
+    from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
+
+    bounds = list(zip(-ends, ends, strict=True))
+    taken = np.zeros(room.size, dtype=bool)
+    while True:
+        found = linprog(-slope, matrix[taken], room[taken], bounds=bounds)
+        if found.x is None:
+            return np.zeros_like(slope)
+        excess = np.where(taken, -np.inf, matrix @ found.x - room)
+        worst = np.argsort(-excess)[: TAKEN * ends.size]
+        worst = worst[excess[worst] > KEPT]
+        if not worst.size:
+            return np.asarray(found.x)
+        taken[worst] = True
 
 
 def _slopes(

@@ -4,7 +4,8 @@ A slider that never slips may carry any mean traction within its limit: what cam
 decides. Where normal loads follow that, amplitudes do. Their extremes are sought by
 successive linear programmes: each gives tractions with which an amplitude is farther,
 to first order; the response with these is solved for, and what it allows is looked at
-again. Every extreme is a response.
+again. Every extreme is a response. Where all stick, one in which a slider slips is
+begun with.
 """
 
 from __future__ import annotations
@@ -95,17 +96,19 @@ class ResidualRange:
         """Return by how much amplitudes may change, relative, shape (2, probes).
 
         The first row is that of lower ones. ``point`` is one of the curve, with any
-        number of harmonics.
+        number of harmonics. NaN if there is no response to begin with.
         """
         balance, guess = self._resolution.at(FOURIER).at_frequency(self._cut(point))
         found = np.zeros((2, len(self._rows)))
         last, self.last = self.last, {}
         here = self._solved(balance, balance.problem.bent, guess)
         if here is None:
-            return found
-        for probe in self._open(here, last):
+            return np.full_like(found, np.nan)
+        loosened = self._loosened(here)
+        for probe in self._open(here, last, loosened):
             for side, sign in enumerate(SIDES):
-                farthest = self._extreme(here, last.get((probe, sign)), probe, sign)
+                known = last.get((probe, sign))
+                farthest = self._extreme(here, known, loosened, probe, sign)
                 change = farthest.amplitude[probe] / here.amplitude[probe] - 1.0
                 if abs(change) > GAIN:
                     self.last[probe, sign] = farthest
@@ -119,23 +122,53 @@ class ResidualRange:
         cut[:count], cut[-1] = point[:count], point[-1]
         return cut
 
-    def _open(self, here: Reached, last: Extremes) -> set[int]:
+    def _open(
+        self, here: Reached, last: Extremes, loosened: Reached | None
+    ) -> set[int]:
         """Return the probes whose amplitudes may change."""
         try:
-            return {*here.leeway.opens(GAIN), *(probe for probe, _ in last)}
+            found = {*here.leeway.opens(GAIN), *(probe for probe, _ in last)}
         except SingularError:
             return set()
+        if loosened is None:
+            return found
+        ways = [(probe, side) for probe in range(len(self._rows)) for side in SIDES]
+        return found.union(way[0] for way in ways if loosened.beyond(here, *way))
+
+    def _loosened(self, here: Reached) -> Reached | None:
+        """Return a response in which what sticks here slips, if one is found."""
+        try:
+            leeway = here.leeway
+        except SingularError:
+            return None
+        change = leeway.loosening()
+        for part in PARTS if change.any() else ():
+            guess = here.point + leeway.changes @ (part * change)
+            made = self._solved(here.balance, leeway.stuck.bent(part * change), guess)
+            if made is not None:
+                return made
+        return None
 
     def _extreme(
-        self, here: Reached, last: Reached | None, probe: int, sign: float
+        self,
+        here: Reached,
+        last: Reached | None,
+        loosened: Reached | None,
+        probe: int,
+        sign: float,
     ) -> Reached:
-        """Return the farthest response, sought from that before, or else from here."""
+        """Return the farthest response, sought from that before, or else from here.
+
+        Or from where a slider slips that sticks here, if that is farther.
+        """
         if last is not None:
             coefficients, _ = last.balance.split(last.point)
             guess = here.balance.point(coefficients, float(here.point[-1]))
             begun = self._solved(here.balance, last.balance.problem.bent, guess)
             if begun is not None and begun.beyond(here, probe, sign):
                 return self._farthest(begun, probe, sign)
+        if loosened is not None and loosened.beyond(here, probe, sign):
+            return self._farthest(loosened, probe, sign)
         return self._farthest(here, probe, sign)
 
     def _farthest(self, begun: Reached, probe: int, sign: float) -> Reached:

@@ -11,11 +11,13 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.forces.fourier import derivative, waves
 from hbm.forces.sampled_orbit import SampledOrbit
 from hbm.stability.slide_events import even_slides
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.sliders import Sliders
 
 STEPS, EACH = 256, 4
 """of the period, in which slips are looked for; in so many each the limit is kept"""
+STEADY = 1e-9
+"""relative change over the period of what counts as constant: one time tells all"""
 DIRECTIONS = 16
 """of a traction along two tangents, in which its limit is kept"""
 
@@ -100,22 +102,48 @@ class StuckTractions:
         """k_t [N/m], shape (stuck,)."""
         return self.sliders.stiffness[self.places]
 
-    def bounds(self, changes: Array) -> tuple[Array, Array]:
+    @property
+    def spare(self) -> Array:
+        """What each limit may lose at all times before the slider slips [N], (stuck,).
+
+        Whatever mean traction it carries then.
+        """
+        one, other = (
+            (self.limit - side * self.traction).min(axis=0) for side in (-1.0, 1.0)
+        )
+        spare: Array = 0.5 * (one + other)
+        return spare
+
+    def reliefs(self, changes: Array) -> Array:
+        """Return what mean tractions change of mean limits, shape (stuck, stuck).
+
+        ``changes`` are as for :meth:`bounds`; the last axis is that of the cause.
+        """
+        _, limit = self._changes(changes)
+        mean: Array = limit.mean(axis=0)
+        return mean
+
+    def bounds(self, changes: Array, loose: int | None = None) -> tuple[Array, Array]:
         """Return the limits of tractions as matrix · change ≤ room.
 
         ``changes`` are coefficients of y by each mean traction, shape
         ``(2H + 1, rank, stuck)``. The matrix has shape ``(conditions, stuck)``.
+        ``loose`` is one of these whose point may slip.
         """
         traction, limit = self._changes(changes)
-        matrices, rooms = [], []
+        matrices, rooms = [np.zeros((0, len(self.places)))], [np.zeros(0)]
         points = self.sliders.point[self.places]
-        for point in np.unique(points):
+        held = points if loose is None else points[points != points[loose]]
+        for point in np.unique(held):
             own = np.flatnonzero(points == point)
             for way in _directions(own.size):
                 outward = np.einsum("a,tas->ts", way, traction[:, own])
-                matrices.append(outward - limit[:, own[0]])
+                outward -= limit[:, own[0]]
                 room = self.limit[:, own[0]] - self.traction[:, own] @ way
-                rooms.append(room.reshape(-1, EACH).min(axis=1))
+                room = room.reshape(-1, EACH).min(axis=1)
+                steady = np.ptp(outward, axis=0).max() <= STEADY * largest(outward)
+                matrices.append(outward[:1] if steady else outward)
+                rooms.append(room.min(keepdims=True) if steady else room)
         return np.vstack(matrices), np.maximum(np.concatenate(rooms), 0.0)
 
     def _changes(self, changes: Array) -> tuple[Array, Array]:

@@ -107,6 +107,29 @@ def test_a_residual_traction_does_what_less_preload_does() -> None:
     assert found.residual_range[:, 0] == pytest.approx(shares, abs=GAIN)
 
 
+@pytest.mark.parametrize("share", [0.25, 0.3])
+def test_what_sticks_slips_with_other_tractions(share: float) -> None:
+    def driven(preload: float = PRESS) -> Problem:
+        problem = pressed(LIMIT, preload)
+        return replace(problem, drive=share * problem.drive)
+
+    found = response(driven())
+
+    assert found.friction_energy == pytest.approx(0.0, abs=1e-12)  # nothing slips
+    here = found.amplitudes(driven().probes.rows)[0]
+    most = amplitude(driven(PRESS - LIMIT)) / here - 1.0
+    assert most > 0.5
+    assert found.residual_range[:, 0] == pytest.approx([0.0, most], abs=GAIN)
+
+
+def test_what_no_traction_lets_slip_has_one_amplitude() -> None:
+    problem = pressed(LIMIT)
+
+    assert not response(
+        replace(problem, drive=0.2 * problem.drive)
+    ).residual_range.any()
+
+
 def test_two_tangents_share_one_limit() -> None:
     one, two = (response(made(LIMIT)) for made in (pressed, leaning))
 

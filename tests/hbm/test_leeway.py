@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+from scipy.optimize import linprog
 
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import upright
@@ -14,7 +15,7 @@ from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from microslip import scene
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.static import static_equilibrium
 
 LOW = FourierBasis(7, 256)
@@ -76,3 +77,17 @@ def test_the_farthest_tractions_reach_a_limit() -> None:
         largest = leeway.stuck.limit.max(axis=0)
         ends = np.isclose(np.abs(change), largest).any()
         assert ends or left.min() < 1e-9 * room.max()
+
+
+def test_few_conditions_lead_where_all_do() -> None:
+    damped = Leeway.of(*damper()[:3])
+    matrix, room = damped.bounds
+    slope, ends = damped.slopes[0], damped.stuck.limit.max(axis=0)
+    bounds = list(zip(-ends, ends, strict=True))
+    for sign in (-1.0, 1.0):
+        whole = linprog(-sign * slope / largest(slope), matrix, room, bounds=bounds)
+
+        reached = slope @ damped.farthest(0, sign)
+
+        rounding = 1e-9 * (np.abs(slope) @ ends)
+        np.testing.assert_allclose(reached, slope @ whole.x, rtol=0.0, atol=rounding)

@@ -32,6 +32,14 @@ def test_both_sides_are_told_with_their_place(small_curve: ResponseCurve) -> Non
     assert "-12.5 % at 131.0000 Hz and +25 % at 131.0000 Hz" in told
 
 
+def test_large_changes_are_told_without_powers_of_ten(
+    small_curve: ResponseCurve,
+) -> None:
+    told = " ".join(residual_range(changed(small_curve, -0.5, 36.04)))
+
+    assert "-50 % at 131.0000 Hz and +3604 % at 131.0000 Hz" in told
+
+
 def test_a_side_without_change_is_not_told(small_curve: ResponseCurve) -> None:
     told = " ".join(residual_range(changed(small_curve, 0.0, 0.25)))
 
@@ -46,6 +54,16 @@ def test_along_a_parameter_its_value_is_told(small_curve: ResponseCurve) -> None
     )
 
     assert "+50 % at 0.2" in " ".join(residual_range(curve))
+
+
+def test_points_that_are_left_out_are_counted(small_curve: ResponseCurve) -> None:
+    curve = changed(small_curve, 0.0, 0.5)
+    curve.amplitude_lowest[3] = curve.amplitude_highest[3] = np.nan
+
+    first, second, *_ = residual_range(curve)
+
+    assert "not sought at 1 of 4 points" in first
+    assert "1 of 4 points, by up to +50 % at 131.0000 Hz" in second
 
 
 def test_the_largest_amplitude_is_told_if_it_is_larger(

@@ -22,30 +22,43 @@ def residual_range(curve: ResponseCurve) -> list[str]:
         each[points, probe]
         for each in (curve.amplitude, curve.amplitude_lowest, curve.amplitude_highest)
     )
+    unknown = np.isnan(low)
     with np.errstate(divide="ignore", invalid="ignore"):
         change = np.nan_to_num(np.stack([low, high]) / amplitude - 1.0)
-    told = np.abs(change).max(axis=0) > SEEN
+    told, lines = np.abs(change).max(axis=0) > SEEN, []
+    if unknown.any():
+        lines = [
+            f"other residual tractions: not sought at {unknown.sum()} of "
+            f"{unknown.size} points, where no response was found with 15 harmonics"
+        ]
     if not told.any():
-        return []
+        return lines
     lines = [
+        *lines,
         "not unique: contacts that stick all the time may carry other residual "
         "tractions, left by what came before; with such the amplitude is another one "
         f"at {told.sum()} of {told.size} points, by up to "
         + " and ".join(
-            f"{100.0 * values[place]:+.3g} % at {_place(curve, int(place))}"
+            f"{_percent(values[place])} at {_place(curve, int(place))}"
             for values, place in zip(
                 change, (change[0].argmin(), change[1].argmax()), strict=True
             )
             if abs(values[place]) > SEEN
-        )
+        ),
     ]
-    top = int(high.argmax())
+    top = int(np.nanargmax(high))
     if high[top] > (1.0 + SEEN) * amplitude.max():
         lines.append(
             f"largest amplitude that was found: {1e3 * high[top]:.6g} mm at "
             f"{_place(curve, top)}, in place of {1e3 * amplitude.max():.6g} mm"
         )
     return lines
+
+
+def _percent(change: float) -> str:
+    """Return a relative change in percent, of three digits at least."""
+    percent = 100.0 * change
+    return f"{percent:+.3g} %" if abs(percent) < 100.0 else f"{percent:+.0f} %"
 
 
 def _place(curve: ResponseCurve, point: int) -> str:

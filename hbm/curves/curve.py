@@ -100,11 +100,11 @@ class Curve:
             event=event,
             parameter=float(kept[-1]),
         )
-        if self.residual_range:
-            made = replace(made, residual_range=self.residual_range.at(kept))
         settled = self.system.settled
         coarser = (correction.point, settled) if settled != fourier else None
         told, finer = self._examined(made, kept, fourier, coarser)
+        if self.residual_range and told.unstable <= 0:
+            told = replace(told, residual_range=self.residual_range.at(kept))
         asks = finer != fourier
         return told, Settled(
             correction, told.multipliers, finer, asks, correction, settled

@@ -10,8 +10,7 @@ begun with.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -21,7 +20,7 @@ from hbm.continuation.arc import upright
 from hbm.continuation.correction import Outcome
 from hbm.continuation.linearised import SingularError
 from hbm.continuation.newton import correct
-from hbm.curves.leeway import Leeway
+from hbm.curves.reached import GAIN, Reached
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path_resolution import PathResolution
 from microslip_mechanics.arrays import Array
@@ -34,35 +33,11 @@ ITERATIONS = 15
 """of Newton, for a response"""
 PARTS = (1.0, 0.5, 0.25, 0.1)
 """of a change of tractions that are tried"""
-GAIN = 1e-3
-"""relative change of an amplitude that is worth another round"""
+BACK = (0.75, 0.5, 0.25, 0.0)
+"""shares of residual tractions on the way back from an extreme"""
+SAME = 1e-2
+"""relative difference of amplitudes up to which that leads to where it began"""
 SIDES = (-1.0, 1.0)
-
-
-@dataclass(frozen=True)
-class Reached:
-    """A response with some residual tractions."""
-
-    balance: HarmonicBalance
-    point: Array
-    rows: Array
-    """probes of the motion, shape (probes, dofs)"""
-
-    @cached_property
-    def amplitude(self) -> Array:
-        """Of the probes [m], shape (probes,)."""
-        found: Array = np.hypot(*(self.balance.motion(self.point)[1:3] @ self.rows.T))
-        return found
-
-    @cached_property
-    def leeway(self) -> Leeway:
-        """What other tractions change, to first order."""
-        return Leeway.of(self.balance, self.point, self.rows)
-
-    def beyond(self, other: Reached, probe: int, sign: float) -> bool:
-        """Return whether the amplitude of a probe is farther than another one."""
-        gained = sign * (self.amplitude[probe] - other.amplitude[probe])
-        return bool(gained > GAIN * other.amplitude[probe])
 
 
 Extremes: TypeAlias = dict[tuple[int, float], Reached]
@@ -110,10 +85,27 @@ class ResidualRange:
                 known = last.get((probe, sign))
                 farthest = self._extreme(here, known, loosened, probe, sign)
                 change = farthest.amplitude[probe] / here.amplitude[probe] - 1.0
-                if abs(change) > GAIN:
+                if abs(change) > GAIN and self._returns(farthest, here):
                     self.last[probe, sign] = farthest
                     found[side, probe] = change
         return found
+
+    def _returns(self, farthest: Reached, here: Reached) -> bool:
+        """Return whether an extreme goes back to the curve as its tractions do.
+
+        Else it belongs to another curve: there are several responses beside a fold.
+        """
+        bent, reached = farthest.balance.problem.bent, farthest
+        if bent is None:
+            return False
+        for share in BACK:
+            held: Array = share * bent
+            solved = self._solved(here.balance, held, reached.point)
+            if solved is None:
+                return False
+            reached = solved
+        away = abs(reached.amplitude - here.amplitude).max()
+        return bool(away <= SAME * here.amplitude.max())
 
     def _cut(self, point: Array) -> Array:
         """Return a point with as many harmonics as are solved for here."""

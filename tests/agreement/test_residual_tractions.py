@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hbm.curves.residual_range import FOURIER, GAIN, ResidualRange
+from hbm.curves.reached import GAIN
+from hbm.curves.residual_range import FOURIER, ResidualRange
 from hbm.curves.tracer import Tracer
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency

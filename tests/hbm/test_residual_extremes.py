@@ -8,10 +8,12 @@ import numpy as np
 from hbm.continuation.arc import upright
 from hbm.continuation.correction import Outcome
 from hbm.continuation.newton import correct
-from hbm.curves.residual_range import FOURIER, GAIN, ResidualRange
+from hbm.curves.reached import GAIN
+from hbm.curves.residual_range import FOURIER, ResidualRange
 from hbm.curves.tracer import Tracer
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
+from hbm.solve import frequency_response
 from microslip import scene
 from microslip_mechanics.static import static_equilibrium
 
@@ -45,3 +47,23 @@ def test_no_pair_of_tractions_leads_farther() -> None:
     assert max(shares) > 0.05
     assert low < min(shares) + GAIN
     assert high > max(shares) - GAIN
+
+
+def test_other_curves_at_the_same_frequency_are_no_extremes() -> None:
+    # those between two folds are more than half an amplitude away
+    problem = scene("chain")
+    options = CurveOptions(
+        2.0 * np.pi * 0.27,
+        2.0 * np.pi * 0.245,
+        harmonics=7,
+        samples=256,
+        errors=False,
+        events=False,
+        residual_range=True,
+    )
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    ranges = [np.abs(each.residual_range).max(initial=0.0) for each in curve]
+    assert any(each.unstable > 0 for each in curve)
+    assert max(ranges) < 0.3

@@ -24,8 +24,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="frequency response curve by harmonic balance",
         description="Trace the frequency response curve of a scene by harmonic "
         "balance, with as many harmonics at each point as its error tolerance asks "
-        "for; locate peaks, folds and changes of stability; print a short table, write "
-        "SCENE-frc.nc and SCENE-frc.png.",
+        "for; locate peaks, folds and changes of stability; tell how far amplitudes "
+        "depend on what contacts that stick carry from before; print a short table, "
+        "write SCENE-frc.nc and SCENE-frc.png.",
         epilog="example: microslip frc two-blades --set model=A -o model-a",
     )
     arguments.add_scene(parser)

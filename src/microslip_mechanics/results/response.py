@@ -55,8 +55,8 @@ class PeriodicResponse(ByValue):
     """estimated one of the parameter at which a peak or a fold lies; NaN for others"""
     residual_range: Array = field(default_factory=lambda: np.empty((0, 0)))
     """by how much amplitudes of probes were found lower and higher, relative, with
-    other residual tractions of contacts that stick, shape (2, probes); empty if no load
-    follows them (theory §6.5)"""
+    other residual tractions of contacts that stick, shape (2, probes); NaN where they
+    were sought in vain, empty where they were not (theory §6.5)"""
     shapes: Array | None = None
     """motion of the coordinates of a reduced structure, shape (dofs, coordinates)"""
 

@@ -117,7 +117,12 @@ def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
     from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
     from microslip.studies.curve import Wanted, trace_curve, trace_sector
 
-    wanted = Wanted(options.branches, options.detached, options.effort or 1.0, True)
+    wanted = Wanted(
+        options.branches,
+        options.detached,
+        options.effort or 1.0,
+        residual_range=True,
+    )
     watch, searching = watched(scene.curve), search_watched(scene.curve)
     sector = None if options.unpruned else sector_of(scene)
     if sector is not None:

@@ -46,8 +46,9 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
         rows.append(
             f"where it begins, at {1e3 * mode.points[0].amplitude:.4g} mm, its "
             f"motion is another one than {state}, and may be that of another mode of "
-            "nearly the same frequency: begin with smaller --amplitudes, which helps "
-            "unless the frequencies are equal"
+            "nearly the same frequency, at amplitudes down to 1e-4 of that too: "
+            "begin with smaller --amplitudes still, which helps unless the frequencies "
+            "are equal"
         )
     if mode.coarser is not None:
         first = mode.points[mode.coarser]

@@ -56,7 +56,7 @@ def residual_range(curve: ResponseCurve) -> list[str]:
 
 
 def _percent(change: float) -> str:
-    """Return a relative change in percent, of three digits at least."""
+    """Return a relative change in percent, to three digits or whole."""
     percent = 100.0 * change
     return f"{percent:+.3g} %" if abs(percent) < 100.0 else f"{percent:+.0f} %"
 

@@ -24,8 +24,13 @@ KEPT = 1e-10
 TAKEN = 4
 """conditions that are taken at once, for each traction"""
 FEW = 8
-"""sliders that stick, of which it is found out what lets them slip: each round of that
-costs more than the point, where they are many"""
+"""sliders that stick, of which it is found out what lets them slip, and points, of
+which what relieves them: each round of that costs more than the point, where they are
+many"""
+IDLE = 1e-6
+"""of the largest slope: what a smaller one gains is not worth a traction"""
+FAINT = 1e-9
+"""of the largest change of a depth, up to which another one may be rounding"""
 
 
 @dataclass(frozen=True)
@@ -101,6 +106,21 @@ class Leeway:
         lets = -reliefs[first] @ change > self.stuck.spare[first]
         return change if lets else np.zeros_like(change)
 
+    def relieving(self) -> list[Array]:
+        """Return changes of tractions [N], each (stuck,), that relieve points the most.
+
+        One for each point whose load follows its motion; none if those, or what sticks,
+        are more than :data:`FEW`.
+        """
+        sliders = self.stuck.sliders
+        follows = np.flatnonzero(~sliders.points.constant_load)
+        if not 0 < len(self.stuck.along) <= FEW or follows.size > FEW:
+            return []
+        deeper = sliders.basis[3 * follows] @ self._coefficients[0]
+        large = np.abs(deeper).max(axis=1) > FAINT * largest(deeper)
+        found = [self._greatest(-each, *self.bounds) for each in deeper[large]]
+        return [each for each in found if each.any()]
+
     @cached_property
     def bounds(self) -> tuple[Array, Array]:
         """The limits of tractions, as matrix · change ≤ room."""
@@ -128,21 +148,26 @@ def _programme(slope: Array, matrix: Array, room: Array, ends: Array) -> Array:
     """Return the x with the greatest slope · x, |x| ≤ ends, matrix · x ≤ room.
 
     Few of the many conditions are met at their ends: those are taken that a solution
-    without them does not keep, until it keeps all. Zero if there is no solution.
+    without them does not keep, until it keeps all. Of what is as good the smallest x is
+    taken. Zero if there is no solution.
     """
     from scipy.optimize import linprog  # slow to load, and hardly a scene needs it
 
-    bounds = list(zip(-ends, ends, strict=True))
+    # x is what is above zero less what is below, both of which cost a little
+    cost = IDLE * np.abs(slope).max() + np.concatenate([-slope, slope])
+    bounds = [(0.0, end) for end in (*ends, *ends)]
+    both = np.hstack([matrix, -matrix])
     taken = np.zeros(room.size, dtype=bool)
     while True:
-        found = linprog(-slope, matrix[taken], room[taken], bounds=bounds)
+        found = linprog(cost, both[taken], room[taken], bounds=bounds)
         if found.x is None:
             return np.zeros_like(slope)
-        excess = np.where(taken, -np.inf, matrix @ found.x - room)
+        above, below = np.split(found.x, 2)
+        excess = np.where(taken, -np.inf, matrix @ (above - below) - room)
         worst = np.argsort(-excess)[: TAKEN * ends.size]
         worst = worst[excess[worst] > KEPT]
         if not worst.size:
-            return np.asarray(found.x)
+            return np.asarray(above - below)
         taken[worst] = True
 
 

@@ -39,6 +39,11 @@ class AlongDrive:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
         return self.path.mask(harmonics)
 
+    def in_all(self) -> tuple[AlongDrive, NDArray[np.int64]]:
+        """Return the path in all coordinates and orders, and which of them are kept."""
+        path, kept = self.path.in_all()
+        return self if path is self.path else replace(self, path=path), kept
+
     def balance(self, fourier: FourierBasis) -> ParametricBalance:
         """Return harmonic balance at one resolution."""
         mask = self.mask(fourier.harmonics)

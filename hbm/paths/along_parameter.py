@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from copy import copy
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,6 +78,17 @@ class AlongParameter:
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
         return extended(self._active, harmonics)
+
+    def in_all(self) -> tuple[AlongParameter, NDArray[np.int64]]:
+        """Return the path in all coordinates and orders, and which of them are kept."""
+        rank = self._whole(self._limits[0]).rank
+        if self._active.all() and self.rank == rank:
+            return self, self._kept
+        path = copy(self)
+        path._kept, path._odd = np.arange(rank), None
+        path._active = np.ones((len(self._active), rank), dtype=bool)
+        path.rank, path._past = rank, {}
+        return path, self._kept
 
     def balance(self, fourier: FourierBasis) -> ParametricBalance:
         """Return harmonic balance at one resolution."""

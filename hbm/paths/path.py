@@ -34,6 +34,12 @@ class Path(Protocol):
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
 
+    def in_all(self) -> tuple[Path, NDArray[np.int64]]:
+        """Return the path in all coordinates and orders, and which of them these are.
+
+        A symmetry that keeps some still may be broken there.
+        """
+
     def balance(self, fourier: FourierBasis) -> Balance:
         """Return the system whose curve is followed, at one resolution."""
 
@@ -55,6 +61,10 @@ class AlongFrequency:
     """coefficients of the probing orders that move, (11, rank)"""
     range: float
     """of frequencies [rad/s]"""
+    every: RelativeProblem
+    """of all that may move"""
+    kept: NDArray[np.int64]
+    """which of its coordinates these are, shape (rank,)"""
 
     @property
     def rank(self) -> int:
@@ -71,6 +81,12 @@ class AlongFrequency:
         rows = np.vstack([possible[:1], possible[1:].repeat(2, axis=0)])
         active: NDArray[np.bool_] = extended(self.active, harmonics) & rows
         return active
+
+    def in_all(self) -> tuple[AlongFrequency, NDArray[np.int64]]:
+        """Return the path in all coordinates and orders, and which of them are kept."""
+        if self.active.all() and self.problem.rank == self.every.rank:
+            return self, np.arange(self.rank)
+        return _in_all(self.whole, self.every, self.range), self.kept
 
     def balance(self, fourier: FourierBasis) -> HarmonicBalance:
         """Return harmonic balance at one resolution."""
@@ -146,8 +162,15 @@ def moving_path(
     keeps still what does not move.
     """
     if not symmetry:
-        every = np.ones((PROBE.coefficients, relative.rank), dtype=bool)
-        return AlongFrequency(whole, relative, every, width)
+        return _in_all(whole, relative, width)
     active = moving(relative, start)
     kept, odd = symmetric(active)
-    return AlongFrequency(whole, relative.restricted(kept, odd), active[:, kept], width)
+    problem = relative.restricted(kept, odd)
+    return AlongFrequency(whole, problem, active[:, kept], width, relative, kept)
+
+
+def _in_all(whole: Problem, relative: RelativeProblem, width: float) -> AlongFrequency:
+    """Return the path of all coordinates and orders."""
+    active = np.ones((PROBE.coefficients, relative.rank), dtype=bool)
+    kept = np.arange(relative.rank)
+    return AlongFrequency(whole, relative, active, width, relative, kept)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.balance.balance import Balance
 from hbm.forces.fourier import FourierBasis
@@ -24,6 +25,17 @@ class PathResolution(Resolution):
         self._path, self._probes, self.marched = path, probes, marched
         self.rank = path.rank
         self._made: dict[FourierBasis, Balance] = {}
+
+    def in_all(self) -> tuple[PathResolution, NDArray[np.int64]]:
+        """Return that in all coordinates and orders, and which of them are kept."""
+        path, kept = self._path.in_all()
+        if path is self._path:
+            return self, kept
+        return PathResolution(path, self._probes, marched=self.marched), kept
+
+    def mask(self, harmonics: int) -> NDArray[np.bool_]:
+        """Return the active coefficients, shape (2 harmonics + 1, rank)."""
+        return self._path.mask(harmonics)
 
     def at(self, fourier: FourierBasis) -> Balance:
         """Return the system at one resolution."""

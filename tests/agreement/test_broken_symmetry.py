@@ -1,0 +1,100 @@
+"""Residual tractions that break a symmetry: against loads, and marches.
+
+A mass between two equal faces rubs on both; a slider that never slips holds it between.
+The curve keeps the mass in the middle. The mean traction of the slider does what a load
+does, to either side alike: amplitudes do not depend on it to first order.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hbm.curves.reached import GAIN
+from hbm.curves.residual_range import FOURIER
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.elastic_friction import ElasticFriction
+from microslip_mechanics.laws.jenkins import Jenkins
+from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
+from small_problems import dwelled, last_harmonic
+from timedomain.record.start import on_orbit
+
+LIMIT = 40.0
+"""of the slider [N]"""
+
+
+def between_faces(pull: float = 0.0) -> Problem:
+    """Return the mass; ``pull`` [N] is a load across the faces."""
+    rubs = ElasticFriction(
+        normal_stiffness=300.0, preload=10.0, stiffness=200.0, mu=0.3
+    )
+    holds = Jenkins(stiffness=400.0, limit=LIMIT)
+    elements = [
+        Element(rubs, normal=("z", "ground"), tangents=[("x", "ground")]),
+        Element(rubs, normal=({"z": -1.0}, "ground"), tangents=[("x", "ground")]),
+        Element(holds, between=("z", "ground")),
+    ]
+    return system(
+        names=["x", "z"],
+        mass=[1.0, 1.0],
+        stiffness=[100.0, 1.0],
+        damping=[0.5, 5.0],
+        elements=elements,
+        preload={"z": pull},
+        drive={"x": 8.0},
+        probes={"x": "x"},
+    )
+
+
+def response(
+    problem: Problem, frequency: float, *, sought: bool = False
+) -> PeriodicResponse:
+    """Return the response at one frequency, at the resolution of what is ``sought``."""
+    options = CurveOptions(
+        frequency,
+        1.01 * frequency,
+        harmonics=FOURIER.harmonics,
+        samples=FOURIER.samples,
+        events=False,
+        residual_range=sought,
+    )
+    return next(iter(frequency_response(problem, static_equilibrium(problem), options)))
+
+
+@pytest.mark.parametrize("frequency", [8.0, 10.0, 12.0, 16.0])
+def test_no_pull_leads_farther(frequency: float) -> None:
+    rows = between_faces().probes.rows
+
+    found = response(between_faces(), frequency, sought=True)
+
+    here = found.amplitudes(rows)[0]
+    pulled = [
+        response(between_faces(pull), frequency).amplitudes(rows)[0] / here - 1.0
+        for pull in np.linspace(0.0, LIMIT, 41)
+    ]
+    assert max(pulled) - min(pulled) > 0.6
+    low, high = found.residual_range[:, 0]
+    near = GAIN * (1.0 + max(pulled))  # of the amplitude that is reached
+    assert min(pulled) - 0.02 < low < min(pulled) + near
+    assert max(pulled) - near < high < max(pulled) + 0.02
+
+
+def test_a_march_keeps_what_breaks_the_symmetry() -> None:
+    frequency, pull = 16.0, 35.0
+    rows = between_faces().probes.rows
+    begun = on_orbit(between_faces(pull), response(between_faces(pull), frequency))
+    assert begun.traction is not None
+    traction = begun.traction - np.array([[0.0, 0.0], [0.0, 0.0], [pull, 0.0]])
+    start = replace(begun, traction=traction)
+
+    history = dwelled(between_faces(), frequency, periods=60, steps=1024, start=start)
+
+    found = response(between_faces(), frequency, sought=True)
+    change = np.abs(last_harmonic(history)[0]) / found.amplitudes(rows)[0] - 1.0
+    assert change > 0.5
+    assert found.residual_range[1, 0] > change

@@ -26,7 +26,8 @@ def cyclic_response(
 
     The other sectors move like it, each ahead of the one before by ``problem.lead``.
     Energies are those that all of them take out. Floquet multipliers are not computed:
-    a disturbance need not travel like that.
+    a disturbance need not travel like that. Residual tractions that are looked for are
+    those alike in all sectors.
 
     Raises
     ------

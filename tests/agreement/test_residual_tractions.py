@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hbm.curves.cyclic import cyclic_response
 from hbm.curves.reached import GAIN
 from hbm.curves.residual_range import FOURIER, ResidualRange
 from hbm.curves.tracer import Tracer
@@ -16,6 +17,7 @@ from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from hbm.solve import frequency_response
 from microslip import scene
+from microslip_mechanics.cyclic import Coupling, CyclicProblem
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.elastic_friction import ElasticFriction
 from microslip_mechanics.laws.jenkins import Jenkins
@@ -34,6 +36,14 @@ LIMIT = 8.0
 """of the slider [N]"""
 SPRING, FACE, STICKS = 100.0, 300.0, 400.0
 """of the mass that is pressed, of the face between both, of the slider [N/m]"""
+OPTIONS = CurveOptions(
+    FREQUENCY,
+    1.01 * FREQUENCY,
+    harmonics=FOURIER.harmonics,
+    samples=FOURIER.samples,
+    events=False,
+    residual_range=True,
+)
 
 
 def pressed(limit: float, preload: float = PRESS) -> Problem:
@@ -81,15 +91,7 @@ def leaning(limit: float) -> Problem:
 
 def response(problem: Problem) -> PeriodicResponse:
     """Return the response at one frequency, at the resolution of what is found."""
-    options = CurveOptions(
-        FREQUENCY,
-        1.01 * FREQUENCY,
-        harmonics=FOURIER.harmonics,
-        samples=FOURIER.samples,
-        events=False,
-        residual_range=True,
-    )
-    return next(iter(frequency_response(problem, static_equilibrium(problem), options)))
+    return next(iter(frequency_response(problem, static_equilibrium(problem), OPTIONS)))
 
 
 def amplitude(problem: Problem) -> float:
@@ -135,6 +137,26 @@ def test_two_tangents_share_one_limit() -> None:
     one, two = (response(made(LIMIT)) for made in (pressed, leaning))
 
     np.testing.assert_allclose(two.residual_range, one.residual_range, atol=2.0 * GAIN)
+
+
+def test_sectors_that_do_not_touch_have_the_range_of_one() -> None:
+    one, apart = pressed(LIMIT), np.zeros((2, 2))
+    disk = CyclicProblem(
+        6,
+        1,
+        one.structure,
+        Coupling(apart, apart, apart),
+        one.interface,
+        np.zeros_like(one.interface.displacement),
+        one.preload,
+        one.drive.real,
+        one.probes,
+    )
+
+    found = next(iter(cyclic_response(disk, OPTIONS)))
+
+    expected = response(one).residual_range
+    np.testing.assert_allclose(found.residual_range, expected, rtol=1e-6)
 
 
 def test_no_traction_is_left_open_where_all_slip() -> None:

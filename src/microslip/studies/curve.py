@@ -115,7 +115,8 @@ def trace_sector(
             "sector cannot show: give --set solve=disk"
         )
     standing = problem.standing()
-    traced = cyclic_response(problem, curve_options(curve))
+    options = replace(curve_options(curve), residual_range=wanted.residual_range)
+    traced = cyclic_response(problem, options)
     return traced_of(standing, static_equilibrium(standing), traced, watch)
 
 

@@ -197,6 +197,10 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
         {"stiffness": [[2e4], [-1e4, 1e4]]},
         ("stiffness is no matrix of numbers", "rows of equal length"),
     ),
+    "stiffness with a unit": (
+        {"stiffness": [["20 kN/m", -1e4], [-1e4, 1e4]]},
+        ("stiffness holds the text '20 kN/m'", "SI units"),
+    ),
     "half an engine order": (
         {"engine_order": EngineOrder(("x1", "x2"), 1.5, 1.0)},  # type: ignore[arg-type]
         ("engine order 1.5", "whole number"),

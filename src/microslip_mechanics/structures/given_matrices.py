@@ -29,10 +29,7 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
     except (TypeError, ValueError):
         numbers = False
     if not numbers:
-        raise ValueError(
-            f"{what} is no matrix of numbers: give rows of equal length, or the "
-            "diagonal alone"
-        )
+        raise ValueError(f"{what} {_no_matrix(given)}")
     if matrix.ndim == 1:
         matrix = np.diag(matrix)
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or matrix.size == 0:
@@ -41,6 +38,23 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
         )
     _check_entries(matrix, what)
     return matrix
+
+
+def _no_matrix(given: object) -> str:
+    """Return what is wrong with what is no matrix of numbers, and its remedy."""
+    text = next((each for each in _flat(given) if isinstance(each, str)), None)
+    if text is not None:
+        return f"holds the text {text!r}: give numbers alone, in SI units"
+    return "is no matrix of numbers: give rows of equal length, or the diagonal alone"
+
+
+def _flat(given: object) -> Iterable[object]:
+    """Yield the entries of rows, or of a diagonal."""
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        yield given
+        return
+    for each in given:
+        yield from _flat(each)
 
 
 def _complex(given: Matrix) -> bool:

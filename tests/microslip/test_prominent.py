@@ -95,6 +95,39 @@ def test_a_fold_without_its_partner_has_to_lead_back_as_far() -> None:
     assert folds([1.0, 2.0, 1.9, 3.0], [1]) == [2.0]
 
 
+def test_how_far_a_peak_is_aside_says_nothing_of_folds() -> None:
+    points = folded([1.0, 2.0, 2.0, 1.9, 1.8, 3.0], [2, 4])
+    points[1] = replace(points[1], event="peak", parameter_error=1.0)
+
+    events = [each.event for each in prominent(oscillator(), points) if each.event]
+
+    assert events == ["peak", "fold", "fold"]
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_fold_lies_where_a_point_beside_it_is_farther(side: float) -> None:
+    places = [side * place for place in (1.0, 2.1, 2.0, 1.1, 1.0, 1.1, 1.11, 3.0)]
+
+    found = prominent(oscillator(), folded(places, [2, 5]))
+
+    errors = {each.parameter: each.parameter_error for each in found if each.event}
+    assert errors == {
+        side * 2.0: pytest.approx(0.1),
+        side * 1.1: pytest.approx(0.1),
+    }
+
+
+@pytest.mark.parametrize(("aside", "told"), [(0.5, False), (2.0, True)])
+def test_a_branch_point_that_may_be_a_fold_is_none(aside: float, told: bool) -> None:
+    points = folded([1.0, 2.0 - aside * ERROR, 1.999, 2.0, 1.0], [3])
+    points[1] = replace(points[1], event="branch point")
+
+    events = [each.event for each in prominent(oscillator(), points)]
+
+    assert ("branch point" in events) == told
+    assert "fold" in events
+
+
 def test_other_pieces_of_a_curve_say_nothing() -> None:
     points = curve([1.0, 1.1, 1.0999, 1.2, 1.0], [1])
     points[3] = replace(points[3], event="restart")

@@ -10,6 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from hbm.curves.detached import MARKS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
+
+NEAR = 2
+"""points between a fold and a branch point that may be it"""
 
 
 def prominent(
@@ -27,16 +31,45 @@ def prominent(
     The amplitude descends from a peak, on the way to a higher point to either side, by
     more than its error and that of the lowest point on that way together; so does the
     parameter from a fold at which it is largest, and upside down. Where no point is
-    higher, or the error of an event is not known, it stays. What does not hang together
-    is looked at piece by piece.
+    higher, or the error of an event is not known, it stays. A fold may lie aside by as
+    much as a point beside it is beyond; a branch point that may be the fold next to it
+    is no other event. What does not hang together is looked at piece by piece.
     """
     begins = [at for at, each in enumerate(points) if each.event in MARKS]
     bounds = sorted({0, *begins, len(points)})
     return [
         each
         for first, last in itertools.pairwise(bounds)
-        for each in _standing_out(problem, points[first:last])
+        for each in _standing_out(problem, _apart(_wide(points[first:last])))
     ]
+
+
+def _wide(piece: Sequence[PeriodicResponse]) -> list[PeriodicResponse]:
+    """Return a piece whose folds may lie where points beside them are."""
+    place = np.array([each.parameter for each in piece])
+    wide = list(piece)
+    for at, each in enumerate(piece):
+        if each.event == "fold":
+            outwards = _outwards(at, place)
+            beyond = (outwards * (_beside(at, place) - place[at])).max(initial=0.0)
+            error = np.maximum(each.parameter_error, beyond)  # unknown, it stays so
+            wide[at] = replace(each, parameter_error=float(error))
+    return wide
+
+
+def _apart(piece: Sequence[PeriodicResponse]) -> list[PeriodicResponse]:
+    """Return a piece without branch points that may be the fold next to them."""
+    left = set(range(len(piece)))
+    for at, each in enumerate(piece):
+        if each.event == "fold":
+            near = [
+                other
+                for other in range(max(at - NEAR, 0), min(at + NEAR + 1, len(piece)))
+                if piece[other].event == "branch point"
+                and abs(piece[other].parameter - each.parameter) <= each.parameter_error
+            ]
+            left.difference_update(near[:1])
+    return [piece[at] for at in sorted(left)]
 
 
 def _standing_out(
@@ -48,20 +81,34 @@ def _standing_out(
     errors = np.array([each.error for each in piece])
     doubt = np.where(amplitude > 0.0, errors, 0.0) * amplitude
     place = np.array([each.parameter for each in piece])
-    aside = np.array([each.parameter_error for each in piece])
+    folds = np.array([each.event == "fold" for each in piece], dtype=bool)
+    aside = np.where(folds, [each.parameter_error for each in piece], np.nan)
     for at, each in enumerate(piece):
         if each.event == "peak" and not _descends(at, amplitude, doubt):
             continue
-        outwards = _outwards(at, place) * place
-        if each.event == "fold" and not _descends(at, outwards, aside):
-            continue
+        if each.event == "fold":
+            outwards = _outwards(at, place) * place
+            outwards[at] = max(outwards[at], _beside(at, outwards).max(initial=-np.inf))
+            if not _descends(at, outwards, aside):
+                continue
         yield each
 
 
+def _beside(at: int, place: Array) -> Array:
+    """Return the values at the points before and behind one."""
+    return place[[near for near in (at - 1, at + 1) if 0 <= near < place.size]]
+
+
 def _outwards(at: int, place: Array) -> float:
-    """Return the sign with which a parameter has a maximum at a point."""
+    """Return the sign with which a parameter has a maximum at a point.
+
+    Where it lies between the points beside it, those before and behind these tell.
+    """
     before, after = place[max(at - 1, 0)], place[min(at + 1, len(place) - 1)]
-    return 1.0 if 2.0 * place[at] >= before + after else -1.0
+    bend = 2.0 * place[at] - before - after
+    if (place[at] - before) * (after - place[at]) > 0.0 and 2 <= at < len(place) - 2:
+        bend = (before - place[at - 2]) - (place[at + 2] - after)
+    return 1.0 if bend >= 0.0 else -1.0
 
 
 def _descends(at: int, heights: Array, doubts: Array) -> bool:

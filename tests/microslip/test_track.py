@@ -3,6 +3,7 @@
 import csv
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from microslip.cli import main
@@ -11,6 +12,47 @@ from microslip.scenes.scene_file import load_scene
 from microslip.studies.axis import axis
 from microslip.studies.track import tracked
 
+BETWEEN_FACES = """
+scene = "system"
+[structure]
+names = ["x", "z"]
+mass = [1.0, 1.0]
+stiffness = [100.0, 1.0]
+damping = [0.5, 5.0]
+[[element]]
+name = "one"
+law = "elastic-friction"
+normal = ["z", "ground"]
+tangents = [["x", "ground"]]
+normal_stiffness = 300
+preload = "10 N"
+stiffness = 200
+mu = 0.3
+[[element]]
+name = "other"
+law = "elastic-friction"
+normal = [{ z = -1.0 }, "ground"]
+tangents = [["x", "ground"]]
+normal_stiffness = 300
+preload = "10 N"
+stiffness = 200
+mu = 0.3
+[[element]]
+name = "holds"
+law = "jenkins"
+between = ["z", "ground"]
+stiffness = 400
+limit = "40 N"
+[drive]
+x = "8 N"
+[probes]
+x = "x"
+[curve]
+lowest = "1.7 Hz"
+highest = "1.9 Hz"
+harmonics = 7
+"""
+"""of a mass that a slider holds in the middle"""
 SHORT = ("model=A", "curve.lowest=134 Hz", "curve.highest=136 Hz")
 
 
@@ -31,6 +73,18 @@ def test_more_drive_slides_more_and_grows_less() -> None:
     assert one.peak is not None
     assert two.peak is not None
     assert two.peak.amplitude < 1.5 * one.peak.amplitude
+
+
+def test_the_largest_amplitude_by_other_tractions_is_told(tmp_path: Path) -> None:
+    scene = tmp_path / "faces.toml"
+    scene.write_text(BETWEEN_FACES, encoding="utf-8")
+
+    held, free = tracked(str(scene), (), "element.holds.limit", ["40 N", "1e-3 N"])
+
+    assert held.peak is not None
+    assert held.otherwise is not None
+    assert held.otherwise.amplitude > 1.2 * held.peak.amplitude
+    assert free.otherwise is None
 
 
 def test_the_command_writes_a_table_and_a_picture(
@@ -85,6 +139,18 @@ def test_values_that_are_no_numbers_lie_in_the_order_of_the_list() -> None:
 
     names = ["A", "full"]
     assert axis("model", names, scenes) == ([0.0, 1.0], "model", names)
+
+
+def test_values_out_of_order_are_drawn_in_order() -> None:
+    peaks = [(1.0, 134.0, 1e-3), (3.0, 133.0, 3e-3), (2.0, 133.5, 2e-3)]
+
+    figure = track_figure(peaks, [], "drive", "two-blades", otherwise=[(2.0, 5e-3)])
+
+    left, right = figure.axes
+    for axes in (left, right):
+        assert np.array_equal(axes.lines[0].get_xdata(), [1.0, 2.0, 3.0])
+    assert np.array_equal(left.lines[1].get_ydata(), [5.0])
+    assert left.get_ylim()[1] > 5.0
 
 
 @pytest.mark.parametrize(

@@ -30,7 +30,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="peak and bifurcations of the curve against a parameter",
         description="Trace the curve of a scene for several values of one of its keys, "
         "such as drive, preload or friction coefficient; print where its peaks, folds "
-        "and changes of stability are, write SCENE-track.csv and SCENE-track.png. Exit "
+        "and changes of stability are, and what other residual tractions allow if that "
+        "is more (docs/systems.md), write SCENE-track.csv and SCENE-track.png. Exit "
         "status 1 if a curve is not whole.",
         epilog="example: microslip track two-blades excitation.force 0.5 1 2 4 "
         "--set model=A",
@@ -97,7 +98,7 @@ def _lines(each: Tracked) -> str:
         f"{each.value:<15} {event.name:<16} {event.frequency / math.tau:15.6f} "
         f"{about(event.frequency_error / math.tau):<10}"
         f"{decimal(1e3 * event.amplitude, 1e3 * event.amplitude, 6, 15)} "
-        f"{event.error:8.1e}"
+        f"{'' if math.isnan(event.error) else f'{event.error:8.1e}'}".rstrip()
         for event in each.events
     ]
     if not rows:
@@ -145,19 +146,22 @@ def _draw(options: argparse.Namespace, found: list[Tracked], picture: Path) -> N
             for value in values
         ],
     )
-    peaks, others = [], []
+    peaks, others, otherwise = [], [], []
     for value, each in zip(places, found, strict=True):
         highest = each.peak
         if highest is not None:
             hertz = highest.frequency / math.tau
             peaks.append((value, hertz, highest.amplitude))
+        if each.otherwise is not None:
+            otherwise.append((value, each.otherwise.amplitude))
         others += [
             (value, event.name, event.frequency / math.tau)
             for event in each.events
-            if event is not highest
+            if event not in (highest, each.otherwise)
         ]
     title, error = arguments.title(options), _usual_error(found)
-    save_figure(picture, track_figure(peaks, others, label, title, names, error))
+    figure = track_figure(peaks, others, label, title, names, error, otherwise)
+    save_figure(picture, figure)
 
 
 def _usual_error(found: list[Tracked]) -> float:

@@ -34,6 +34,7 @@ def track_figure(
     title: str,
     names: Sequence[str] = (),
     error: float = 0.0,
+    otherwise: Sequence[tuple[float, float]] = (),
 ) -> Figure:
     """Draw amplitude and frequency of the highest peak, and the other events.
 
@@ -49,13 +50,25 @@ def track_figure(
         Of values that are no numbers: no line joins these.
     error
         Of the frequencies, estimated [Hz]: what differs by less is not told apart.
+    otherwise
+        Value of the parameter and amplitude [m] where other residual tractions allow
+        more than the highest peak.
     """
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
+    peaks = sorted(peaks)
     places = [value for value, *_ in peaks]
+    sizes = [1e3 * each[-1] for each in (*peaks, *otherwise)]
     values = sorted({*places, *(value for value, *_ in others)}) or [1.0]
     line = {"color": COLOURS[0], "linewidth": 0.0 if names else WIDTH}
     left.plot(places, [1e3 * amplitude for *_, amplitude in peaks], "-^", **line)
+    if otherwise:
+        at, most = zip(*otherwise, strict=True)
+        left.plot(
+            at, [1e3 * each for each in most], "v",
+            color=COLOURS[0], fillstyle="none", label="with other residual tractions",
+        )  # fmt: skip
+        left.legend(frameon=False)
     hertz = [frequency for _, frequency, _ in peaks]
     right.plot(places, hertz, "-^", label="highest peak", **line)
     for kind, marker in MARKERS.items():
@@ -73,7 +86,7 @@ def track_figure(
     right.ticklabel_format(axis="y", useOffset=False)
     widened(right, error)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
-    _amplitudes(left, [1e3 * amplitude for *_, amplitude in peaks])
+    _amplitudes(left, sizes)
     framed(right, x=literal(key), y="frequency [Hz]", title="Where it happens")
     right.legend(frameon=False)
     for axes in (left, right):

@@ -5,11 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from hbm.errors import ContinuationError
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import load_scene
-from microslip.studies.curve import trace_curve
+from microslip.studies.curve import Wanted, trace_curve
 from microslip_mechanics.results.response_curve import ResponseCurve
+
+OTHERWISE = "other tractions"
+"""what the largest amplitude is called that other residual tractions allow"""
+SEEN = 1e-3
+"""of the largest amplitude, by which that has to be larger"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +24,7 @@ class Event:
     """Something located on a curve."""
 
     name: str
-    """peak, fold, branch point, …"""
+    """peak, fold, branch point, … or :data:`OTHERWISE`"""
     frequency: float
     """[rad/s]"""
     frequency_error: float
@@ -44,6 +51,11 @@ class Tracked:
         peaks = [event for event in self.events if event.name == "peak"]
         return max(peaks, key=lambda each: each.amplitude, default=None)
 
+    @property
+    def otherwise(self) -> Event | None:
+        """The largest amplitude by other residual tractions, if it is larger."""
+        return next((each for each in self.events if each.name == OTHERWISE), None)
+
 
 def tracked(
     scene: str, overrides: Sequence[str], key: str, values: Sequence[str]
@@ -63,11 +75,13 @@ def tracked(
     for value in values:
         loaded = load_scene(scene, (*overrides, f"{key}={value}"))
         try:
-            curve = trace_curve(problem_of(loaded), loaded.curve).curve
+            problem, wanted = problem_of(loaded), Wanted(residual_range=True)
+            curve = trace_curve(problem, loaded.curve, wanted=wanted).curve
         except ContinuationError as error:
             yield Tracked(value, str(error), ())
         else:
-            yield Tracked(value, curve.ending, _events(curve))
+            events = (*_events(curve), *_otherwise(curve))
+            yield Tracked(value, curve.ending, events)
             if curve.ending == "interrupted":
                 raise KeyboardInterrupt
 
@@ -84,3 +98,13 @@ def _events(curve: ResponseCurve) -> tuple[Event, ...]:
         for place, name in enumerate(curve.event)
         if name
     )
+
+
+def _otherwise(curve: ResponseCurve) -> tuple[Event, ...]:
+    """Return the largest amplitude by other residual tractions, if it is larger."""
+    highest = np.nan_to_num(curve.amplitude_highest).max(axis=1, initial=0.0)
+    place = int(highest.argmax())
+    if highest[place] <= (1.0 + SEEN) * curve.amplitude.max(initial=0.0):
+        return ()
+    frequency, amplitude = float(curve.frequency[place]), float(highest[place])
+    return (Event(OTHERWISE, frequency, np.nan, amplitude, np.nan),)

@@ -258,3 +258,21 @@ def test_spread_holds_both_ends_the_peak_and_every_part(count: int) -> None:
     assert count <= len(places) <= count + 3
     if count == 12:
         assert any(curve.responses[place].unstable > 0 for place in places)
+
+
+def test_what_may_be_beyond_a_fold_is_not_looked_at() -> None:
+    _, traced = folded()
+    curve = traced.curve
+    fold = curve.event.index("fold")
+    errors = curve.parameter_error.copy()
+    errors[fold] = 1.5 * abs(curve.parameter[fold + 2] - curve.parameter[fold])
+    doubted = np.abs(curve.parameter - curve.parameter[fold]) <= errors[fold]
+    wide = dataclasses.replace(curve, parameter_error=errors)
+
+    places = spread(dataclasses.replace(traced, curve=wide), len(curve.event))
+
+    near = {fold - 1, fold + 1, fold + 2} & set(np.flatnonzero(doubted))
+    assert {fold + 1, fold + 2} <= near
+    assert not near & set(places)
+    # another part of the curve at these frequencies is
+    assert len(set(places) & set(np.flatnonzero(doubted))) > 0

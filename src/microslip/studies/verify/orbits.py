@@ -11,6 +11,7 @@ from microslip.studies.curve import Traced
 from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import ResponseCurve
 from timedomain.shooting.closed_march import ShootingError
 from timedomain.shooting.comparison import COVERAGE, FLOOR, Comparison, compared
 
@@ -89,16 +90,34 @@ def spread(traced: Traced, count: int) -> list[int]:
 
     Even in arc: half of the weight is frequency, half is amplitude, so that the flanks
     of a resonance get their share; the peak and both ends are always among them. Points
-    at which events were located are left out but for peaks: at a fold, orbits end.
+    at which events were located are left out but for peaks: at a fold, orbits end, and
+    what is as near to it as that may be wrong may be beyond.
     """
     curve = traced.curve
-    kept = [place for place, name in enumerate(curve.event) if name in ("", "peak")]
+    ends = _folding(curve)
+    kept = [
+        place
+        for place, name in enumerate(curve.event)
+        if name in ("", "peak") and place not in ends
+    ]
     amplitude, frequency = curve.amplitude[kept].max(axis=1), curve.frequency[kept]
     arc = _arc(amplitude) + _arc(frequency)
     wanted = np.linspace(arc[0], arc[-1], count)
     places = {int(np.abs(arc - place).argmin()) for place in wanted}
     places |= {0, int(amplitude.argmax()), len(kept) - 1}
     return [kept[place] for place in sorted(places)]
+
+
+def _folding(curve: ResponseCurve) -> set[int]:
+    """Return the places of folds, and of points that may be beyond one next to them."""
+    ends: set[int] = set()
+    for fold in (place for place, name in enumerate(curve.event) if name == "fold"):
+        away = np.abs(curve.parameter - curve.parameter[fold])
+        outside = np.flatnonzero(away > np.nan_to_num(curve.parameter_error[fold]))
+        first = outside[outside < fold].max(initial=-1)
+        last = outside[outside > fold].min(initial=len(away))
+        ends.update(range(first + 1, last))
+    return ends
 
 
 def whereabouts(responses: Sequence[PeriodicResponse]) -> list[str]:

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hbm.curves.parameter_curves import parameter_response
 from hbm.curves.reached import GAIN
 from hbm.curves.residual_range import FOURIER
 from hbm.options import CurveOptions
@@ -26,6 +27,13 @@ from timedomain.record.start import on_orbit
 
 LIMIT = 40.0
 """of the slider [N]"""
+OPTIONS = CurveOptions(
+    1.0,
+    2.0,
+    harmonics=FOURIER.harmonics,
+    samples=FOURIER.samples,
+    events=False,
+)
 
 
 def between_faces(pull: float = 0.0) -> Problem:
@@ -55,14 +63,8 @@ def response(
     problem: Problem, frequency: float, *, sought: bool = False
 ) -> PeriodicResponse:
     """Return the response at one frequency, at the resolution of what is ``sought``."""
-    options = CurveOptions(
-        frequency,
-        1.01 * frequency,
-        harmonics=FOURIER.harmonics,
-        samples=FOURIER.samples,
-        events=False,
-        residual_range=sought,
-    )
+    end = 1.01 * frequency
+    options = replace(OPTIONS, start=frequency, end=end, residual_range=sought)
     return next(iter(frequency_response(problem, static_equilibrium(problem), options)))
 
 
@@ -82,6 +84,19 @@ def test_no_pull_leads_farther(frequency: float) -> None:
     near = GAIN * (1.0 + max(pulled))  # of the amplitude that is reached
     assert min(pulled) - 0.02 < low < min(pulled) + near
     assert max(pulled) - near < high < max(pulled) + 0.02
+
+
+def test_along_the_drive_the_range_is_that_along_the_frequency() -> None:
+    def driven(drive: float) -> Problem:
+        problem = between_faces()
+        return replace(problem, drive=drive / 8.0 * problem.drive)
+
+    options = replace(OPTIONS, start=8.0, end=8.1, residual_range=True)
+    found = next(iter(parameter_response(driven, 12.0, options)))
+
+    expected = response(between_faces(), 12.0, sought=True).residual_range
+    assert expected[1, 0] > 0.2
+    np.testing.assert_allclose(found.residual_range, expected, atol=GAIN)
 
 
 def test_a_march_keeps_what_breaks_the_symmetry() -> None:

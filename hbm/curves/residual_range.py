@@ -81,12 +81,12 @@ class ResidualRange:
         for probe in self._open(here, last, others):
             for side, sign in enumerate(SIDES):
                 begun = [here, *others, *_again(last.get((probe, sign)), here)]
-                first = max(begun, key=lambda each: sign * each.amplitude[probe])
-                farthest = _farthest(first, probe, sign)
-                change = farthest.amplitude[probe] / here.amplitude[probe] - 1.0
-                if abs(change) > GAIN and _returns(farthest, here):
+                farthest = _extreme(begun, probe, sign)
+                if farthest is not here:
                     self.last[probe, sign] = farthest
-                    found[side, probe] = change
+                    found[side, probe] = farthest.amplitude[probe]
+                    found[side, probe] /= here.amplitude[probe]
+                    found[side, probe] -= 1.0
         return found
 
     def _begun(self, point: Array) -> tuple[HarmonicBalance, Array]:
@@ -140,6 +140,21 @@ def _again(last: Reached | None, here: Reached) -> list[Reached]:
     guess = here.balance.point(coefficients, float(here.point[-1]))
     made = here.bent_by(last.balance.problem.bent, guess)
     return [] if made is None else [made]
+
+
+def _extreme(begun: list[Reached], probe: int, sign: float) -> Reached:
+    """Return the farthest response that leads back to the first of those begun with.
+
+    It is sought from the farthest of them, or else from the first, which is returned if
+    none is farther.
+    """
+    here = begun[0]
+    first = max(begun, key=lambda each: sign * each.amplitude[probe])
+    for start in (first, here) if first is not here else (here,):
+        farthest = _farthest(start, probe, sign)
+        if farthest.beyond(here, probe, sign) and _returns(farthest, here):
+            return farthest
+    return here
 
 
 def _farthest(begun: Reached, probe: int, sign: float) -> Reached:

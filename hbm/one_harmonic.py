@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hbm.curves.across_curve import responses_across
+from hbm.curves.climbed_peak import climbed_peak
 from hbm.curves.fitted_peak import fitted_peak
 from hbm.curves.periodic_response import periodic_response
 from hbm.errors import ContinuationError, hertz
@@ -92,8 +93,8 @@ def one_harmonic_error(
         Relative change of the amplitude from which more harmonics are taken.
     free
         Whether the frequency is free, as at a peak: the response is sought across the
-        curve then, else at its own frequency. If that leads elsewhere, the other way is
-        tried.
+        curve then, and from there the peak, else at its own frequency. If that leads
+        elsewhere, the other way is tried.
     """
     across = responses_across(problem, rest, response, limits, ORDERS)
     at_frequency = _at_frequency(problem, rest, response, limits)
@@ -103,6 +104,8 @@ def one_harmonic_error(
             better = _converged(problem, response, way, tolerance)
         except ContinuationError:
             continue
+        if free and way is across and response.event == "peak":
+            better = climbed_peak(problem, rest, better)
         apart = _distance(problem, response, better)
         if apart <= ELSEWHERE:
             known = not free or way is across

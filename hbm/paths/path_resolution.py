@@ -13,6 +13,9 @@ from hbm.paths.path import Path
 from hbm.resolution.resolution import Resolution
 from microslip_mechanics.arrays import Array, ComplexArray
 
+CREEPS = 100.0
+"""times the creep of rigid contacts that stick, up to which a motion is nothing else"""
+
 
 class PathResolution(Resolution):
     """A path at any number of harmonics and samples, made when first asked for."""
@@ -42,6 +45,14 @@ class PathResolution(Resolution):
         if fourier not in self._made:
             self._made[fourier] = self._path.balance(fourier)
         return self._made[fourier]
+
+    def least(self, point: Array) -> float:
+        """Return what rigid contacts creep at most, many times [m]; 0 without any."""
+        problem, frequency = self._path.at(float(point[-1]))
+        if problem.tractions is None:
+            return 0.0
+        drive = float(np.linalg.norm(problem.force[1]))
+        return CREEPS * problem.tractions.creep(frequency, drive)
 
     def amplitudes(self, points: Sequence[Array]) -> Array:
         """Return the first-harmonic amplitude of each probe [m], (points, probes)."""

@@ -97,6 +97,10 @@ class Resolution(ABC):
         """Return what these are the moduli of."""
         return self.amplitudes(points).astype(complex)
 
+    def least(self, point: Array) -> float:  # noqa: ARG002
+        """Return the size of values at a point below which errors are not relative."""
+        return 0.0
+
     def steepness(self, estimate: Estimate) -> float:
         """Return the error that is large where the curve is steep."""
         return estimate.error
@@ -133,7 +137,7 @@ class Resolution(ABC):
         change, truncation, sampling = _changes(sizes, made)
         shift, *aside = _changes(places, made)
         smoothing, moved = self._smoothing(correction, fourier, normal)
-        size = float(sizes[0].max(initial=0.0)) or 1.0
+        size = max(float(sizes[0].max(initial=0.0)), self.least(point)) or 1.0
         turned = largest(np.abs(np.subtract(*self.phasors((beyond, made.corrected)))))
         return Estimate(
             change / size,

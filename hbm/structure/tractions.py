@@ -46,6 +46,11 @@ class Tractions:
             self.rate,
         )
 
+    def creep(self, frequency: float, force: float) -> float:
+        """Return how far η lets a force move contacts that stick at a frequency [m]."""
+        rates = frequency * np.hypot(frequency, self.rate)
+        return float((LOOSE * force / (self.mass * rates)).max(initial=0.0))
+
     def work(self, amplitudes: ComplexArray, frequency: float) -> float:
         """Return the energy [J] that λ takes out per period."""
         rank = self.rows.shape[1]

@@ -5,6 +5,7 @@ import base64
 import importlib
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import TypeAlias
@@ -14,7 +15,7 @@ import pytest
 from microslip.commands.report_parts import PARTS, Part
 from microslip.commands.report_sections import words_of
 from microslip.page import DONE, FAILED, LEFT_OUT, Section, page
-from microslip.scenes.scene_file import BUILT_IN, load_scene
+from microslip.scenes.scene_file import BUILT_IN, built_in_text, load_scene
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 PICTURE = b"\x89PNG\r\n\x1a\n" + bytes(range(64))
@@ -132,13 +133,13 @@ def test_a_section_that_fails_says_why_and_the_others_are_made(
     run: Run, quick_scene: Path, tmp_path: Path, only: Callable[..., None]
 ) -> None:
     only("frc", "verify", "sweep")
-    still = "--set=excitation.force=0"
+    narrow = "--set=curve.lowest=130"
 
-    status, _, error = run("report", str(quick_scene), "--quick", "-o", "page", still)
+    status, _, error = run("report", str(quick_scene), "-o", "page", narrow)
 
     assert (status, error) == (1, "")
     text = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
-    assert "no load varies: nothing vibrates" in text
+    assert "does not cover [sweep]" in text
     assert "energy until 0.01 s [J]" in text
     assert [each for each in Tags(text).sources if "png" in each]
 
@@ -203,6 +204,61 @@ def test_sections_that_do_not_apply_say_so_and_nothing_fails(
     text = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
     assert text.count("one sector of a disk, which cannot be marched") == 2 * 3
     assert text.count("the numbers of two blades, which this scene lacks") == 2 * 2
+
+
+@pytest.mark.usefixtures("no_hang", "no_picture")
+def test_of_a_scene_without_drive_there_is_no_orbit_to_tell_of(
+    run: Run, tmp_path: Path, only: Callable[..., None]
+) -> None:
+    only("frc", "verify", "precision")
+
+    status, output, _ = run("report", "jenkins", "--set=drive.x=0", "-o", "page")
+
+    assert status == 0
+    assert re.search(r"frc +done", output)
+    assert re.search(r"verify +left out +Nothing drives this scene", output)
+    assert re.search(r"precision +left out +Nothing drives this scene", output)
+    text = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
+    assert text.count("Nothing drives this scene") == 2 * 2
+
+
+@pytest.mark.parametrize(
+    ("missing", "expected"),
+    [
+        (("sweep",), {"sweep"}),
+        (("march",), {"sweep"}),
+        (("curve",), {"frc", "verify", "precision", "explain"}),
+    ],
+)
+def test_what_needs_a_table_that_a_scene_lacks_is_left_out(
+    missing: tuple[str, ...], expected: set[str]
+) -> None:
+    whole = load_scene("jenkins")
+    tables = replace(whole.experiments, **dict.fromkeys(missing))
+    scene = replace(whole, experiments=tables)
+
+    told = {part.command: part.excuse(scene) for part in PARTS}
+
+    rig_alone = {"tables", "stress"}
+    assert {each for each in told if told[each]} - rig_alone == expected
+    names = " and ".join(f"[{each}]" for each in missing)
+    assert all(told[each] == f"This scene has no {names}." for each in expected)
+
+
+@pytest.mark.usefixtures("no_hang", "no_picture")
+def test_a_scene_that_cannot_be_swept_is_verified_without_sweeps(
+    run: Run, tmp_path: Path, only: Callable[..., None]
+) -> None:
+    only("verify")
+    scene = tmp_path / "unswept.toml"
+    text = built_in_text("jenkins")
+    begin, end = text.index("[sweep]"), text.index("[curve]")
+    scene.write_text(text[:begin] + text[end:], encoding="utf-8")
+
+    status, output, _ = run("report", str(scene), "-o", "page")
+
+    assert status == 0
+    assert re.search(r"verify +done +agree", output)
 
 
 @pytest.mark.parametrize("name", BUILT_IN)

@@ -46,6 +46,21 @@ def test_a_report_goes_into_no_file(run: Run, quick_scene: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("command", ["frc", "modes", "dwell"])
+def test_a_result_has_no_name_of_a_scene(
+    run: Run, quick_scene: Path, command: str
+) -> None:
+    more = ("--frequency", "135") if command == "dwell" else ()
+
+    status, output, error = run(
+        command, str(quick_scene), *more, "-o", quick_scene.name
+    )
+
+    assert (status, output) == (2, "")
+    assert error.startswith("microslip: -o quick.toml is the name of a scene, not of a")
+    assert not quick_scene.with_name("quick.toml.nc").exists()
+
+
 @pytest.mark.parametrize(("name", "sticks"), [("gap", False), ("jenkins", True)])
 def test_modes_stick_where_there_is_friction(
     name: str, run: Run, monkeypatch: pytest.MonkeyPatch, *, sticks: bool

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from microslip.commands.places import demand_place, is_folder
+from microslip.commands.places import demand_no_scene, demand_place, is_folder
 
 MOST_ROWS = 100_000
 """of a time history that a picture shows; a longer one is thinned"""
@@ -68,9 +68,10 @@ def outputs(
     Raises
     ------
     OutputError
-        If one of them cannot be written.
+        If one of them cannot be written, or has the name of a scene.
     """
     chosen: Path = options.output or Path()
+    demand_no_scene(chosen)
     if is_folder(chosen):
         chosen /= f"{Path(options.scene).stem}-{suffix}"
     elif chosen.suffix in {".nc", ".png", ".csv"}:

@@ -96,7 +96,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     """Print the curve, its events, its errors, and what was sought."""
-    from microslip.scenes.rigs import sector_of
+    from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
+    from microslip.studies.creep import creep
 
     print(frc_tables.table(traced))
     if traced.rest.normal_force.any():
@@ -107,6 +108,9 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     for hertz in frc_tables.barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")
     more = *frc_tables.uncounted(scene), *residual_range(traced.curve)
+    if sector_of(scene) is None:
+        problem = (unpruned_of if options.unpruned else problem_of)(scene)
+        more = *more, *creep(problem, traced)
     print(frc_tables.resolution(traced.curve), *more, sep="\n")
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))

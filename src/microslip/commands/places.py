@@ -55,6 +55,21 @@ def demand_place(path: Path) -> None:
         raise OutputError(f"{path} cannot be written to: give another name")
 
 
+def demand_no_scene(path: Path) -> None:
+    """Refuse a result with the ending of scene files.
+
+    Raises
+    ------
+    OutputError
+        If it has that, and is no folder.
+    """
+    if path.suffix == ".toml" and not is_folder(path):
+        raise OutputError(
+            f"-o {path} is the name of a scene, not of a result: give one that ends "
+            "with .nc, or has no ending"
+        )
+
+
 def demand_apart(picture: Path, data: Path) -> None:
     """Refuse a picture that would be written over the data that it shows.
 

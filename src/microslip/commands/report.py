@@ -111,9 +111,8 @@ def _sections(
         if excuse:
             yield Section(part.command, part.title, part.about, LEFT_OUT, excuse)
         else:
-            words = words_of(
-                part, options.scene, options.overrides, folder, quick=options.quick
-            )
+            place = (options.scene, options.overrides, folder)
+            words = words_of(part.suited(scene), *place, quick=options.quick)
             yield section_of(part, words, folder, options.main)
 
 

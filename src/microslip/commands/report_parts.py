@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
+
+from microslip.commands.report_excuses import (
+    Excuse,
+    first_of,
+    lacks,
+    no_drive,
+    no_rig,
+    one_sector,
+)
 
 if TYPE_CHECKING:
     from microslip.scenes.scene import Scene
@@ -21,35 +30,22 @@ class Part:
     """options of the command"""
     quick: Sequence[str] | None = ()
     """in their place, for a quick look; None if there is none"""
+    unswept: Sequence[str] | None = None
+    """in their place, for a scene that cannot be swept; None if that does not matter"""
     files: bool = True
     """whether it writes a picture where ``-o`` says"""
     scene: bool = True
     """whether it is told the scene"""
     tells: Sequence[str] = ()
     """how the lines begin, or end, that say its result; the last such line counts"""
-    excuse: Callable[[Scene], str] = lambda _: ""
+    excuse: Excuse = lambda _: ""
     """why it does not apply to a scene; empty if it does"""
 
-
-def _no_rig(scene: Scene) -> str:
-    """Return why what the rig alone has does not apply to a scene."""
-    from microslip.scenes.two_blades.tables import TwoBlades
-
-    if isinstance(scene.rig, TwoBlades):
-        return ""
-    return "This section is about the numbers of two blades, which this scene lacks."
-
-
-def _one_sector(scene: Scene) -> str:
-    """Return why one sector of a disk cannot be marched."""
-    from microslip.scenes.bladed_disk.tables import BladedDisk
-
-    if not isinstance(scene.rig, BladedDisk) or scene.rig.solve != "sector":
-        return ""
-    return (
-        "This scene solves one sector of a disk, which cannot be marched in time: "
-        "give --set solve=disk."
-    )
+    def suited(self, scene: Scene) -> Part:
+        """Return the part as it suits a scene, swept or not."""
+        if self.unswept is None or not lacks("sweep", "march")(scene):
+            return self
+        return replace(self, more=self.unswept)
 
 
 PARTS = (
@@ -59,6 +55,7 @@ PARTS = (
         "Frequency response by harmonic balance, to the scene's tolerance, with its "
         "peaks, folds and changes of stability.",
         tells=("estimated error of amplitude",),
+        excuse=lacks("curve"),
     ),
     Part(
         "sweep",
@@ -67,17 +64,18 @@ PARTS = (
         ("--envelope",),
         ("--envelope",),
         tells=("  closing error", "  friction, error"),
-        excuse=_one_sector,
+        excuse=first_of(one_sector, lacks("sweep", "march")),
     ),
     Part(
         "verify",
         "Do both solvers agree?",
         "Orbits of the curve found again by shooting; unless the report is quick, "
-        "sweeps, slower and slower, beside the curve.",
+        "sweeps, slower and slower, beside the curve, if the scene has any.",
         ("--slower", "1", "4"),
         ("--frequencies", "3", "--slower"),
+        unswept=("--slower",),
         tells=("agree: largest", "DISAGREE"),
-        excuse=_one_sector,
+        excuse=first_of(one_sector, lacks("curve"), no_drive),
     ),
     Part(
         "precision",
@@ -87,7 +85,7 @@ PARTS = (
         ("--quick",),
         ("--quick",),
         tells=("tightest runs", "too few methods"),
-        excuse=_one_sector,
+        excuse=first_of(one_sector, lacks("curve"), no_drive),
     ),
     Part(
         "tables",
@@ -98,7 +96,7 @@ PARTS = (
         None,
         files=False,
         scene=False,
-        excuse=_no_rig,
+        excuse=no_rig,
     ),
     Part(
         "stress",
@@ -108,7 +106,7 @@ PARTS = (
         ("--quick",),
         ("--quick",),
         tells=("converge in both",),
-        excuse=_no_rig,
+        excuse=first_of(no_rig, lacks("curve", "march")),
     ),
     Part(
         "explain",
@@ -119,6 +117,7 @@ PARTS = (
         ("--time", "--set", "curve.harmonics=7"),
         files=False,
         tells=("unpruned, the curve takes", "DISAGREE"),
+        excuse=lacks("curve"),
     ),
 )
 """in the order in which they are made and shown"""

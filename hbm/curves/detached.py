@@ -24,7 +24,7 @@ from hbm.paths.along_parameter import AlongParameter
 from hbm.paths.path import AlongFrequency
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response import BEGINNINGS, PeriodicResponse
 
 LEAST, MOST = 0.05, 4.0
 """drives between which is sought, over the wanted one"""
@@ -36,8 +36,6 @@ ALIKE = 0.03
 """relative difference up to which two responses are one"""
 SEEKING, FOLLOWING = 2e3, 1e5
 """evaluations for a curve of drives, and for a detached curve"""
-MARKS = ("restart", "detached", "branch")
-"""of responses at which a curve begins anew"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +127,7 @@ class Search:
         share, cause, stopped = 0.0, "", False
         try:
             for each in tracer.responses():
-                stopped |= each.event in MARKS and each.parameter == MOST
+                stopped |= each.event in BEGINNINGS and each.parameter == MOST
                 if before is not None and _between(before, each):
                     passed += self._wanted(before, each)
                 # a curve that stops is followed from the other end too
@@ -172,7 +170,7 @@ class Search:
         for before, after in pairwise(curve):
             width = after.frequency - before.frequency
             share = (candidate.frequency - before.frequency) / width if width else 0.0
-            if after.event not in MARKS and 0.0 <= share <= 1.0:
+            if after.event not in BEGINNINGS and 0.0 <= share <= 1.0:
                 one, two = self._first_harmonic(before), self._first_harmonic(after)
                 away = np.abs(one + share * (two - one) - sought).max()
                 if away <= ALIKE * size + 0.5 * np.abs(two - one).max():

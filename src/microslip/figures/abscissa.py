@@ -8,11 +8,10 @@ import itertools
 import numpy as np
 
 from microslip.figures.style import literal
+from microslip_mechanics.results.response import BEGINNINGS
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 FREQUENCY = "excitation frequency [Hz]"
-BEGINNINGS = ("branch", "detached", "restart")
-"""events at which a line does not go on from the point before"""
 
 
 def abscissa(curve: ResponseCurve) -> np.ndarray:

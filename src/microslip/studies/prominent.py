@@ -14,10 +14,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.curves.detached import MARKS
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response import BEGINNINGS, PeriodicResponse
 
 NEAR = 2
 """points between a fold and a branch point that may be it"""
@@ -35,7 +34,7 @@ def prominent(
     much as a point beside it is beyond; a branch point that may be the fold next to it
     is no other event. What does not hang together is looked at piece by piece.
     """
-    begins = [at for at, each in enumerate(points) if each.event in MARKS]
+    begins = [at for at, each in enumerate(points) if each.event in BEGINNINGS]
     bounds = sorted({0, *begins, len(points)})
     return [
         each

@@ -13,6 +13,9 @@ MARGIN = 1e-5
 """by which a Floquet multiplier outside the unit circle must exceed it: rounding moves
 one that is double, as of a free mean position, by the root of its own size"""
 
+BEGINNINGS = ("restart", "detached", "branch")
+"""events at which a curve begins anew"""
+
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class PeriodicResponse(ByValue):

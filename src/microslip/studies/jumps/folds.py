@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.curves.detached import MARKS
 from microslip.studies.curve import Traced
 from microslip.studies.verify.verify import StudyError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.moving_probe import moving_probe
-from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response import BEGINNINGS, PeriodicResponse
 
 BEYOND = 1e-4
 """of a fold's frequency, by which one looks behind it for where the motion lands"""
@@ -113,7 +112,7 @@ def _stable(
         away = abs(each.frequency - fold)
         if begin is None and each.unstable > 0 and each.event != "fold" and away < near:
             continue
-        other = each.event not in ("", "peak", *MARKS)
+        other = each.event not in ("", "peak", *BEGINNINGS)
         if each.unstable != 0 or (other and begin is not None):
             break
         begin = each
@@ -126,7 +125,9 @@ def _sides(
     responses: Sequence[PeriodicResponse], place: int
 ) -> tuple[Sequence[PeriodicResponse], Sequence[PeriodicResponse]]:
     """Return what lies before and behind a point of its piece, nearest first."""
-    begins = [n for n, each in enumerate(responses) if n == 0 or each.event in MARKS]
+    begins = [
+        n for n, each in enumerate(responses) if n == 0 or each.event in BEGINNINGS
+    ]
     first = max(begin for begin in begins if begin <= place)
     last = min((n for n in begins if n > place), default=len(responses))
     return responses[first:place][::-1], responses[place + 1 : last]
@@ -159,7 +160,7 @@ def _landing(
     here = np.hypot(*fold.seen(problem.probes.rows)[1:3])
     landings = []
     for first in range(len(frequency) - 1):
-        if first in way or traced.curve.event[first + 1] in MARKS:
+        if first in way or traced.curve.event[first + 1] in BEGINNINGS:
             continue  # the latter begin another piece
         low, high = frequency[first : first + 2]
         stable = traced.curve.unstable[first : first + 2].max() <= 0

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 
 
 def main() -> int:
-    """Run one command and return the exit status; imports may be interrupted too."""
+    """Run one command and return the exit status; imports may be interrupted too.
+
+    What ends a job, as batch systems do when its time is over, interrupts it.
+    """
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         from microslip.cli import main as run
 

@@ -9,6 +9,8 @@ import sys
 from collections.abc import Iterator
 from threading import Timer
 
+STOPS = {signal.SIGINT, signal.SIGTERM}
+"""signals that interrupt"""
 LATER = 0.05
 """seconds after which an interruption that was lost comes again"""
 
@@ -72,7 +74,7 @@ def held_back() -> Iterator[None]:
     from multiprocessing.resource_tracker import ensure_running
 
     ensure_running()  # it would let interruptions through when it starts
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)
     try:
         yield
     finally:

@@ -202,14 +202,15 @@ def wait_for_progress(screen: int) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("command", "long"),
+    ("command", "long", "stop"),
     [
-        ("frc", ("curve.harmonics=150", "friction.law=gkf")),
-        ("sweep", ("sweep.duration=1000", "model=A")),
+        ("frc", ("curve.harmonics=150", "friction.law=gkf"), signal.SIGINT),
+        ("sweep", ("sweep.duration=1000", "model=A"), signal.SIGINT),
+        ("sweep", ("sweep.duration=1000", "model=A"), signal.SIGTERM),
     ],
 )
-def test_interrupt_from_the_keyboard_keeps_what_was_computed(
-    command: str, long: tuple[str, ...], tmp_path: Path
+def test_interrupt_from_the_keyboard_or_a_batch_system_keeps_what_was_computed(
+    command: str, long: tuple[str, ...], stop: signal.Signals, tmp_path: Path
 ) -> None:
     screen, terminal = pty.openpty()
     termios.tcsetwinsize(terminal, (24, 80))
@@ -226,7 +227,7 @@ def test_interrupt_from_the_keyboard_keeps_what_was_computed(
     ) as process:
         os.close(terminal)
         wait_for_progress(screen)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(stop)
         try:
             output, _ = process.communicate(timeout=60)
         finally:

@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from typing import Any, Generic, TypeVar
 
-from microslip.interruption import held_back
+from microslip.interruption import STOPS, held_back
 
 Item = TypeVar("Item")
 Task = Callable[[Any, float], Iterator[Any]]
@@ -128,7 +128,7 @@ def _serve(pipe: Connection, task: Task, prepare: Callable[[], None]) -> None:
     # the interruption is the parent's to handle: it ends this process
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, STOPS)
     faulthandler.enable()  # a process that dies says where
     warnings.simplefilter("error", RuntimeWarning)
     with contextlib.suppress(EOFError, ConnectionError):

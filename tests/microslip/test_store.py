@@ -134,6 +134,24 @@ def test_amplitudes_that_are_unique_are_stored_once(
         assert not {"amplitude_lowest", "amplitude_highest"} & set(file.variables)
 
 
+def test_an_interruption_leaves_the_curve_that_was_there(
+    small_curve: ResponseCurve, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "result.nc"
+    save(path, Stored(small_curve, SCENE, COMMAND))
+    before = path.read_bytes()
+    other = dataclasses.replace(small_curve, frequency=2.0 * small_curve.frequency)
+
+    def interrupted(_: netcdf_file) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(netcdf_file, "flush", interrupted)
+
+    with pytest.raises(KeyboardInterrupt):
+        save(path, Stored(other, SCENE, COMMAND))
+    assert path.read_bytes() == before
+
+
 def test_every_field_is_a_variable_or_an_attribute(result: Result, saved: Path) -> None:
     names = {field.name for field in dataclasses.fields(result)}
 

@@ -66,19 +66,28 @@ def save(path: Path, stored: Stored) -> None:
             stream.end(result.ending)
             stream.close()
         return
-    _, schema = kind_of(result)
-    about = _about(result, scene=stored.scene, command=stored.command)
-    with told(path), netcdf_file(path, "w", version=2) as file:
-        for name, value in about.items():
+    made = _curve_file(result, scene=stored.scene, command=stored.command)
+    with told(path):
+        path.write_bytes(made)
+
+
+def _curve_file(curve: ResponseCurve, *, scene: str, command: str) -> bytes:
+    """Return what a curve's file holds: an interruption leaves no half of it."""
+    _, schema = kind_of(curve)
+    made = io.BytesIO()
+    with netcdf_file(made, "w", version=2) as file:
+        for name, value in _about(curve, scene=scene, command=command).items():
             setattr(file, name, value)
-        for name, values in columns(result, schema).items():
+        for name, values in columns(curve, schema).items():
             dimensions, unit, meaning = schema[name]
-            unit = _unit(result, name, unit)
+            unit = _unit(curve, name, unit)
             _dimensions(file, dimensions, values.shape)
             variable = file.createVariable(name, values.dtype, dimensions)
             variable[:] = values
             setattr(variable, "long_name", meaning)  # noqa: B010  (an attribute of the file)
             setattr(variable, "units", unit)  # noqa: B010
+        file.flush()
+        return made.getvalue()
 
 
 def _unit(curve: ResponseCurve, name: str, unit: str) -> str:

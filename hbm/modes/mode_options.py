@@ -24,6 +24,9 @@ class ModeOptions:
     """fixed number instead"""
     tolerance: float = 1e-7
     """largest unbalanced force over modal stiffness times amplitude"""
+    effort: float = 3e4
+    """evaluations after which it is given up, see
+    :class:`~hbm.continuation.effort.Effort`"""
 
     def __post_init__(self) -> None:
         """Check range, accuracy and harmonics."""
@@ -32,7 +35,7 @@ class ModeOptions:
                 f"amplitudes from {self.smallest:g} to {self.largest:g} m: "
                 "give two positive ones, the smaller first"
             )
-        for name in ("error", "tolerance"):
+        for name in ("error", "tolerance", "effort"):
             check_positive(name, getattr(self, name))
         check_harmonics(self.harmonics)
 

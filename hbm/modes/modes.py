@@ -11,6 +11,7 @@ import numpy as np
 from hbm.balance.active import moving, symmetric
 from hbm.balance.relative import relative_problem
 from hbm.continuation.correction import Correction
+from hbm.continuation.effort import Effort
 from hbm.continuation.leaps import Leaping
 from hbm.continuation.step_control import StepControl
 from hbm.errors import ContinuationError, placed
@@ -102,7 +103,8 @@ def nonlinear_mode(
     Raises
     ------
     ContinuationError
-        If the mode cannot be followed; what was yielded before stays valid.
+        If the mode cannot be followed, or not with the effort that is granted; what was
+        yielded before stays valid.
     """
     resolution = _resolution(problem, rest, linear)
     system = AdaptiveBalance(
@@ -110,6 +112,7 @@ def nonlinear_mode(
         options.first,
         tolerance=options.error if options.harmonics is None else None,
         most=MOST,
+        effort=Effort(options.effort),
     )
     with one_thread(), placed(_millimetres):
         for correction in Leaping(

@@ -293,6 +293,22 @@ def test_a_mode_that_stops_goes_on_with_fewer_harmonics(
     assert ("it does not go on with those" in told) == (len(set(harmonics) - {31}) > 0)
 
 
+def test_the_work_for_a_mode_is_bounded() -> None:
+    problem = microslip.scene("jenkins")
+    spread = 115.0, 130.0  # its stuck frequency is 122.5 rad/s
+    whole = ModeOptions(1e-4, 1.0, harmonics=7)
+
+    (free,), (held,) = (
+        followed(problem, spread, options)
+        for options in (whole, replace(whole, effort=30.0))
+    )
+
+    assert free.ending == "complete"
+    assert "30 evaluations" in held.ending
+    assert "grant more" in held.ending
+    assert 1 < len(held.points) < len(free.points)
+
+
 @pytest.mark.parametrize(("ending", "marks"), [("complete", 1), ("it stops", 0)])
 def test_the_end_of_a_broken_mode_is_not_its_most_damped_point(
     ending: str, marks: int

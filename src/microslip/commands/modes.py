@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
@@ -78,6 +79,14 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         type=arguments.whole(1, 127),
         metavar="N",
         help="fixed number instead, 1 to 127",
+    )
+    parser.add_argument(
+        "--effort",
+        type=arguments.positive,
+        metavar="TIMES",
+        default=1.0,
+        help="work that a mode may take, over the usual, 30000 evaluations with 31 "
+        "harmonics; then it goes on with fewer (default: 1)",
     )
     arguments.add_output(parser, "modes")
     parser.set_defaults(run=_run)
@@ -162,11 +171,10 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
             f"--amplitudes {smallest:g} {largest:g}: give the smaller one first"
         )
     amplitudes = 1e-3 * smallest, 1e-3 * largest
-    return ModeOptions(
-        *amplitudes,
-        error=options.tolerance,
-        harmonics=options.harmonics,
+    chosen = ModeOptions(
+        *amplitudes, error=options.tolerance, harmonics=options.harmonics
     )
+    return replace(chosen, effort=options.effort * chosen.effort)
 
 
 def _keep(

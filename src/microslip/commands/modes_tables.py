@@ -54,8 +54,8 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
         first = mode.points[mode.coarser]
         rows.append(
             f"from {1e3 * first.amplitude:.5g} mm on with {counted(first.harmonics)}: "
-            "it does not go on with those that its error asks for, or not with the work "
-            "granted (--effort)"
+            "it does not go on with those that its error asks for, or not with the "
+            "work granted (--effort)"
         )
     if broken(mode):
         rows.append(

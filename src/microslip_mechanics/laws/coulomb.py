@@ -14,8 +14,8 @@ from microslip_mechanics.quantity import quantity
 class RegularisedCoulomb(NormalLoad):
     """T = µN s(|v|) v/|v| with s = min(|v|/V_lim, 1), or tanh(|v|/V_lim) if smooth.
 
-    Theory, eqs. (9) and (9a). Where V_lim is far below the velocities, and a body sticks
-    for most of the period, rigid-coulomb, which has none, has curves that this has not.
+    Theory, eqs. (9) and (9a). Where a body sticks for most of the period, and V_lim is
+    far below its velocities, rigid-coulomb, which has none, has curves that this lacks.
     """
 
     mu: float = quantity(lowest=0.0)

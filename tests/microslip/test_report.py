@@ -241,7 +241,7 @@ def test_what_needs_a_table_that_a_scene_lacks_is_left_out(
 
     rig_alone = {"tables", "stress"}
     assert {each for each in told if told[each]} - rig_alone == expected
-    names = " and ".join(f"[{each}]" for each in missing)
+    names = " and no ".join(f"[{each}]" for each in missing)
     assert all(told[each] == f"This scene has no {names}." for each in expected)
 
 

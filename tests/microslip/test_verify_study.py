@@ -12,7 +12,7 @@ import pytest
 from microslip.commands.verify_tables import sweep_rows
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
-from microslip.scenes.scene_file import load_scene
+from microslip.scenes.scene_file import built_in_text, load_scene
 from microslip.studies.curve import Traced, trace_curve
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.verify.orbits import spread
@@ -313,6 +313,23 @@ def test_verification_of_what_cannot_be_compared_ends_with_a_result_or_one_line(
     elif error:
         assert error.startswith("microslip: ")
         assert len(error.splitlines()) == 1
+
+
+@pytest.mark.usefixtures("no_picture")
+def test_a_scene_without_a_sweep_is_verified_by_its_orbits(
+    run: Run, tmp_path: Path
+) -> None:
+    scene = tmp_path / "unswept.toml"
+    text = built_in_text("jenkins")
+    begin, end = text.index("[sweep]"), text.index("[curve]")
+    scene.write_text(text[:begin] + text[end:], encoding="utf-8")
+
+    status, output, _ = run("verify", str(scene), "--frequencies", "2")
+
+    assert status == 0
+    assert "This scene has no [sweep]. Orbits alone are verified." in output
+    assert "agree: largest difference" in output
+    assert run("verify", str(scene), "--slower", "1")[0] == 2
 
 
 @pytest.mark.long

@@ -27,7 +27,7 @@ def lacks(*tables: str) -> Excuse:
 
     def excuse(scene: Scene) -> str:
         missing = [t for t in tables if getattr(scene.experiments, t) is None]
-        names = " and ".join(f"[{each}]" for each in missing)
+        names = " and no ".join(f"[{each}]" for each in missing)
         return f"This scene has no {names}." if missing else ""
 
     return excuse

@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc
+from microslip.commands.report_excuses import lacks
 from microslip.commands.verify_checks import (
     STEPS,
     check_marches,
@@ -16,9 +17,12 @@ from microslip.commands.verify_findings import Findings, draw, report, verdict
 
 if TYPE_CHECKING:
     from microslip.scenes.experiments import Curve, Sweep
+    from microslip.scenes.scene import Scene
     from microslip.studies.curve import Traced
     from microslip_mechanics.problem import Problem
 
+USUAL = [1.0, 4.0, 10.0]
+"""times the length of the scene's sweep, if none are given"""
 SLOWEST, MOST = 1000.0, 10**7
 """times the length of the scene's sweep, and numbers of what is counted"""
 
@@ -71,10 +75,10 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         "--slower",
         type=_slowness,
         nargs="*",
-        default=[1.0, 4.0, 10.0],
         metavar="FACTOR",
         help="lengths of the sweeps over that of the scene, at most "
-        f"{SLOWEST:g} (default: 1 4 10); none if no length is given",
+        f"{SLOWEST:g} (default: 1 4 10, none if the scene has no sweep); none if no "
+        "length is given",
     )
 
 
@@ -104,6 +108,8 @@ def _run(options: argparse.Namespace) -> int:
             f"{options.scene}: no load varies: nothing vibrates, so there is nothing "
             "to verify: give a drive"
         )
+    if options.slower is None:
+        options.slower = _usual(scene)
     if options.slower:
         _check_covered(options, scene.curve, scene.sweep)
     traced = _traced(options, problem, scene.curve)
@@ -122,6 +128,14 @@ def _run(options: argparse.Namespace) -> int:
     draw(found, traced.curve, picture, arguments.title(options))
     print(f"picture in {picture}")
     return status
+
+
+def _usual(scene: Scene) -> list[float]:
+    """Return the lengths of sweeps if none are given: none where none is described."""
+    excuse = lacks("sweep", "march")(scene)
+    if excuse:
+        print(f"{excuse} Orbits alone are verified.")
+    return [] if excuse else USUAL
 
 
 def _check_asked(options: argparse.Namespace) -> None:

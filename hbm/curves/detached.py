@@ -117,6 +117,7 @@ class Search:
             error=COARSE,
             stability=False,
             events=False,
+            residual_range=False,
             most_harmonics=HARMONICS,
             effort=SEEKING * self.effort,
         )

@@ -15,7 +15,8 @@ import pytest
 from microslip.commands.report_parts import PARTS, Part
 from microslip.commands.report_sections import words_of
 from microslip.page import DONE, FAILED, LEFT_OUT, Section, page
-from microslip.scenes.scene_file import BUILT_IN, built_in_text, load_scene
+from microslip.scenes.scene_file import BUILT_IN, load_scene
+from scene_texts import unswept
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 PICTURE = b"\x89PNG\r\n\x1a\n" + bytes(range(64))
@@ -250,10 +251,7 @@ def test_a_scene_that_cannot_be_swept_is_verified_without_sweeps(
     run: Run, tmp_path: Path, only: Callable[..., None]
 ) -> None:
     only("verify")
-    scene = tmp_path / "unswept.toml"
-    text = built_in_text("jenkins")
-    begin, end = text.index("[sweep]"), text.index("[curve]")
-    scene.write_text(text[:begin] + text[end:], encoding="utf-8")
+    scene = unswept(tmp_path)
 
     status, output, _ = run("report", str(scene), "-o", "page")
 

@@ -12,7 +12,7 @@ import pytest
 from microslip.commands.verify_tables import sweep_rows
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
-from microslip.scenes.scene_file import built_in_text, load_scene
+from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import Traced, trace_curve
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.verify.orbits import spread
@@ -25,6 +25,7 @@ from microslip.studies.verify.verify import (
     sweep_agreement,
 )
 from microslip_mechanics.problem import Problem
+from scene_texts import unswept
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 
@@ -319,10 +320,7 @@ def test_verification_of_what_cannot_be_compared_ends_with_a_result_or_one_line(
 def test_a_scene_without_a_sweep_is_verified_by_its_orbits(
     run: Run, tmp_path: Path
 ) -> None:
-    scene = tmp_path / "unswept.toml"
-    text = built_in_text("jenkins")
-    begin, end = text.index("[sweep]"), text.index("[curve]")
-    scene.write_text(text[:begin] + text[end:], encoding="utf-8")
+    scene = unswept(tmp_path)
 
     status, output, _ = run("verify", str(scene), "--frequencies", "2")
 

@@ -40,7 +40,9 @@ class ResolutionChoice:
         """Return the resolution that the error asks for.
 
         ``share`` is that of the error that is allowed with fewer than :data:`MARKED`
-        harmonics. Friction as sharp as ``sharpest`` does not become sharper.
+        harmonics. Friction as sharp as ``sharpest`` does not become sharper, nor any as
+        long as more harmonics or samples are asked for: both at once lead so far that
+        Newton's iteration loses the point.
         """
         if fourier.harmonics >= MARKED:
             share = 1.0
@@ -53,8 +55,9 @@ class ResolutionChoice:
             harmonics=estimate.truncation > enough,
             samples=estimate.sampling > enough,
         )
-        if estimate.smoothing > enough and finer.threshold > sharpest:
-            finer = replace(finer, threshold=finer.threshold / SHARPER)
+        sharpens = estimate.smoothing > enough and fourier.threshold > sharpest
+        if finer == fourier and sharpens:
+            return replace(fourier, threshold=fourier.threshold / SHARPER)
         return finer
 
     def anew(self, harmonics: int) -> FourierBasis:

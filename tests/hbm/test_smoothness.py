@@ -3,10 +3,12 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import groupby
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from hbm.balance.refined import Refined
 from hbm.continuation.corrected import correct_at
@@ -175,11 +177,12 @@ class Blunt(Resolution):
 
     def __init__(self, sharpest: float) -> None:
         self.sharpest, self.coarsest, self.sampling = sharpest, math.inf, 0.0
-        self.tried: list[float] = []
-        """threshold velocities that were"""
+        self.needed = 1
+        """harmonics below which one is missed"""
+        self.tried: list[FourierBasis] = []
 
     def at(self, fourier: FourierBasis) -> Any:
-        self.tried.append(fourier.threshold)
+        self.tried.append(fourier)
         sharp = fourier.threshold < self.sharpest
         solvable = not sharp and fourier.samples <= self.coarsest
 
@@ -197,7 +200,8 @@ class Blunt(Resolution):
     ) -> Estimate:
         smoothing = 0.1 * fourier.threshold
         point, slope = correction.point, correction.linearised
-        errors = 0.0, 0.0, self.sampling, smoothing, 0.0, 0.0
+        truncation = 0.5 if fourier.harmonics < self.needed else 0.0
+        errors = 0.0, truncation, self.sampling, smoothing, 0.0, 0.0
         rest = correction.residual
         made = Refined(rest, point, point, 0.0, 0.0, rest, slope)
         return Estimate(*errors, fourier, made, np.zeros((5, 1)))
@@ -213,14 +217,15 @@ def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:
     assert system.estimate is not None
     assert system.estimate.error == pytest.approx(0.1 * SHARPER**-2)
     assert system.fourier.threshold == SHARPER**-2
-    assert made.tried[-1] == SHARPER**-3
+    assert made.tried[-1].threshold == SHARPER**-3
 
     system.keep()
     made.tried.clear()
     again = correct_at(system, found.point, CONTROL, system)
 
     assert again.outcome is Outcome.CONVERGED
-    assert set(made.tried) <= {SHARPER**-2}  # it is not tried at every point
+    tried = {each.threshold for each in made.tried}
+    assert tried <= {SHARPER**-2}  # it is not sharper at every point
 
     made.sharpest = 0.0
     for _ in range(WAIT + 1):
@@ -228,6 +233,62 @@ def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:
         system.keep()
 
     assert system.estimate.error <= 1e-3  # but it is again after some
+
+
+def test_friction_is_sharpened_once_harmonics_are_enough() -> None:
+    made = Blunt(sharpest=0.0)
+    made.needed = 7
+    system = AdaptiveBalance(made, FourierBasis(3, 128, 1.0), tolerance=1e-2)
+
+    correct_at(system, guess(system.size), CONTROL, system)
+
+    assert system.settled.threshold < 0.1
+    tried = [(each.harmonics, each.threshold) for each in made.tried]
+    assert [each for each, _ in groupby(tried)][:3] == [(3, 1.0), (7, 1.0), (7, 0.25)]
+
+
+def stick_slip(stiffness: float, drive: float, limit: float, frequency: float) -> float:
+    """Return the amplitude of 1 kg that slips once per half period, then sticks [m].
+
+    It starts as spring and drive exceed the limit, and stops at the other extreme: the
+    amplitude at which that is as far away, from the motion in between in closed form.
+    """
+    own = np.sqrt(stiffness)
+    forced = drive / (stiffness - frequency**2)
+
+    def gained(amplitude: float) -> float:
+        start = -np.arccos((limit - stiffness * amplitude) / drive)
+        free = limit / stiffness - amplitude - forced * np.cos(start)
+        swing = forced * frequency * np.sin(start) / own
+
+        def velocity(time: Any) -> Any:
+            driven = -forced * frequency * np.sin(frequency * time + start)
+            return driven + own * (
+                swing * np.cos(own * time) - free * np.sin(own * time)
+            )
+
+        times = np.linspace(1e-6, np.pi / frequency, 4000)
+        last = int(np.flatnonzero(velocity(times) < 0.0)[0])
+        stop = brentq(velocity, times[last - 1], times[last])
+        reached = forced * np.cos(frequency * stop + start) - limit / stiffness
+        reached += free * np.cos(own * stop) + swing * np.sin(own * stop)
+        return float(reached) - amplitude
+
+    return float(brentq(gained, 1e-7, (drive + limit) / stiffness * 0.99))
+
+
+def test_a_first_point_just_above_the_slip_limit_is_found() -> None:
+    stiffness, drive, limit, slow = 15000.0, 56.0, 50.0, 8.0 * TURN
+    sizes = {"stiffness": stiffness, "drive": drive, "dynamic": limit}
+    problem = sliding_block(mass=1.0, load=1.0, threshold=5e-5, **sizes)
+    options = CurveOptions(slow, 1.001 * slow, error=1e-3)
+
+    first = next(frequency_response(problem, static_equilibrium(problem), options))
+
+    assert first.frequency == slow
+    largest = np.abs(first.at(np.linspace(0.0, TURN, 4000))[0]).max()
+    exact = stick_slip(stiffness, drive, limit, slow)
+    assert largest == pytest.approx(exact, rel=min(first.error, 0.1))
 
 
 def test_what_fails_for_other_reasons_than_friction_is_not_accepted() -> None:

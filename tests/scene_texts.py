@@ -21,6 +21,47 @@ time_step = "1 ms"
 store_every = 1
 """
 """what is done with a system around 5 Hz"""
+BETWEEN_FACES = """
+scene = "system"
+[structure]
+names = ["x", "z"]
+mass = [1.0, 1.0]
+stiffness = [100.0, 1.0]
+damping = [0.5, 5.0]
+[[element]]
+name = "one"
+law = "elastic-friction"
+normal = ["z", "ground"]
+tangents = [["x", "ground"]]
+normal_stiffness = 300
+preload = "10 N"
+stiffness = 200
+mu = 0.3
+[[element]]
+name = "other"
+law = "elastic-friction"
+normal = [{ z = -1.0 }, "ground"]
+tangents = [["x", "ground"]]
+normal_stiffness = 300
+preload = "10 N"
+stiffness = 200
+mu = 0.3
+[[element]]
+name = "holds"
+law = "jenkins"
+between = ["z", "ground"]
+stiffness = 400
+limit = "40 N"
+[drive]
+x = "8 N"
+[probes]
+x = "x"
+[curve]
+lowest = "1.7 Hz"
+highest = "1.9 Hz"
+harmonics = 7
+"""
+"""a mass that rubs on two equal faces, held between them by a slider"""
 
 
 def unswept(folder: Path) -> Path:

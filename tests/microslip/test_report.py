@@ -16,7 +16,7 @@ from microslip.commands.report_parts import PARTS, Part
 from microslip.commands.report_sections import words_of
 from microslip.page import DONE, FAILED, LEFT_OUT, Section, page
 from microslip.scenes.scene_file import BUILT_IN, load_scene
-from scene_texts import unswept
+from scene_texts import BETWEEN_FACES, unswept
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 PICTURE = b"\x89PNG\r\n\x1a\n" + bytes(range(64))
@@ -127,6 +127,20 @@ def test_a_report_promises_sweeps_of_its_verification_unless_it_is_quick() -> No
     assert part.quick[-1] == "--slower"  # no sweep
     assert "--slower" in part.more
     assert "unless the report is quick, sweeps" in part.about
+
+
+@pytest.mark.usefixtures("no_hang", "no_picture")
+def test_the_summary_tells_an_amplitude_that_exceeds_the_curves(
+    run: Run, tmp_path: Path, only: Callable[..., None]
+) -> None:
+    only("frc")
+    scene = tmp_path / "faces.toml"
+    scene.write_text(BETWEEN_FACES, encoding="utf-8")
+
+    status, output, _ = run("report", str(scene), "--quick", "-o", "page")
+
+    assert status == 0
+    assert re.search(r"frc +done +largest amplitude that was found: \S+ mm", output)
 
 
 @pytest.mark.usefixtures("no_hang")

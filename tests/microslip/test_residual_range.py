@@ -1,6 +1,9 @@
 """How far amplitudes are not unique, in words and in a picture."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import pytest
@@ -10,6 +13,9 @@ from figure_checks import legend, unique
 from microslip.commands.residual_range import residual_range
 from microslip.figures.amplitude import frequency_response
 from microslip_mechanics.results.response_curve import ResponseCurve
+from scene_texts import BETWEEN_FACES
+
+Run: TypeAlias = Callable[..., tuple[int, str, str]]
 
 
 def changed(curve: ResponseCurve, low: float, high: float) -> ResponseCurve:
@@ -76,6 +82,18 @@ def test_the_largest_amplitude_is_told_if_it_is_larger(
 
     assert f"{highest:.6g} mm at 131.0000 Hz" in told
     assert f"in place of {1e3 * curve.amplitude.max():.6g} mm" in told
+
+
+def test_verify_says_that_its_curve_is_one_of_many(run: Run, tmp_path: Path) -> None:
+    scene = tmp_path / "faces.toml"
+    scene.write_text(BETWEEN_FACES, encoding="utf-8")
+    few = "--frequencies", "2", "--slower"
+
+    status, output, _ = run("verify", str(scene), *few, "-o", str(tmp_path / "faces"))
+
+    assert status == 0
+    assert "not unique: contacts that stick" in output
+    assert "agree: largest difference" in output
 
 
 def test_a_band_is_drawn_where_amplitudes_vary(

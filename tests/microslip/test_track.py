@@ -11,48 +11,8 @@ from microslip.figures.track import track_figure
 from microslip.scenes.scene_file import load_scene
 from microslip.studies.axis import axis
 from microslip.studies.track import tracked
+from scene_texts import BETWEEN_FACES
 
-BETWEEN_FACES = """
-scene = "system"
-[structure]
-names = ["x", "z"]
-mass = [1.0, 1.0]
-stiffness = [100.0, 1.0]
-damping = [0.5, 5.0]
-[[element]]
-name = "one"
-law = "elastic-friction"
-normal = ["z", "ground"]
-tangents = [["x", "ground"]]
-normal_stiffness = 300
-preload = "10 N"
-stiffness = 200
-mu = 0.3
-[[element]]
-name = "other"
-law = "elastic-friction"
-normal = [{ z = -1.0 }, "ground"]
-tangents = [["x", "ground"]]
-normal_stiffness = 300
-preload = "10 N"
-stiffness = 200
-mu = 0.3
-[[element]]
-name = "holds"
-law = "jenkins"
-between = ["z", "ground"]
-stiffness = 400
-limit = "40 N"
-[drive]
-x = "8 N"
-[probes]
-x = "x"
-[curve]
-lowest = "1.7 Hz"
-highest = "1.9 Hz"
-harmonics = 7
-"""
-"""of a mass that a slider holds in the middle"""
 SHORT = ("model=A", "curve.lowest=134 Hz", "curve.highest=136 Hz")
 
 

@@ -54,7 +54,7 @@ PARTS = (
         "The curve, with its stability",
         "Frequency response by harmonic balance, to the scene's tolerance, with its "
         "peaks, folds and changes of stability.",
-        tells=("estimated error of amplitude",),
+        tells=("estimated error of amplitude", "largest amplitude that was found"),
         excuse=lacks("curve"),
     ),
     Part(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc
 from microslip.commands.report_excuses import lacks
+from microslip.commands.residual_range import residual_range
 from microslip.commands.verify_checks import (
     STEPS,
     check_marches,
@@ -174,12 +175,13 @@ def _check_covered(options: argparse.Namespace, curve: Curve, swept: Sweep) -> N
 
 
 def _traced(options: argparse.Namespace, problem: Problem, curve: Curve) -> Traced:
-    """Trace the curve; print where detached ones were sought."""
+    """Trace the curve; print where others were sought, and where it is not unique."""
     from microslip.studies.curve import Wanted, trace_curve
 
-    wanted = Wanted(options.branches, options.detached)
+    wanted = Wanted(options.branches, options.detached, residual_range=True)
     bars = frc.watched(curve), frc.search_watched(curve)
     traced = trace_curve(problem, curve, bars[0], wanted, bars[1])
-    if traced.searched is not None:
-        print("\n".join(traced.searched.lines()))
+    searched = [] if traced.searched is None else traced.searched.lines()
+    for line in (*searched, *residual_range(traced.curve)):
+        print(line)
     return traced

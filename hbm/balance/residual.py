@@ -20,6 +20,7 @@ from hbm.forces.contact_cycle import ContactCycle
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
 from hbm.forces.memory import marched
 from hbm.forces.remembered import fits
+from hbm.forces.touch_factors import touch_factors
 from microslip_mechanics.arrays import Array
 
 
@@ -117,7 +118,7 @@ class HarmonicBalance:
             self._terms,
         )
         self.contact.add_remembered(self._places, jacobian)
-        touched = self.contact.touched(self._places)
+        touched = touch_factors(self.contact, self._places)
         if touched is not None:
             jacobian += touched.matrix
         return jacobian

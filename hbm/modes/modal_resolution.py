@@ -16,7 +16,8 @@ from hbm.modes.free_motion import FreeMotion
 from hbm.modes.linear_modes import LinearMode
 from hbm.modes.modal import ModalBalance
 from hbm.modes.modal_parts import ModalParts, Reference
-from hbm.resolution.resolution import Estimate, Resolution
+from hbm.resolution.estimate import Estimate
+from hbm.resolution.resolution import Resolution
 from microslip_mechanics.arrays import Array
 
 DAMPING, FREQUENCY = 0, 2

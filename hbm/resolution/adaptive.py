@@ -15,8 +15,9 @@ from hbm.continuation.effort import Effort
 from hbm.continuation.linearised import Linearised, SingularError
 from hbm.continuation.newton import Small, correct
 from hbm.forces.fourier import FourierBasis
+from hbm.resolution.estimate import Estimate
 from hbm.resolution.report import Report
-from hbm.resolution.resolution import Estimate, Resolution
+from hbm.resolution.resolution import Resolution
 from hbm.resolution.resolution_choice import FEWEST, ResolutionChoice
 from hbm.structure.superharmonics import Superharmonics
 from microslip_mechanics.arrays import Array

@@ -19,7 +19,8 @@ from hbm.paths.path import along_frequency
 from hbm.paths.path_resolution import PathResolution
 from hbm.paths.smoothness import FALL, smoothest
 from hbm.resolution.adaptive import WAIT, AdaptiveBalance
-from hbm.resolution.resolution import Estimate, Resolution
+from hbm.resolution.estimate import Estimate
+from hbm.resolution.resolution import Resolution
 from hbm.resolution.resolution_choice import SHARPER
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array

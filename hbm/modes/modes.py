@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.balance.active import moving, symmetric
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.leaps import Leaping

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.forces.fourier import FourierBasis
 from hbm.modes.free_motion import free_motion
 from hbm.modes.linear_modes import linear_modes

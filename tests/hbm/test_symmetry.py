@@ -7,7 +7,8 @@ import pytest
 from numpy.typing import NDArray
 
 from hbm.balance.active import extended, moving, symmetric
-from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.relative import RelativeProblem
+from hbm.balance.relative_problem import relative_problem
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.fourier import FourierBasis
 from hbm.forces.touch_factors import touch_factors

@@ -172,7 +172,7 @@ def _mode(
     """Return the mode at a settled point."""
     point, fourier, error = system.report.kept(correction.point)
     balance = resolution.at(fourier)
-    motion, pole = balance.motion(point), balance.parts(point).pole
+    motion, pole = balance.motion(point), balance.unknowns.parts(point).pole
     first = problem.probes.rows @ (motion[1] - 1j * motion[2])
     motion[0] += rest.displacement
     errors, estimate = (error, error), system.estimate

@@ -97,7 +97,8 @@ class BranchPoint:
         It does where what is ``aside`` of all motions along the curve vanishes, or
         changes its sign.
         """
-        before, least = np.zeros(self.aside.shape[1]), 0.0
+        before: Array = np.zeros(self.aside.shape[1])
+        least = 0.0
         for each in corrections:
             after = self._off(each)
             least = least or 0.5 * float(np.linalg.norm(after))

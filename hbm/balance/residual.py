@@ -176,22 +176,6 @@ class HarmonicBalance:
         point[-1] = frequency
         return point
 
-    def pushed(self, point: Array) -> Array:
-        """Return a point with the pushes on rigid contacts that balance its motion.
-
-        They are zero in ``point``, which is returned if there are none.
-        """
-        tractions = self.problem.tractions
-        if tractions is None:
-            return point
-        count, rank = tractions.rows.shape
-        missing = self.residual(point).reshape(-1, rank + count)[:, :rank]
-        filled = point.copy()
-        filled[:-1].reshape(missing.shape[0], -1)[:, rank:] = (
-            -missing @ np.linalg.pinv(tractions.rows) / tractions.scale
-        )
-        return filled
-
     def split(self, point: Array) -> tuple[Array, float]:
         """Return the coefficients of y, shape (2H + 1, rank), and the frequency."""
         shape = (self.fourier.coefficients, self.rank)

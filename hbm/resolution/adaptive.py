@@ -9,7 +9,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.continuation.arc import upright
 from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.effort import Effort
 from hbm.continuation.linearised import Linearised, SingularError
@@ -24,8 +23,6 @@ from microslip_mechanics.arrays import Array
 
 HARMONICS = 255
 """most that are solved for"""
-STEEP = 0.05
-"""error at constant parameter from which a fold may be near"""
 SHORT = 0.01
 """step from which on less is tried"""
 WAIT = 10
@@ -244,7 +241,10 @@ class AdaptiveBalance:
         if not self._estimates:
             return None
         try:
-            self.estimate = self._estimated(correction, normal, across)
+            estimate = (
+                self._resolution.estimate if across else self._resolution.least_estimate
+            )
+            self.estimate = estimate(correction, self.fourier, normal)
         except SingularError:
             self.estimate = None
             return None
@@ -254,20 +254,6 @@ class AdaptiveBalance:
         if finer == self.fourier or lost:
             return None
         return finer, self.estimate.corrected
-
-    def _estimated(
-        self, correction: Correction, normal: Array, across: bool
-    ) -> Estimate:
-        """Return the error at constant parameter or, where that is steep, across."""
-        if across:
-            return self._resolution.estimate(correction, self.fourier, normal)
-        estimate = self._resolution.estimate(
-            correction, self.fourier, upright(correction.point)
-        )
-        if self._resolution.steepness(estimate) < STEEP:
-            return estimate
-        other = self._resolution.estimate(correction, self.fourier, normal)
-        return min(estimate, other, key=self._resolution.steepness)
 
     @property
     def _exhausted(self) -> bool:

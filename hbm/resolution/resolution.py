@@ -10,11 +10,14 @@ import numpy as np
 
 from hbm.balance.beyond import answered, stepped, wider
 from hbm.balance.refined import Refined, Resolved, refined
+from hbm.continuation.arc import upright
 from hbm.continuation.correction import Correction
 from hbm.forces.fourier import FourierBasis
 from hbm.resolution.estimate import BEYOND, Estimate, changes
 from microslip_mechanics.arrays import Array, ComplexArray, largest
 
+STEEP = 0.05
+"""error at constant parameter from which a fold may be near"""
 SMOOTHER = 1e-3
 """relative change of a threshold velocity that tells what it does"""
 MORE = 4
@@ -97,6 +100,19 @@ class Resolution(ABC):
             made,
             sizes,
         )
+
+    def least_estimate(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> Estimate:
+        """Return the error at constant parameter or, where that is steep, across.
+
+        Arguments and errors are those of :meth:`estimate`.
+        """
+        estimate = self.estimate(correction, fourier, upright(correction.point))
+        if self.steepness(estimate) < STEEP:
+            return estimate
+        other = self.estimate(correction, fourier, normal)
+        return min(estimate, other, key=self.steepness)
 
     def _beyond(self, made: Refined, finer: FourierBasis, normal: Array) -> Array:
         """Return the point after the steps once orders beyond have moved it.

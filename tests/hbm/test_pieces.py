@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import hbm.continuation.cornered
+import hbm.continuation.tracing
 from hbm.continuation.corner import Turned
 from hbm.continuation.cornered import Cornered
 from hbm.continuation.correction import Correction, Outcome
@@ -145,7 +145,7 @@ def test_what_more_harmonics_do_not_have_is_followed_back_with_few(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     square, more = Finer(ends=0.0), list[bool]()
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.tracing)[
         "trace"
     ]
 
@@ -223,7 +223,7 @@ def test_a_curve_that_stops_is_followed_from_the_other_end(
 def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.tracing)[
         "trace"
     ]
 
@@ -289,7 +289,7 @@ def test_what_lies_between_curves_that_turn_back_is_sought(
 def test_what_resists_between_curves_that_turn_back_is_leaped_over(
     returned: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.tracing)[
         "trace"
     ]
 
@@ -324,7 +324,7 @@ def test_what_lies_between_curves_that_turn_back_and_is_not_found_is_told(
 def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.tracing)[
         "trace"
     ]
 

@@ -16,7 +16,7 @@ from hbm.errors import PLACE, ContinuationError, hertz, placed
 from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
-from hbm.structure.condensation import CondensedStructure
+from hbm.structure.condensed_structure import CondensedStructure
 from hbm.structure.linear_curve import LinearCurve, linear_curve
 from microslip_mechanics.potential import potential
 from microslip_mechanics.problem import Problem

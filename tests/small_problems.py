@@ -4,6 +4,7 @@ A mass, a mass on a contact, a clamped beam; a whole march in one call, and a dw
 whole periods whose last one has a first harmonic.
 """
 
+import dataclasses
 import itertools
 
 import numpy as np
@@ -187,6 +188,12 @@ def prescribed(frequency: float, coefficients: Array = STILL) -> PeriodicRespons
     return PeriodicResponse(
         frequency, coefficients, nothing, nothing, 0.0, 0.0, 0.0, "converged", 0
     )
+
+
+def swinging(amplitude: float, frequency: float, samples: int) -> PeriodicResponse:
+    """Return amplitude · sin ωt of a problem with one degree of freedom."""
+    made = prescribed(frequency, np.array([[0.0], [0.0], [amplitude]]))
+    return dataclasses.replace(made, harmonics=1, samples=samples)
 
 
 def from_rest(problem: Problem) -> Start:

@@ -12,6 +12,7 @@ from hbm.balance.iterated import Parts
 from hbm.balance.jacobian import assemble, numbered, terms
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.fourier import to_complex, to_real
+from hbm.forces.touch_factors import touch_factors
 from microslip_mechanics.arrays import Array, ComplexArray
 
 LARGE = 1200
@@ -86,7 +87,8 @@ class LowOrders:
             frequency,
             self._terms,
         )
-        touched, remembered = contact.touched(self._places), contact.remembered()
+        touched = touch_factors(contact, self._places)
+        remembered = contact.remembered()
         if touched is not None:
             corner += touched.up_to(len(corner)).matrix
         if remembered is not None:

@@ -20,6 +20,7 @@ from hbm.forces.contact_cycle import ContactCycle
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
 from hbm.forces.memory import marched
 from hbm.forces.remembered import fits
+from hbm.forces.touch_factors import touch_factors
 from microslip_mechanics.arrays import Array
 
 
@@ -117,7 +118,7 @@ class HarmonicBalance:
             self._terms,
         )
         self.contact.add_remembered(self._places, jacobian)
-        touched = self.contact.touched(self._places)
+        touched = touch_factors(self.contact, self._places)
         if touched is not None:
             jacobian += touched.matrix
         return jacobian
@@ -174,22 +175,6 @@ class HarmonicBalance:
         point[:count] = coefficients.ravel()[:count]
         point[-1] = frequency
         return point
-
-    def pushed(self, point: Array) -> Array:
-        """Return a point with the pushes on rigid contacts that balance its motion.
-
-        They are zero in ``point``, which is returned if there are none.
-        """
-        tractions = self.problem.tractions
-        if tractions is None:
-            return point
-        count, rank = tractions.rows.shape
-        missing = self.residual(point).reshape(-1, rank + count)[:, :rank]
-        filled = point.copy()
-        filled[:-1].reshape(missing.shape[0], -1)[:, rank:] = (
-            -missing @ np.linalg.pinv(tractions.rows) / tractions.scale
-        )
-        return filled
 
     def split(self, point: Array) -> tuple[Array, float]:
         """Return the coefficients of y, shape (2H + 1, rank), and the frequency."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from hbm.balance.relative import RelativeProblem
+from hbm.balance.residual import HarmonicBalance
 from hbm.structure.tractions import PushedStructure, Tractions
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import friction_load
@@ -64,6 +65,23 @@ def with_pushes(
         rest=np.pad(problem.rest, (0, count)),
         tractions=tractions,
     )
+
+
+def pushed(balance: HarmonicBalance, point: Array) -> Array:
+    """Return a point with the pushes on rigid contacts that balance its motion.
+
+    They are zero in ``point``, which is returned if there are none.
+    """
+    tractions = balance.problem.tractions
+    if tractions is None:
+        return point
+    count, rank = tractions.rows.shape
+    missing = balance.residual(point).reshape(-1, rank + count)[:, :rank]
+    filled = point.copy()
+    filled[:-1].reshape(missing.shape[0], -1)[:, rank:] = (
+        -missing @ np.linalg.pinv(tractions.rows) / tractions.scale
+    )
+    return filled
 
 
 def _tractions(problem: RelativeProblem, frequency: float, weight: float) -> Tractions:

@@ -6,13 +6,9 @@ from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from hbm.continuation.arc import Metric
-from hbm.continuation.continuation import trace
 from hbm.continuation.corner import round_corner
 from hbm.continuation.correction import Correction
-from hbm.continuation.linearised import System
-from hbm.continuation.settler import Settler
-from hbm.continuation.step_control import StepControl
+from hbm.continuation.tracing import Tracing
 from hbm.errors import ContinuationError
 from microslip_mechanics.arrays import Array
 
@@ -28,18 +24,11 @@ AHEAD = (0.0, 1e-3, 1e-2)
 class Cornered:
     """The corrections along a curve, in order; corners are gone round."""
 
-    system: System
+    tracing: Tracing
     start: Array
     """first guess, shape (n + 1,)"""
-    end: float
-    """value of the parameter at which the curve ends"""
-    begin: float
-    """the other one, if it folds back"""
-    metric: Metric
-    control: StepControl
-    settler: Settler
     direction: Array | None = None
-    """where to go first, shape (n + 1,); towards ``end`` if left out"""
+    """where to go first, shape (n + 1,); towards the end if left out"""
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first behind a corner is joined to the one before.
@@ -62,8 +51,12 @@ class Cornered:
             except ContinuationError:
                 if not way or corner == CORNERS:
                     raise
-                tolerance = self.control.tolerance
-                turned = round_corner(self.system, way, self.metric, tolerance)
+                turned = round_corner(
+                    self.tracing.system,
+                    way,
+                    self.tracing.metric,
+                    self.tracing.control.tolerance,
+                )
                 if turned is None:
                     raise
                 guess, direction, turns = turned
@@ -78,24 +71,12 @@ class Cornered:
         has a tangent along which the parameter goes back, and is passed over.
         """
         if direction is None:
-            yield from self._traced(guess, None)
+            yield from self.tracing.points(guess, None)
             return
         for ahead in AHEAD:
-            traced = self._traced(guess + ahead * direction, direction)
+            traced = self.tracing.points(guess + ahead * direction, direction)
             first = next(traced)
             if first.along[-1] * direction[-1] >= 0.0:
                 break
         yield first
         yield from traced
-
-    def _traced(self, guess: Array, direction: Array | None) -> Iterator[Correction]:
-        return trace(
-            self.system,
-            guess,
-            self.end,
-            metric=self.metric,
-            control=self.control,
-            settler=self.settler,
-            begin=self.begin,
-            direction=direction,
-        )

@@ -11,13 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hbm.continuation.arc import Metric, distance, plane_across
-from hbm.continuation.continuation import trace
+from hbm.continuation.arc import distance, plane_across
 from hbm.continuation.correction import Correction, Outcome
-from hbm.continuation.linearised import System
 from hbm.continuation.newton import correct
-from hbm.continuation.settler import Settler
-from hbm.continuation.step_control import StepControl
+from hbm.continuation.tracing import Tracing
 from hbm.errors import PLACE, ContinuationError
 from microslip_mechanics.arrays import Array
 
@@ -38,14 +35,9 @@ BACK = -0.9
 class Leaping:
     """The corrections along a curve, in order; small gaps are passed."""
 
-    system: System
+    tracing: Tracing
     start: Array
     """first guess, shape (n + 1,)"""
-    end: float
-    """value of the parameter at which the curve ends"""
-    metric: Metric
-    control: StepControl
-    settler: Settler
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first after a leap is not joined to the one before.
@@ -60,7 +52,7 @@ class Leaping:
         kept: list[Correction] = []
         for leap in range(MOST + 1):
             try:
-                for correction in self._traced(guess, direction):
+                for correction in self.tracing.points(guess, direction):
                     if len(kept) > 1 and self._returns(kept, correction):
                         break
                     kept = [*kept[-1:], correction]
@@ -76,22 +68,10 @@ class Leaping:
             float(guess[-1]),
         )
 
-    def _traced(self, guess: Array, direction: Array | None) -> Iterator[Correction]:
-        return trace(
-            self.system,
-            guess,
-            self.end,
-            metric=self.metric,
-            control=self.control,
-            settler=self.settler,
-            begin=float(self.start[-1]),
-            direction=direction,
-        )
-
     def _returns(self, kept: list[Correction], new: Correction) -> bool:
         """Return whether a point lies back on the way that led to the last one."""
         first, last = (each.point for each in kept)
-        scale = self.metric(last)
+        scale = self.tracing.metric(last)
         before, after = (last - first) / scale, (new.point - last) / scale
         size = float(np.linalg.norm(before) * np.linalg.norm(after))
         return float(before @ after) < BACK * size
@@ -99,7 +79,7 @@ class Leaping:
     def _leapt(self, kept: list[Correction]) -> tuple[Array, Array]:
         """Return a point of the curve past a gap, and where the curve goes on."""
         last = kept[-1]
-        scale, along = self.metric(last.point), last.along
+        scale, along = self.tracing.metric(last.point), last.along
         if (
             len(kept) > 1
             and float(along @ ((last.point - kept[0].point) / scale**2)) < 0
@@ -109,7 +89,10 @@ class Leaping:
         for leap in LEAPS:
             predicted = last.point + leap * along
             found = correct(
-                self.system, predicted, normal, tolerance=self.control.tolerance
+                self.tracing.system,
+                predicted,
+                normal,
+                tolerance=self.tracing.control.tolerance,
             )
             near = distance(found.point, predicted, scale) <= leap
             if near and found.outcome is Outcome.CONVERGED:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from hbm.balance.residual import HarmonicBalance
+from hbm.balance.rigid import pushed
 from hbm.continuation.arc import plane_across, tangent, upright
 from hbm.continuation.corrected import lost
 from hbm.continuation.correction import Outcome
@@ -56,7 +57,7 @@ def responses_across(
     control = StepControl(tolerance=1e-8 * problem.force_scale)
     balance = path.balance(FourierBasis(known.harmonics, known.samples))
     rows = path.problem.map_from(problem.interface.displacement)
-    point = balance.pushed(balance.point(known.seen(rows), known.frequency))
+    point = pushed(balance, balance.point(known.seen(rows), known.frequency))
     with one_thread(), placed(hertz):
         normal = _normal(path, balance, point)
         for harmonics in orders:

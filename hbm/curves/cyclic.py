@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.balance.relative import RelativeProblem, pinned
+from hbm.balance.pinned import pinned
+from hbm.balance.relative import RelativeProblem
 from hbm.curves.tracer import Tracer
 from hbm.errors import hertz, placed
 from hbm.one_thread import one_thread

@@ -10,6 +10,7 @@ import numpy as np
 from hbm.balance.balance import Balance
 from hbm.balance.parametric import mirrored
 from hbm.balance.residual import HarmonicBalance
+from hbm.balance.rigid import pushed
 from hbm.continuation.continuation import trace
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import Segment, folds
@@ -69,7 +70,7 @@ class FoldCurve:
         self._finer = FinerFold(planned, missing, self._control.tolerance)
         inner, _ = self._inner(self._balance, options.start)
         relative = known.seen(path.at(options.start)[0].selection)
-        start = inner.pushed(inner.point(relative, known.frequency))
+        start = pushed(inner, inner.point(relative, known.frequency))
         self._start = np.append(start, options.start)
 
     def points(self) -> Iterator[FoldPoint]:

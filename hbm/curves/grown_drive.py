@@ -16,8 +16,7 @@ import numpy as np
 from hbm.continuation.continuation import trace
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
-from hbm.errors import PLACE, ContinuationError
-from hbm.paths.along_drive import LEAST, AlongDrive
+from hbm.paths.along_drive import LEAST, AlongDrive, whole_drive
 from hbm.paths.path import Path
 from hbm.paths.path_metric import path_metric
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -48,20 +47,18 @@ def grown(
     still, _ = drives.at(LEAST)
     start = np.zeros(system.size)
     start[: still.rank], start[-1] = still.rest, LEAST
+    corrections = trace(
+        system,
+        start,
+        1.0,
+        metric=partial(path_metric, drives),
+        control=replace(control, most_points=PATIENCE),
+        settler=system,
+        begin=-1.0,
+    )
     try:
-        for last in trace(
-            system,
-            start,
-            1.0,
-            metric=partial(path_metric, drives),
-            control=replace(control, most_points=PATIENCE),
-            settler=system,
-            begin=-1.0,
-        ):
-            point = last.point
+        point = whole_drive(corrections, parameter)
     finally:
         effort.spent += part.spent
-    if point[-1] < 1.0:
-        raise ContinuationError(f"the drive falls again at {PLACE}", parameter)
     count = system.settled.coefficients
     return point[: count * still.rank].reshape(count, still.rank)

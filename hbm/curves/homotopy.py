@@ -15,9 +15,9 @@ from hbm.continuation.continuation import trace
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
-from hbm.errors import PLACE, ContinuationError
+from hbm.errors import ContinuationError
 from hbm.forces.fourier import FourierBasis
-from hbm.paths.along_drive import LEAST, UNIT, AlongDrive, driven
+from hbm.paths.along_drive import LEAST, UNIT, AlongDrive, driven, whole_drive
 from hbm.paths.path import Path
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.points import ONE_SIDED
@@ -133,10 +133,8 @@ def _along_an_arc(
     start = HarmonicBalance(still, fourier, mask).point(still.rest[None, :], LEAST)
     counted = effort.counted(balance, fourier.harmonics)
     system = Effort(PATIENCE).counted(counted, 1)
-    for last in trace(system, start, 1.0, metric=scale, control=control, begin=-1.0):
-        point = last.point
-    if point[-1] < 1.0:
-        raise ContinuationError(f"the drive falls again at {PLACE}", parameter)
+    corrections = trace(system, start, 1.0, metric=scale, control=control, begin=-1.0)
+    point = whole_drive(corrections, parameter)
     return point[:-1].reshape(fourier.coefficients, path.rank)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import upright
-from hbm.curves.stuck_tractions import StuckTractions
+from hbm.curves.stuck_tractions import Effects, StuckTractions
 from microslip_mechanics.arrays import TINY, Array, largest
 
 WITHIN = 1e-6
@@ -95,13 +95,13 @@ class Leeway:
         count = len(self.stuck.along)
         if not 0 < count <= FEW:
             return np.zeros(count)
-        reliefs = self.stuck.reliefs(self._coefficients)
+        reliefs = self._effects.reliefs
         most = np.abs(reliefs) @ self.stuck.limit.max(axis=0)
         share = most / np.maximum(self.stuck.spare, TINY)
         if share.max(initial=0.0) <= 1.0:
             return np.zeros(len(share))
         first = int(share.argmax())
-        limits = self.stuck.bounds(self._coefficients, loose=first)
+        limits = self.stuck.bounds(self._effects, loose=first)
         change = self._greatest(-reliefs[first], *limits)
         lets = -reliefs[first] @ change > self.stuck.spare[first]
         return change if lets else np.zeros_like(change)
@@ -124,7 +124,11 @@ class Leeway:
     @cached_property
     def bounds(self) -> tuple[Array, Array]:
         """The limits of tractions, as matrix · change ≤ room."""
-        return self.stuck.bounds(self._coefficients)
+        return self.stuck.bounds(self._effects)
+
+    @cached_property
+    def _effects(self) -> Effects:
+        return self.stuck.effects(self._coefficients)
 
     @property
     def _coefficients(self) -> Array:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hbm.balance.rigid import pushed
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.step_control import StepControl
 from hbm.curves.curve import response
@@ -50,7 +51,7 @@ def periodic_response(
     )
     balance = path.balance(FourierBasis(harmonics, samples))
     rows = path.problem.map_from(problem.interface.displacement)
-    start = balance.pushed(balance.point(guess.seen(rows), guess.frequency))
+    start = pushed(balance, balance.point(guess.seen(rows), guess.frequency))
     with one_thread(), placed(hertz):
         correction = correct_at(balance, start, control)
     return replace(response(small, balance, correction), shapes=shapes)

@@ -7,11 +7,11 @@ from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from hbm.continuation.continuation import trace
 from hbm.continuation.cornered import REMEMBERED, Cornered
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
+from hbm.continuation.tracing import Tracing
 from hbm.curves.bounded import bounded
 from hbm.curves.grown_drive import Resolved
 from hbm.curves.restart import FIRST, LEAPS, Beginning, Restart
@@ -80,16 +80,10 @@ class Pieces:
 
         Or until the curve closes.
         """
-        yield from trace(
-            self.system,
-            guess,
-            self.end,
-            metric=self.metric,
-            control=replace(self.control, most_points=POINTS),
-            settler=self.system,
-            begin=self.start,
-            direction=direction,
-        )
+        control = replace(self.control, most_points=POINTS)
+        yield from Tracing(
+            self.system, self.end, self.start, self.metric, control, self.system
+        ).points(guess, direction)
 
     @property
     def restart(self) -> Restart:
@@ -165,16 +159,15 @@ class Pieces:
 
     def _cornered(self, begun: Beginning, heading: float) -> Iterator[Correction]:
         """Yield corrections of one piece, round its corners, while it is bounded."""
-        piece = Cornered(
+        tracing = Tracing(
             self.system,
-            begun.guess,
             heading,
             self.start if heading == self.end else self.end,
             self.metric,
             begun.control,
             self.system,
-            begun.direction,
         )
+        piece = Cornered(tracing, begun.guess, begun.direction)
         if isinstance(self.path, AlongFrequency):
             yield from bounded(piece, self.path.rank, self.path.vibration)
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,23 @@ STEADY = 1e-9
 """relative change over the period of what counts as constant: one time tells all"""
 DIRECTIONS = 16
 """of a traction along two tangents, in which its limit is kept"""
+
+
+class Effects(NamedTuple):
+    """What mean tractions change, at some of the times.
+
+    Each has shape ``(times / EACH, stuck, stuck)``, the last axis being that of the
+    cause.
+    """
+
+    traction: Array
+    limit: Array
+
+    @property
+    def reliefs(self) -> Array:
+        """What they change of mean limits, shape (stuck, stuck)."""
+        mean: Array = self.limit.mean(axis=0)
+        return mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,23 +132,13 @@ class StuckTractions:
         spare: Array = 0.5 * (one + other)
         return spare
 
-    def reliefs(self, changes: Array) -> Array:
-        """Return what mean tractions change of mean limits, shape (stuck, stuck).
-
-        ``changes`` are as for :meth:`bounds`; the last axis is that of the cause.
-        """
-        _, limit = self._changes(changes)
-        mean: Array = limit.mean(axis=0)
-        return mean
-
-    def bounds(self, changes: Array, loose: int | None = None) -> tuple[Array, Array]:
+    def bounds(self, effects: Effects, loose: int | None = None) -> tuple[Array, Array]:
         """Return the limits of tractions as matrix · change ≤ room.
 
-        ``changes`` are coefficients of y by each mean traction, shape
-        ``(2H + 1, rank, stuck)``. The matrix has shape ``(conditions, stuck)``.
-        ``loose`` is one of these whose point may slip.
+        The matrix has shape ``(conditions, stuck)``. ``loose`` is one of these whose
+        point may slip.
         """
-        traction, limit = self._changes(changes)
+        traction, limit = effects
         matrices, rooms = [np.zeros((0, len(self.places)))], [np.zeros(0)]
         points = self.sliders.point[self.places]
         held = points if loose is None else points[points != points[loose]]
@@ -146,11 +154,10 @@ class StuckTractions:
                 rooms.append(room.min(keepdims=True) if steady else room)
         return np.vstack(matrices), np.maximum(np.concatenate(rooms), 0.0)
 
-    def _changes(self, changes: Array) -> tuple[Array, Array]:
-        """Return what mean tractions change of tractions and limits.
+    def effects(self, changes: Array) -> Effects:
+        """Return what mean tractions change.
 
-        Each has shape ``(times / EACH, stuck, stuck)``, the last axis being that of the
-        cause.
+        ``changes`` are those of coefficients of y by each, ``(2H + 1, rank, stuck)``.
         """
         own, table = self.places, self.sliders.points
         points = self.sliders.point[own]
@@ -165,7 +172,7 @@ class StuckTractions:
         normal = self.sliders.basis[3 * points]
         limit = self.load[:, :, :1] * (normal @ moved)
         limit += self.load[:, :, 1:] * (normal @ (self.frequency * turned))
-        return traction, table.dynamic[points, None] * limit
+        return Effects(traction, table.dynamic[points, None] * limit)
 
 
 def _directions(axes: int) -> Array:

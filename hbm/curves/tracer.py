@@ -56,13 +56,9 @@ class Tracer:
             resolution, motions, self.control, options.harmonics is not None
         )
         least, most = sorted((options.start, options.end))
-        events = Events(
-            self.system,
-            AmplitudeGrowth(resolution, (least, most)),
-            self.control,
-            multipliers,
-            recalls=bool(remembers(points).any()),
-        )
+        growth = AmplitudeGrowth(resolution, (least, most))
+        recalls = bool(remembers(points).any())
+        events = Events(self.system, growth, self.control, multipliers, recalls=recalls)
         self.curve = Curve(
             problem,
             self.system,

@@ -16,7 +16,6 @@ from hbm.events.multipliers import Multipliers
 from hbm.events.settled import Settled
 from hbm.forces.fourier import FourierBasis, by_harmonics
 from hbm.resolution.adaptive import AdaptiveBalance
-from microslip_mechanics.arrays import ComplexArray
 
 LOCATING = FourierBasis(31, 256)
 """most that is taken at first, if the curve has no more, to locate a change of
@@ -108,18 +107,17 @@ class Crossings:
         Its error is that by orbits of the ``other`` resolution.
         """
         name, (first, last) = crossed(moving.outside), moving.ends
-
-        def growth() -> float:
-            return moving.growth(self._finest(located, finer))
-
-        if self.recalls and abs(growth()) > LEAP * abs(last - first):
-            return None
+        if self.recalls:
+            left = abs(self._growth(moving, located, finer))
+            if left > LEAP * abs(last - first):
+                return None
 
         def error() -> float:
             orbit = self.multipliers.finer(located.point, other)
             if orbit is None:
                 return math.nan
-            doubt = moving.growth(self.multipliers.at(orbit, other)) - growth()
+            doubt = moving.growth(self.multipliers.at(orbit, other))
+            doubt -= self._growth(moving, located, finer)
             return crossing_error(segment, located, moving.ends, abs(doubt), precision)
 
         return Crossing(name, located, error)
@@ -135,11 +133,9 @@ class Crossings:
 
         They have the finer resolution, if there is one.
         """
-
-        def growth(correction: Correction) -> float:
-            return moving.growth(self._finest(correction, finer))
-
-        return segment.locate(growth, moving.ends, precision)
+        return segment.locate(
+            lambda each: self._growth(moving, each, finer), moving.ends, precision
+        )
 
     def _astray(
         self,
@@ -158,7 +154,7 @@ class Crossings:
         folded = segment.after.turns or folds(segment.before) * folds(segment.after) < 0
         if located is None or folded or self.recalls:
             return False
-        return bool(abs(moving.growth(self._finest(located, told))) > ASTRAY)
+        return bool(abs(self._growth(moving, located, told)) > ASTRAY)
 
     def _among(
         self,
@@ -210,12 +206,18 @@ class Crossings:
         )
         return first, second, precision
 
-    def _finest(
-        self, correction: Correction, finer: FourierBasis | None
-    ) -> ComplexArray:
-        """Return the multipliers at a point, of the orbit with a finer resolution."""
+    def _growth(
+        self,
+        moving: MovingMultiplier,
+        correction: Correction,
+        finer: FourierBasis | None,
+    ) -> float:
+        """Return that of a multiplier of the orbit with a finer resolution at a point.
+
+        Or of the point's own, if there is none.
+        """
         point, fourier = correction.point, self.system.fourier
         if finer is not None:
             found = self.multipliers.finer(point, finer)
             point, fourier = (point, fourier) if found is None else (found, finer)
-        return self.multipliers.at(point, fourier)
+        return moving.growth(self.multipliers.at(point, fourier))

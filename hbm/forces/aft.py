@@ -3,43 +3,24 @@
 from __future__ import annotations
 
 import copy
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hbm.forces.contact_cycle import ContactCycle, contact_cycle
 from hbm.forces.fourier import FourierBasis
+from hbm.forces.last_call import LastCall
 from hbm.forces.memory import FrictionMemory, marched
 from hbm.forces.remembered import Remembered
 from hbm.forces.sampled_tangents import SampledTangents
 from hbm.forces.sampling import sample
-from hbm.forces.symmetry import Symmetry, still_holds, symmetry
+from hbm.forces.symmetry import still_holds, symmetry
 from hbm.forces.tangent_entries import kinds, tangent_entries
-from hbm.forces.touch_factors import Factors, touch_factors
-from hbm.forces.touches import touches
 from hbm.forces.traces import Traces
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.floating import Floating
-from microslip_mechanics.contact.points import ONE_SIDED, RIGID, ContactPoints
+from microslip_mechanics.contact.points import RIGID, ContactPoints
 from microslip_mechanics.errors import MicroslipError
-
-
-class Call(NamedTuple):
-    """What was asked last, and the answer: its samples still lie in the buffers."""
-
-    number: int
-    motion: tuple[float, float]
-    """frequency and decay"""
-    coefficients: Array
-    force: Array
-
-    def answers(
-        self, number: int, motion: tuple[float, float], coefficients: Array
-    ) -> bool:
-        """Return whether the same is asked, and nothing else since."""
-        same = (self.number, self.motion) == (number, motion)
-        return same and np.array_equal(self.coefficients, coefficients)
 
 
 class AlternatingFrequencyTime:
@@ -85,26 +66,30 @@ class AlternatingFrequencyTime:
             If a contact is rigid: its traction does not follow from the motion.
         """
         _refuse_rigid(points)
-        rows, samples = len(basis), fourier.samples
-        self._points, self._basis, self._fourier = points, basis, fourier
-        self._offset = np.zeros(rows) if offset is None else offset
+        samples = self.samples = fourier.samples
+        self.points, self.basis, self._fourier = points, basis, fourier
+        self._offset = np.zeros(len(basis)) if offset is None else offset
         self._odd, self._pruned = odd, pruned
         recalls = bool(marched(points).any())
         self._memory = FrictionMemory(basis, fourier, floating) if recalls else None
         entries = tangent_entries(points, pruned)
         halves = None if recalls or samples % 2 else odd
-        self._symmetry = symmetry(points, self._offset, basis, entries, halves)
+        self.symmetry = symmetry(points, self._offset, basis, entries, halves)
+        """what half a period later looks like"""
         signs = np.empty(0)
-        if odd is not None and self._symmetry.holds:
+        if odd is not None and self.symmetry.holds:
             signs = np.where(odd, -1.0, 1.0)
         self._traces = Traces(basis, fourier, signs)
-        self._tangents = SampledTangents(basis, entries, self._symmetry, signs, samples)
-        self._last: Call | None = None
-        self._frequency = np.nan
-        self._moved: tuple[Array, Array] = (
-            np.zeros((rows, samples)),
-            np.zeros((rows, samples)),
-        )
+        self.tangents = SampledTangents(basis, entries, self.symmetry, signs, samples)
+        """of the last call"""
+        self.frequency = np.nan
+        """of the last call [rad/s]"""
+        still = np.zeros((2, len(basis), samples))
+        self.moved: tuple[Array, Array] = (still[0], still[1])
+        """displacement [m] and velocity [m/s] of the points in the last call, shape
+        (3 points, samples) each; with a symmetry samples of the second half of the
+        period may be left out"""
+        self._last: LastCall | None = None
 
     def with_points(
         self, points: ContactPoints, offset: Array, floating: Floating | None = None
@@ -113,11 +98,11 @@ class AlternatingFrequencyTime:
 
         Both share buffers, unless other tangents are needed or a symmetry is lost.
         """
-        alike = still_holds(self._symmetry, points, offset)
-        if not (alike and np.array_equal(kinds(points), kinds(self._points))):
+        alike = still_holds(self.symmetry, points, offset)
+        if not (alike and np.array_equal(kinds(points), kinds(self.points))):
             return AlternatingFrequencyTime(
                 points,
-                self._basis,
+                self.basis,
                 self._fourier,
                 offset=offset,
                 odd=self._odd,
@@ -125,9 +110,9 @@ class AlternatingFrequencyTime:
                 floating=floating,
             )
         other = copy.copy(self)
-        other._points, other._offset, other._last = points, offset, None
+        other.points, other._offset, other._last = points, offset, None
         if self._memory is not None:
-            other._memory = FrictionMemory(self._basis, self._fourier, floating)
+            other._memory = FrictionMemory(self.basis, self._fourier, floating)
         return other
 
     def __call__(
@@ -149,7 +134,7 @@ class AlternatingFrequencyTime:
         if last is not None and last.answers(self.calls, motion, coefficients):
             return last.force
         force = self._evaluated(coefficients, frequency, decay)
-        self._last = Call(self.calls, motion, coefficients.copy(), force)
+        self._last = LastCall(self.calls, motion, coefficients.copy(), force)
         return force
 
     def by_frequency(self) -> Array:
@@ -157,17 +142,12 @@ class AlternatingFrequencyTime:
 
         It is that of a steady motion.
         """
-        return self._traces.changes() / self._frequency
+        return self._traces.changes() / self.frequency
 
     @property
     def calls(self) -> int:
         """Number of calls so far: of this one and of what shares its buffers."""
         return self._traces.calls
-
-    @property
-    def tangents(self) -> SampledTangents:
-        """Of the last call."""
-        return self._tangents
 
     def add_remembered(self, places: NDArray[np.int64], jacobian: Array) -> None:
         """Add ∂force/∂y of the last call by what the contacts remember.
@@ -177,14 +157,14 @@ class AlternatingFrequencyTime:
         """
         if self._memory is not None:
             self._memory.add_jacobian(
-                self._points, self._moved, self._frequency, places, jacobian
+                self.points, self.moved, self.frequency, places, jacobian
             )
 
     def remembered(self) -> Remembered | None:
         """Return what multiplies by that derivative; None if nothing remembers."""
         if self._memory is None:
             return None
-        return self._memory.remembered(self._points, self._moved, self._frequency)
+        return self._memory.remembered(self.points, self.moved, self.frequency)
 
     def small_tangents(self, order: int = 1) -> tuple[Array, Array]:
         """Return what a small motion about that of the last call feels in the mean.
@@ -199,51 +179,10 @@ class AlternatingFrequencyTime:
         self.add_remembered(cosines, elastic)
         return elastic, viscous
 
-    def touched(self, places: NDArray[np.int64]) -> Factors | None:
-        """Return what :attr:`tangents` leave out of ∂force/∂y of the last call.
-
-        That is of cells in which faces touch or part; None if there are none.
-        ``places``, shape ``(2H + 1, rank)``, are those of the coefficients among the
-        unknowns; negative ones are left out.
-        """
-        if not (self._points.normal == ONE_SIDED).any():
-            return None
-        found = touches(self._points, *self._moved, self._telling)
-        if not found.place.size:
-            return None
-        if self._symmetry.holds:
-            # the other half, seen by coordinates that it mirrors, is the same again
-            found = found._replace(shared=2.0 * found.shared)
-        return touch_factors(found, self._basis, self._frequency, self.samples, places)
-
-    @property
-    def samples(self) -> int:
-        """Number of samples per period."""
-        return self._fourier.samples
-
-    @property
-    def points(self) -> ContactPoints:
-        """Contact table."""
-        return self._points
-
     @property
     def floating(self) -> Floating | None:
         """Mean motions that only what remembers holds."""
         return None if self._memory is None else self._memory.floating
-
-    @property
-    def symmetry(self) -> Symmetry:
-        """What half a period later looks like."""
-        return self._symmetry
-
-    @property
-    def moved(self) -> tuple[Array, Array]:
-        """Displacement [m] and velocity [m/s] of the points in the last call.
-
-        Each has shape ``(3 points, samples)``; with a symmetry samples of the second
-        half of the period may be left out.
-        """
-        return self._moved
 
     def impulses(self, above: int, most: int) -> float:
         """Return the norm of the contact impulses [N] of the last call.
@@ -260,34 +199,34 @@ class AlternatingFrequencyTime:
         self(coefficients, frequency)
         forces = self._traces.regular.force + self._traces.extra.force
         period = 2.0 * np.pi / frequency
-        cycle = contact_cycle(self._points, self._moved, forces, self._telling, period)
+        cycle = contact_cycle(self.points, self.moved, forces, self.telling, period)
         # in the other half a point does what its mirror image did in this one
-        return cycle.joined(self._symmetry.images) if self._symmetry.holds else cycle
+        return cycle.joined(self.symmetry.images) if self.symmetry.holds else cycle
 
     def _evaluated(self, coefficients: Array, frequency: float, decay: float) -> Array:
         """Return the force, and fill the buffers."""
         traces = self._traces
         displacement, velocity = traces.motion(coefficients, frequency, decay)
         displacement += self._offset[:, None]
-        self._moved, self._frequency = (displacement, velocity), frequency
+        self.moved, self.frequency = (displacement, velocity), frequency
         sample(
-            self._points,
-            *self._moved,
-            self._tangents.entries,
-            self._tangents.bounds,
-            self._symmetry,
+            self.points,
+            *self.moved,
+            self.tangents.entries,
+            self.tangents.bounds,
+            self.symmetry,
             traces.regular,
             traces.extra,
-            self._tangents.samples,
+            self.tangents.samples,
         )
         if self._memory is not None:
-            self._memory.add(self._points, self._moved, frequency, *traces.regular)
+            self._memory.add(self.points, self.moved, frequency, *traces.regular)
         return traces.forces()
 
     @property
-    def _telling(self) -> int:
+    def telling(self) -> int:
         """Number of samples that tell all: those of half a period with a symmetry."""
-        return self.samples // 2 if self._symmetry.holds else self.samples
+        return self.samples // 2 if self.symmetry.holds else self.samples
 
 
 def _refuse_rigid(points: ContactPoints) -> None:

@@ -12,10 +12,10 @@ from microslip_mechanics.contact.loop_gradient import LoopGradient, Waves
 from microslip_mechanics.jit import kernel
 
 
-def terms(samples: int, harmonics: int) -> tuple[Waves, Array]:
-    """Return the terms at the samples, and the analysis; for derivatives alone."""
+def loop_waves(samples: int, harmonics: int) -> tuple[Waves, Array]:
+    """Return the waves at the samples, and the analysis; for derivatives alone."""
     there, analysis = waves(harmonics, samples)
-    slope = -derivative(there)  # of the terms, not of coefficients
+    slope = -derivative(there)  # of the waves, not of coefficients
     return Waves(*map(np.ascontiguousarray, (there.T, slope.T))), analysis
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.forces.fourier import FourierBasis
-from hbm.forces.loop_matrix import block, scatter, terms
+from hbm.forces.loop_matrix import block, loop_waves, scatter
 from hbm.forces.remembered import Loop, Remembered
 from hbm.forces.sliding_loop import sliding_loop
 from microslip_mechanics.arrays import Array
@@ -70,7 +70,7 @@ class FrictionMemory:
     ) -> None:
         """Plan for ``basis``, the map from y to the points, ``(3 points, rank)``."""
         self._basis, self._fourier, self.floating = basis, fourier, floating
-        self._terms = lru_cache(maxsize=2)(partial(terms, fourier.samples))
+        self._waves = lru_cache(maxsize=2)(partial(loop_waves, fourier.samples))
 
     def add(
         self,
@@ -103,7 +103,7 @@ class FrictionMemory:
         ``places``, shape ``(2h + 1, rank)`` with h ≤ H, are the rows and columns of the
         coefficients; negative ones are left out.
         """
-        series, analysis = self._terms(len(places) // 2)
+        series, analysis = self._waves(len(places) // 2)
         motion = self._marched(points, moved, frequency)
         for point in motion.each:
             axes, (seen, mean) = self._axes(point), self._maps(points, point)
@@ -122,7 +122,7 @@ class FrictionMemory:
         frequency: float,
     ) -> Remembered:
         """Return what multiplies by ∂traction/∂y of the points that are not pushed."""
-        series, _ = self._terms(self._fourier.harmonics)
+        series, _ = self._waves(self._fourier.harmonics)
         motion, loops = self._marched(points, moved, frequency), []
         for point in motion.each:
             *_, gradient = self._loop(motion, point, series)

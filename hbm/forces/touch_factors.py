@@ -12,9 +12,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.sampling import hat
-from hbm.forces.touches import Touches
+from hbm.forces.touches import Touches, touches
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.points import ONE_SIDED
 
 
 class Factors(NamedTuple):
@@ -38,28 +40,33 @@ class Factors(NamedTuple):
 
 
 def touch_factors(
+    contact: AlternatingFrequencyTime, places: NDArray[np.int64]
+) -> Factors | None:
+    """Return what of ∂force/∂y tangents at the samples leave out of such cells.
+
+    In the last call of ``contact``; None if there are none. ``places``, shape
+    ``(2H + 1, rank)``, are those of the coefficients among the unknowns; negative ones
+    are left out.
+    """
+    if not (contact.points.normal == ONE_SIDED).any():
+        return None
+    found = touches(contact.points, *contact.moved, contact.telling)
+    if not found.place.size:
+        return None
+    if contact.symmetry.holds:
+        # the other half, seen by coordinates that it mirrors, is the same again
+        found = found._replace(shared=2.0 * found.shared)
+    return _factors(found, contact.basis, contact.frequency, contact.samples, places)
+
+
+def _factors(
     found: Touches,
     basis: Array,
     frequency: float,
     samples: int,
     places: NDArray[np.int64],
 ) -> Factors:
-    """Return what of ∂force/∂y tangents at the samples leave out of these cells.
-
-    Parameters
-    ----------
-    found
-        The cells of a period.
-    basis
-        Map from the coordinates y to the points, shape ``(3 points, rank)``.
-    frequency
-        [rad/s].
-    samples
-        Per period.
-    places
-        Of the coefficients among the unknowns, ``(2H + 1, rank)``; negative ones are
-        left out.
-    """
+    """Return the same of the cells of a period."""
     term, coordinate = np.nonzero(places >= 0)
     orders = (np.arange(len(places)) + 1) // 2
     fading = hat(len(places) // 2, samples)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.structure.condensation import CondensedStructure
+from hbm.structure.condensed_structure import CondensedStructure
 from microslip_mechanics.arrays import Array, ComplexArray
 
 NEAR = 2.0

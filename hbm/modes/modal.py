@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,25 +15,15 @@ from hbm.modes.first_order import FirstOrder, first_order
 from hbm.modes.free_motion import FreeMotion
 from hbm.modes.modal_parts import ModalParts, Reference
 from hbm.modes.modal_tangents import ModalTangents
+from hbm.modes.modal_unknowns import ModalUnknowns, pair
 from microslip_mechanics.arrays import Array, ComplexArray
-
-STRIDE = 0.01
-"""change of the pole, over that of the linear mode, that counts as one unit of arc"""
-FARTHER = 0.2
-"""change of the pole, over that since the linear mode, that does so where it is more"""
-FARTHEST = 60.0
-"""of log a, either way, that a trial may go"""
-FAINT = 1e-2
-"""relative motion over the amplitude, below which its changes count less"""
 
 
 class ModalBalance:
     """Residual of a nonlinear mode with a fixed number of harmonics and samples.
 
-    A point is the flat array of coefficients, shape (2H + 1, rank + count + 1),
-    followed by log a. The columns are (y − rest)/a, then η/a and s over the modulus of
-    the linear pole, which have order 1 alone. It may carry more harmonics than are
-    solved for: those are ignored. Residuals are over a times the modal stiffness.
+    Points are those of :class:`~hbm.modes.modal_unknowns.ModalUnknowns`. Residuals are
+    over the amplitude times the modal stiffness.
     """
 
     def __init__(
@@ -48,54 +37,17 @@ class ModalBalance:
         """Plan; ``active`` coefficients of y, (2H + 1, rank), are sought."""
         self.problem, self.free, self.reference = problem, free, reference
         self.fourier, self.rank = fourier, problem.rank
-        self.width = self.rank + free.count + 1
+        self.unknowns = ModalUnknowns(active, free.count, reference.pole)
         self._speed = abs(reference.pole)
         self._active = active
         self._wanted = np.vstack([active[:1], active[1::2]])
         self._contact = problem.contact(fourier)
         self._tangents = ModalTangents(self._contact, active)
         self._orders = np.arange(fourier.harmonics + 1)
-        wide = np.arange(fourier.coefficients * self.width).reshape(-1, self.width)
-        self._inner = wide[:, : self.rank][active]
-        self._outer = wide[1:3, self.rank :].ravel()
+        self._inner, self._outer = self.unknowns.places
         self._still = np.zeros(active.shape)
         self._still[0] = problem.rest
         self._held = self._contact(self._still, self._speed)
-
-    def point(self, parts: ModalParts, size: int) -> Array:
-        """Return the point of some parts, with ``size`` components."""
-        point = np.zeros(size)
-        table = point[:-1].reshape(-1, self.width)
-        table[: len(parts.shape), : self.rank] = parts.shape
-        pole = parts.pole / self._speed
-        table[1:3, self.rank :] = _pair(np.append(parts.modal, pole))
-        point[-1] = math.log(parts.amplitude)
-        return point
-
-    def parts(self, point: Array) -> ModalParts:
-        """Return what a point means."""
-        table = point[:-1].reshape(-1, self.width)[: self.fourier.coefficients]
-        values = table[1, self.rank :] - 1j * table[2, self.rank :]
-        return ModalParts(
-            np.where(self._active, table[:, : self.rank], 0.0),
-            values[:-1],
-            complex(values[-1] * self._speed),
-            math.exp(min(max(point[-1], -FARTHEST), FARTHEST)),
-        )
-
-    def metric(self, point: Array) -> Array:
-        """Return the change of each component that counts as one unit of arc.
-
-        Relative changes of the relative motion and of the amplitude each, and
-        :data:`STRIDE` of the linear mode's pole, or :data:`FARTHER` of how far the pole
-        has moved if that is more.
-        """
-        table = point[:-1].reshape(-1, self.width)
-        scale = np.ones_like(table)
-        scale[:, : self.rank] = np.linalg.norm(table[1:, : self.rank]) + FAINT
-        moved = table[1:3, -1] - _pair(np.array(self.reference.pole / self._speed))
-        scale[:, -1] = max(STRIDE, FARTHER * float(np.linalg.norm(moved)))
-        return np.append(scale.ravel(), 1.0)
 
     def impulses(self, above: int, most: int) -> float:
         """Return the norm of the contact impulses between two orders, last call."""
@@ -106,9 +58,9 @@ class ModalBalance:
 
         That is the last one made.
         """
-        parts, beyond = self.parts(point), slice(above + 1, None)
+        parts, beyond = self.unknowns.parts(point), slice(above + 1, None)
         variable, wanted = self._others(parts.pole)[beyond], self._wanted[beyond]
-        missing = residual.reshape(-1, self.width)[:, : self.rank]
+        missing = residual.reshape(-1, self.unknowns.width)[:, : self.rank]
         step = np.zeros((len(self._orders), self.rank), complex)
         step[beyond] = answers(
             self.problem.condensed.dynamic_stiffness(variable, wanted),
@@ -118,12 +70,12 @@ class ModalBalance:
             self.reference.stiffness * to_complex(missing)[beyond],
         )
         whole = np.zeros(point.size)
-        whole[:-1].reshape(-1, self.width)[:, : self.rank] = to_real(step)
+        whole[:-1].reshape(-1, self.unknowns.width)[:, : self.rank] = to_real(step)
         return whole
 
     def motion(self, point: Array) -> Array:
         """Return the coefficients of the motion about rest [m], (2H + 1, dofs)."""
-        parts, condensed = self.parts(point), self.problem.condensed
+        parts, condensed = self.unknowns.parts(point), self.problem.condensed
         amplitudes = to_complex(parts.shape)
         none = np.zeros((len(amplitudes), len(condensed.static)), complex)
         moved = condensed.motion(self._others(parts.pole), amplitudes, none)
@@ -136,7 +88,7 @@ class ModalBalance:
 
     def _evaluated(self, point: Array) -> tuple[Array, _State]:
         """Return the residual, and what led to it."""
-        parts = self.parts(point)
+        parts = self.unknowns.parts(point)
         amplitudes = to_complex(parts.shape)
         first = first_order(self.free, self.reference, parts)
         condensed, variable = self.problem.condensed, self._others(parts.pole)
@@ -157,7 +109,7 @@ class ModalBalance:
         whole = np.zeros(point.size - 1)
         balance = to_real(left) + reaction
         whole[self._inner] = balance[self._active] / self.reference.stiffness
-        whole[self._outer] = _pair(first.imbalance).ravel()
+        whole[self._outer] = pair(first.imbalance).ravel()
         return whole, _State(parts, first, stiffness, by_pole, reaction)
 
     def __call__(self, point: Array) -> tuple[Array, Linearisation]:
@@ -219,8 +171,3 @@ class _State:
     """forces of the structure by s of each order, shape (H + 1, rank)"""
     reaction: Array
     """change of the contact forces from rest, over a, shape (2H + 1, rank)"""
-
-
-def _pair(values: ComplexArray) -> Array:
-    """Return real parts and negative imaginary parts, as rows."""
-    return np.stack([values.real, -values.imag])

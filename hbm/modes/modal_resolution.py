@@ -16,7 +16,9 @@ from hbm.modes.free_motion import FreeMotion
 from hbm.modes.linear_modes import LinearMode
 from hbm.modes.modal import ModalBalance
 from hbm.modes.modal_parts import ModalParts, Reference
-from hbm.resolution.resolution import Estimate, Resolution
+from hbm.modes.modal_unknowns import ModalUnknowns
+from hbm.resolution.estimate import Estimate
+from hbm.resolution.resolution import Resolution
 from microslip_mechanics.arrays import Array
 
 DAMPING, FREQUENCY = 0, 2
@@ -65,7 +67,7 @@ class ModalResolution(Resolution):
         counts; one, which the others are compared with; and :data:`STRICTER` times the
         relative change of the frequency since the first point.
         """
-        poles = np.array([self._coarsest.parts(point).pole for point in points])
+        poles = np.array([self._unknowns.parts(point).pole for point in points])
         least = max(abs(poles[0].real), FAINTEST * abs(poles[0]))
         ones = np.ones(len(points))
         turned = STRICTER * (np.abs(poles) / abs(poles[0]) - 1.0)
@@ -88,7 +90,7 @@ class ModalResolution(Resolution):
 
     def metric(self, point: Array) -> Array:
         """Return the change of each component that counts as one unit of arc."""
-        return self._coarsest.metric(point)
+        return self._unknowns.metric(point)
 
     def start(self, logarithm: float, size: int) -> Array:
         """Return the point of the linear mode at log a, with ``size`` components."""
@@ -98,8 +100,9 @@ class ModalResolution(Resolution):
         shape[1], shape[2] = relative.real, -relative.imag
         modal = self._free.modal(pole, relative, motion)
         parts = ModalParts(shape, modal, pole, math.exp(logarithm))
-        return self._coarsest.point(parts, size)
+        return self._unknowns.point(parts, size)
 
     @property
-    def _coarsest(self) -> ModalBalance:
-        return self.at(FourierBasis(1, 8))
+    def _unknowns(self) -> ModalUnknowns:
+        """Those up to order 1."""
+        return self.at(FourierBasis(1, 8)).unknowns

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from hbm.balance.jacobian import assemble, terms
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.fourier import derivative
+from hbm.forces.touch_factors import touch_factors
 from hbm.modes.modal_parts import ModalParts
 from microslip_mechanics.arrays import Array, ComplexArray
 
@@ -40,7 +41,7 @@ class ModalTangents:
             pole.real,
         )
         self._contact.add_remembered(self._places, matrix)
-        touched = self._contact.touched(self._places)
+        touched = touch_factors(self._contact, self._places)
         if touched is not None:
             matrix += touched.matrix
         return matrix

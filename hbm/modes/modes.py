@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.balance.active import moving, symmetric
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.leaps import Leaping
 from hbm.continuation.step_control import StepControl
+from hbm.continuation.tracing import Tracing
 from hbm.errors import ContinuationError, placed
 from hbm.forces.fourier import derivative
 from hbm.modes.free_motion import free_motion
@@ -114,21 +115,16 @@ def nonlinear_mode(
         most=MOST,
         effort=Effort(options.effort),
     )
+    control = StepControl(
+        tolerance=options.tolerance, smallest=SHORTEST, sharpest_turn=SHARPEST
+    )
     with one_thread(), placed(_millimetres):
-        for correction in Leaping(
-            system,
-            resolution.start(math.log(options.smallest), system.size),
-            math.log(options.largest),
-            resolution.metric,
-            StepControl(
-                tolerance=options.tolerance,
-                smallest=SHORTEST,
-                sharpest_turn=SHARPEST,
-            ),
-            system,
-        ):
+        start = resolution.start(math.log(options.smallest), system.size)
+        end, begin = math.log(options.largest), float(start[-1])
+        tracing = Tracing(system, end, begin, resolution.metric, control, system)
+        for correction in Leaping(tracing, start):
             yield _mode(problem, rest, resolution, system, correction)
-    if correction.point[-1] < math.log(options.largest):
+    if correction.point[-1] < end:
         raise ContinuationError(
             f"the mode turns back to {options.smallest:g} m before it reaches "
             f"{options.largest:g} m: more harmonics help, or a smaller range"
@@ -172,7 +168,7 @@ def _mode(
     """Return the mode at a settled point."""
     point, fourier, error = system.report.kept(correction.point)
     balance = resolution.at(fourier)
-    motion, pole = balance.motion(point), balance.parts(point).pole
+    motion, pole = balance.motion(point), balance.unknowns.parts(point).pole
     first = problem.probes.rows @ (motion[1] - 1j * motion[2])
     motion[0] += rest.displacement
     errors, estimate = (error, error), system.estimate

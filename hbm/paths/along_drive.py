@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,9 +10,12 @@ from numpy.typing import NDArray
 
 from hbm.balance.parametric import ParametricBalance
 from hbm.balance.relative import RelativeProblem
+from hbm.continuation.correction import Correction
+from hbm.errors import PLACE, ContinuationError
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path import Path
 from hbm.stability.stability import SmallMotions
+from microslip_mechanics.arrays import Array
 
 LEAST, UNIT = 0.01, 0.1
 """drive at which a curve may begin and what counts as one unit of it, over the whole"""
@@ -61,3 +65,18 @@ class AlongDrive:
 def driven(problem: RelativeProblem, share: float) -> RelativeProblem:
     """Return the problem under a share of its drive."""
     return replace(problem, force=problem.force * np.array([[1.0], [share]]))
+
+
+def whole_drive(corrections: Iterable[Correction], place: float) -> Array:
+    """Return the last point of a path along the drive, at a place of another.
+
+    Raises
+    ------
+    ContinuationError
+        If the drive is not the whole one there.
+    """
+    for last in corrections:
+        point = last.point
+    if point[-1] < 1.0:
+        raise ContinuationError(f"the drive falls again at {PLACE}", place)
+    return point

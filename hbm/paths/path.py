@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from hbm.balance.active import PROBE, extended, moving, symmetric
 from hbm.balance.balance import Balance
-from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.relative import RelativeProblem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.balance.rigid import with_pushes
 from hbm.forces.fourier import FourierBasis

@@ -9,34 +9,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from hbm.continuation.arc import upright
 from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.effort import Effort
 from hbm.continuation.linearised import Linearised, SingularError
 from hbm.continuation.newton import Small, correct
 from hbm.forces.fourier import FourierBasis
+from hbm.resolution.estimate import Estimate
 from hbm.resolution.report import Report
-from hbm.resolution.resolution import Estimate, Resolution
-from hbm.resolution.resolution_choice import FEWEST, ResolutionChoice
+from hbm.resolution.resolution import Resolution
+from hbm.resolution.resolution_choice import ResolutionChoice
+from hbm.resolution.resolution_steps import ResolutionSteps
 from hbm.structure.superharmonics import Superharmonics
 from microslip_mechanics.arrays import Array
 
 HARMONICS = 255
 """most that are solved for"""
-STEEP = 0.05
-"""error at constant parameter from which a fold may be near"""
-SHORT = 0.01
-"""step from which on less is tried"""
-WAIT = 10
-"""points before less is tried again, where more was needed"""
 PERSEVERANCE = 30
 """iterations of Newton after the resolution has been raised"""
-PATIENCE, FEW, PATIENT = 3, 8, 6
-"""failures in a row before the resolution is raised: with fewer harmonics than the
-second the first, else the third; what goes round a corner takes short steps, not more
-"""
-RAISES = 4
-"""times that it is raised for failures"""
 STRAIGHT = 0.8
 """cosine between the tangents where a point is settled and where it is reported, below
 which the first belongs to a fold that more harmonics do not have
@@ -71,12 +60,11 @@ class AdaptiveBalance:
         they turn the tangent with every harmonic.
         """
         self._resolution, self._tolerance, self._most = resolution, tolerance, most
-        self.fourier = self.settled = self._kept = start
-        self._pushed = pushed
-        self._wait, self._effort = 0, effort or Effort()
+        self._steps = ResolutionSteps(
+            ResolutionChoice(tolerance, most, start.threshold), start
+        )
+        self._pushed, self._effort = pushed, effort or Effort()
         self._superharmonics = Superharmonics()
-        self._sharpest, self._fewest = 0.0, FEWEST
-        self._choice = ResolutionChoice(tolerance, most, start.threshold)
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold or none is asked for"""
@@ -97,28 +85,32 @@ class AdaptiveBalance:
         finally:
             self.fourier = own
 
-    def restart(self, harmonics: int) -> None:
-        """Begin anew with so many harmonics, or the most, unless they are fixed."""
-        if self._tolerance is not None:
-            self.fourier = self._kept = self._choice.anew(harmonics)
-            self._sharpest, self._fewest = 0.0, FEWEST
+    @property
+    def fourier(self) -> FourierBasis:
+        """The present resolution."""
+        return self._steps.present
 
-    def raise_floor(self) -> bool:
-        """Take twice the harmonics of the last kept point, or the most, from now on.
+    @fourier.setter
+    def fourier(self, fourier: FourierBasis) -> None:
+        self._steps.present = fourier
 
-        And as many samples as are usual. Return whether that is more; never if they are
-        fixed.
-        """
-        if self._tolerance is None:
-            return False
-        before = self._kept
-        self.fourier = self._kept = self._fewest = self._choice.raised(before)
-        return self._kept != before
+    @property
+    def settled(self) -> FourierBasis:
+        """Resolution of the last settled point."""
+        return self._steps.settled
 
     @property
     def changed(self) -> bool:
         """Whether the resolution is another one than that of the last kept point."""
-        return self.fourier != self._kept
+        return self._steps.changed
+
+    def restart(self, harmonics: int) -> None:
+        """Begin anew with so many harmonics, or the most, unless they are fixed."""
+        self._steps.restart(harmonics)
+
+    def raise_floor(self) -> bool:
+        """Take more from now on; return whether that is so, never if it is fixed."""
+        return self._steps.raise_floor()
 
     def straightened(self, correction: Correction, scale: Array) -> Array | None:
         """Return a guess with more harmonics, if these have another tangent."""
@@ -127,11 +119,11 @@ class AdaptiveBalance:
         reported, _ = self.report.reported(correction, scale)
         ways = correction.along / scale, reported.along / scale
         sizes = [float(np.linalg.norm(way)) for way in ways]
-        finer = self._choice.doubled(self.fourier)
+        finer = self._steps.doubled
         straight = float(ways[0] @ ways[1]) >= STRAIGHT * sizes[0] * sizes[1]
         if straight or finer == self.fourier:
             return None
-        self.fourier, self._wait = finer, WAIT
+        self._steps.refine(finer)
         return reported.point
 
     def overlooks(self, point: Array, scale: Array, step: float) -> bool:
@@ -143,35 +135,13 @@ class AdaptiveBalance:
         return self._superharmonics.passed(waves[:, 0] - 1j * waves[:, 1], step)
 
     def keep(self, step: float = math.inf) -> None:
-        """Let the next point have the resolution that the last one asks for.
-
-        A coarser one only after a step that is longer than what this may move a point:
-        it would not find the way round a corner that the finer one has seen.
-        """
-        self._kept, self._wait = self.settled, self._wait - 1
+        """Let the next point have the resolution that the last one asks for."""
         self._superharmonics.keep()
-        if self.estimate is not None and self._wait <= 0 and step >= SHORT:
-            self.fourier = self._choice.coarser(
-                self.fourier, self.estimate, self._fewest
-            )
-            self._sharpest = 0.0
+        self._steps.keep(self.estimate, step)
 
     def retreat(self, times: int) -> None:
-        """Go back to the resolution of the last kept point, then to finer ones.
-
-        Coarse samples make the residual less smooth than the contacts are. What fails
-        with the resolution that worked before does not fail for want of it: less is
-        tried again at the next point.
-        """
-        tried, kept = self.fourier, self._kept
-        if tried.harmonics < kept.harmonics or tried.samples < kept.samples:
-            self._wait = WAIT
-        self.fourier = kept
-        if self._tolerance is not None:
-            patience = PATIENCE if kept.harmonics < FEW else PATIENT
-            for _ in range(min(times // patience, RAISES)):
-                self.fourier = self._choice.doubled(self.fourier)
-                self._wait = 0
+        """Go back to the resolution of the last kept point, then to finer ones."""
+        self._steps.retreat(times)
 
     def settle(
         self,
@@ -196,13 +166,13 @@ class AdaptiveBalance:
         failed.
         """
         while True:
-            self.settled = self.fourier
+            self._steps.settle()
             correction = replace(correction, point=self._truncated(correction.point))
             asked = self._asked(correction, normal, share, across)
             if asked is None:
                 return correction
             finer, guess = asked
-            self.fourier, self._wait = finer, WAIT
+            self._steps.refine(finer)
             again = correct(
                 self,
                 guess,
@@ -212,9 +182,7 @@ class AdaptiveBalance:
                 max_iterations=PERSEVERANCE,
             )
             converged = again.outcome is Outcome.CONVERGED
-            sharper = finer.threshold < self.settled.threshold
-            if not converged and sharper and self._exhausted:
-                self.fourier, self._sharpest = self.settled, self.settled.threshold
+            if not converged and self._steps.blunted():
                 continue
             correction = replace(
                 again, residuals=correction.residuals[:-1] + again.residuals
@@ -243,35 +211,18 @@ class AdaptiveBalance:
         if not self._estimates:
             return None
         try:
-            self.estimate = self._estimated(correction, normal, across)
+            estimate = (
+                self._resolution.estimate if across else self._resolution.least_estimate
+            )
+            self.estimate = estimate(correction, self.fourier, normal)
         except SingularError:
             self.estimate = None
             return None
-        sharpest = self._sharpest if self._exhausted else 0.0
-        finer = self._choice.finer(self.fourier, self.estimate, share, sharpest)
+        finer = self._steps.finer(self.estimate, share)
         lost = share < 1.0 and math.isinf(self.estimate.error)
         if finer == self.fourier or lost:
             return None
         return finer, self.estimate.corrected
-
-    def _estimated(
-        self, correction: Correction, normal: Array, across: bool
-    ) -> Estimate:
-        """Return the error at constant parameter or, where that is steep, across."""
-        if across:
-            return self._resolution.estimate(correction, self.fourier, normal)
-        estimate = self._resolution.estimate(
-            correction, self.fourier, upright(correction.point)
-        )
-        if self._resolution.steepness(estimate) < STEEP:
-            return estimate
-        other = self._resolution.estimate(correction, self.fourier, normal)
-        return min(estimate, other, key=self._resolution.steepness)
-
-    @property
-    def _exhausted(self) -> bool:
-        """Whether the last settled point has the most harmonics."""
-        return self.settled.harmonics >= self._most
 
     def _truncated(self, point: Array) -> Array:
         """Return a point without what a finer one before has left in higher orders."""

@@ -9,7 +9,7 @@ from hbm.continuation.arc import tangent
 from hbm.continuation.correction import Correction
 from hbm.continuation.linearised import SingularError
 from hbm.forces.fourier import FourierBasis
-from hbm.resolution.resolution import Estimate
+from hbm.resolution.estimate import Estimate
 from hbm.resolution.resolution_choice import MARKED
 from microslip_mechanics.arrays import Array
 

@@ -2,78 +2,28 @@
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from hbm.balance.beyond import answered, stepped, wider
 from hbm.balance.refined import Refined, Resolved, refined
+from hbm.continuation.arc import upright
 from hbm.continuation.correction import Correction
-from hbm.continuation.linearised import Linearised
 from hbm.forces.fourier import FourierBasis
+from hbm.resolution.estimate import BEYOND, Estimate, changes
 from microslip_mechanics.arrays import Array, ComplexArray, largest
 
+STEEP = 0.05
+"""error at constant parameter from which a fold may be near"""
 SMOOTHER = 1e-3
 """relative change of a threshold velocity that tells what it does"""
 MORE = 4
 """times the samples after the steps, with which marches tell what these err"""
-BEYOND = 1.5
-"""times that all harmonics beyond may change what the next octave seems to change"""
 TURNING = 0.25
 """share of a phasor's change that counts where its length just has an extremum"""
-
-
-@dataclass(frozen=True, slots=True)
-class Estimate:
-    """What Newton steps at twice the resolution say of a point, and leave."""
-
-    change: float
-    """relative change of the amplitude by the steps"""
-    truncation: float
-    """relative error after the steps: by harmonics that are left out, and by what
-    further steps would change; infinite if they lead to no point"""
-    sampling: float
-    """by the distance of the samples"""
-    smoothing: float
-    """by friction that is not resolved"""
-    shift: float
-    """change of the parameter by the steps, across a fold"""
-    aside: float
-    """error of the parameter after them"""
-    fourier: FourierBasis
-    """resolution of the corrected point"""
-    made: Refined
-    """what the steps came to"""
-    values: Array
-    """by whose changes errors are measured, in the order of :func:`_changes`"""
-
-    @property
-    def corrected(self) -> Array:
-        """The point after the steps."""
-        return self.made.corrected
-
-    @property
-    def slope(self) -> Linearised:
-        """The derivative of the residual about there."""
-        return self.made.slope
-
-    def of(self, value: int) -> tuple[float, float]:
-        """Return how one of the values changes by the steps, and its error after."""
-        change, truncation, sampling = _changes(self.values[:, [value]], self.made)
-        return change, truncation + sampling
-
-    @property
-    def error(self) -> float:
-        """That of the corrected point."""
-        return self.truncation + self.sampling + self.smoothing
-
-    @property
-    def before(self) -> float:
-        """That of the point before the steps."""
-        return self.change + self.error
 
 
 class Resolution(ABC):
@@ -134,8 +84,8 @@ class Resolution(ABC):
         )  # fmt: skip
         sizes = self.amplitudes(points)
         places = np.array([each[-1:] for each in points])
-        change, truncation, sampling = _changes(sizes, made)
-        shift, *aside = _changes(places, made)
+        change, truncation, sampling = changes(sizes, made)
+        shift, *aside = changes(places, made)
         smoothing, moved = self._smoothing(correction, fourier, normal)
         size = max(float(sizes[0].max(initial=0.0)), self.least(point)) or 1.0
         turned = largest(np.abs(np.subtract(*self.phasors((beyond, made.corrected)))))
@@ -150,6 +100,19 @@ class Resolution(ABC):
             made,
             sizes,
         )
+
+    def least_estimate(
+        self, correction: Correction, fourier: FourierBasis, normal: Array
+    ) -> Estimate:
+        """Return the error at constant parameter or, where that is steep, across.
+
+        Arguments and errors are those of :meth:`estimate`.
+        """
+        estimate = self.estimate(correction, fourier, upright(correction.point))
+        if self.steepness(estimate) < STEEP:
+            return estimate
+        other = self.estimate(correction, fourier, normal)
+        return min(estimate, other, key=self.steepness)
 
     def _beyond(self, made: Refined, finer: FourierBasis, normal: Array) -> Array:
         """Return the point after the steps once orders beyond have moved it.
@@ -196,19 +159,3 @@ class Resolution(ABC):
         other = self.at(smoother).residual(correction.point)
         slope = (other - correction.residual) / SMOOTHER
         return correction.linearised.solve(normal, np.append(slope, 0.0))
-
-
-def _changes(values: Array, made: Refined) -> tuple[float, float, float]:
-    """Return how values change by steps, and how far they are off after them.
-
-    That is by harmonics, and by samples. The rows of ``values`` are those of a point,
-    of it solved, solved with more samples, before the last step, after it, of that once
-    harmonics beyond have answered, and with still more samples, if these count.
-    """
-    before, solved, resampled, after, last, beyond, *finest = values
-    truncation = made.beyond * largest(last - resampled)
-    truncation = max(truncation, BEYOND * largest(beyond - last))
-    lost = math.isinf(made.left)
-    truncation += math.inf if lost else made.left * largest(last - after)
-    sampling = [resampled - solved, *(each - last for each in finest)]
-    return largest(last - before), truncation, max(map(largest, sampling))

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 from hbm.forces.fourier import FourierBasis, usual_samples
-from hbm.resolution.resolution import Estimate
+from hbm.resolution.estimate import Estimate
 
 FEWEST, MOST_SAMPLES = FourierBasis(1, 32, math.inf), 16384
 """least resolution, and most samples, that are chosen"""

@@ -25,9 +25,9 @@ def dynamic_stiffness(
 ) -> ComplexArray:
     """Return S(s) of the coordinates wanted, (orders, rank, rank) (theory, eq. 15).
 
-    Arguments are those of a :class:`~hbm.structure.condensation.CondensedStructure`,
-    couplings by rows of y, shape (rank, poles); ``variable`` is s, ``wanted`` (orders,
-    rank).
+    Arguments are those of a
+    :class:`~hbm.structure.condensed_structure.CondensedStructure`, couplings by rows of
+    y, shape (rank, poles); ``variable`` is s, ``wanted`` (orders, rank).
     """
     orders, (rank, count) = variable.size, viscous.shape
     value = np.zeros((orders, rank, rank), np.complex128)

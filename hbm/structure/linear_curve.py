@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.optimize
 
-from hbm.structure.condensation import CondensedStructure
+from hbm.structure.condensed_structure import CondensedStructure
 from microslip_mechanics.arrays import Array, ComplexArray
 
 EVENLY = 100

@@ -25,7 +25,8 @@ import numpy as np
 import hbm.balance.low_orders
 import hbm.forces.fourier
 from hbm.balance.active import extended, moving, symmetric
-from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.relative import RelativeProblem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.forces.fourier import FourierBasis, Transform
 from hbm.options import CurveOptions

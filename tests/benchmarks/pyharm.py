@@ -32,7 +32,7 @@ import numpy as np
 
 from benchmarks.pyharm_cases import Case, Evaluation, blisk, chain, contacts, duffing
 from benchmarks.pyharm_side import median
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.curves.periodic_response import periodic_response
 from hbm.errors import ContinuationError

@@ -25,7 +25,7 @@ sys.path.append(str(Path(__file__).parents[1]))
 import numpy as np
 import scipy.sparse
 
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.curves.periodic_response import periodic_response
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from contact_tables import contact_points
 from hbm.balance.active import extended, moving, symmetric
-from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.relative import RelativeProblem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.step_control import StepControl

@@ -11,7 +11,8 @@ from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from hbm.paths.path_resolution import PathResolution
-from hbm.resolution.adaptive import PATIENT, SHORT, WAIT, AdaptiveBalance
+from hbm.resolution.adaptive import AdaptiveBalance
+from hbm.resolution.resolution_steps import PATIENT, SHORT, WAIT
 from hbm.solve import frequency_response
 from honesty import VARIANTS, block, errors
 from microslip_mechanics.arrays import Array

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from free_structures import MASSES, chain
-from hbm.structure.condensation import CondensedStructure, condense
+from hbm.structure.condensation import condense
+from hbm.structure.condensed_structure import CondensedStructure
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.problem import Problem
 from rigs import rig_problem

@@ -10,7 +10,7 @@ from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from honesty import block
-from microslip.studies.curve import gathered
+from microslip.studies.gathered import gathered
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.static import static_equilibrium
 

@@ -17,6 +17,7 @@ from hbm.continuation.step_control import StepControl
 from hbm.curves.homotopy import approaches
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
 from hbm.forces.remembered import fits
+from hbm.forces.touch_factors import touch_factors
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from hbm.solve import frequency_response
@@ -151,7 +152,7 @@ def test_products_where_faces_part_are_those_of_the_jacobian() -> None:
     low = len(parts.corner)
     corner = linearised.jacobian[:low, :low]
     assert np.abs(parts.corner - corner).max() <= 1e-11 * np.abs(corner).max()
-    assert balance.contact.touched(places) is not None
+    assert touch_factors(balance.contact, places) is not None
 
 
 @lru_cache(maxsize=4)

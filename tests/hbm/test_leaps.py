@@ -10,6 +10,7 @@ from hbm.continuation.leaps import Leaping
 from hbm.continuation.linearised import System
 from hbm.continuation.settler import UNSETTLED
 from hbm.continuation.step_control import StepControl
+from hbm.continuation.tracing import Tracing
 from hbm.errors import ContinuationError
 from microslip_mechanics.arrays import Array
 from systems import Dense
@@ -33,14 +34,17 @@ def metric(point: Array) -> Array:
     return np.ones_like(point)
 
 
+def tracing(system: System) -> Tracing:
+    """Return what traces a system from where it starts to one."""
+    return Tracing(system, 1.0, float(START[-1]), metric, CONTROL, UNSETTLED)
+
+
 def test_a_gap_is_passed_along_the_tangent() -> None:
     system = parabola(0.55)
     with pytest.raises(ContinuationError):
         list(trace(system, START, 1.0, metric=metric, control=CONTROL))
 
-    points = [
-        each.point for each in Leaping(system, START, 1.0, metric, CONTROL, UNSETTLED)
-    ]
+    points = [each.point for each in Leaping(tracing(system), START)]
 
     places = np.array([x for _, x in points])
     assert np.all(np.diff(places) >= 0.0)
@@ -51,7 +55,7 @@ def test_a_gap_is_passed_along_the_tangent() -> None:
 
 
 def test_what_is_wider_than_a_leap_ends_the_curve() -> None:
-    leaping = Leaping(parabola(0.9), START, 1.0, metric, CONTROL, UNSETTLED)
+    leaping = Leaping(tracing(parabola(0.9)), START)
 
     points: list[Array] = []
     with pytest.raises(ContinuationError, match="not even past it"):

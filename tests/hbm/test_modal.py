@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.forces.fourier import FourierBasis
 from hbm.modes.free_motion import free_motion
 from hbm.modes.linear_modes import linear_modes
@@ -41,14 +41,16 @@ def balance_and_point(random: np.random.Generator) -> tuple[ModalBalance, np.nda
     shape += 1e-3 * random.normal(size=shape.shape)
     modal = free.modal(linear.pole, moved, linear.shape)
     parts = ModalParts(shape, modal, linear.pole * (1.0 + 0.01j), AMPLITUDE)
-    return balance, balance.point(parts, FOURIER.coefficients * balance.width + 1)
+    return balance, balance.unknowns.point(
+        parts, FOURIER.coefficients * balance.unknowns.width + 1
+    )
 
 
 def test_the_jacobian_is_the_derivative_of_the_residual() -> None:
     random = np.random.default_rng(3)
     balance, point = balance_and_point(random)
     _, linearised = balance(point)
-    unknown = np.zeros((FOURIER.coefficients, balance.width), dtype=bool)
+    unknown = np.zeros((FOURIER.coefficients, balance.unknowns.width), dtype=bool)
     unknown[:, : balance.rank] = True
     unknown[1:3] = True
     places = [*np.flatnonzero(unknown), point.size - 1]
@@ -71,7 +73,11 @@ def test_the_jacobian_is_the_derivative_of_the_residual() -> None:
 def test_the_first_harmonic_has_exact_derivatives() -> None:
     random = np.random.default_rng(5)
     balance, point = balance_and_point(random)
-    free, parts, row = balance.free, balance.parts(point), balance.reference.row
+    free, parts, row = (
+        balance.free,
+        balance.unknowns.parts(point),
+        balance.reference.row,
+    )
     values = random.normal(size=(2, balance.rank + free.count, 2)) @ [1.0, 1j]
 
     def at(share: float) -> tuple[np.ndarray, np.ndarray]:
@@ -92,7 +98,7 @@ def test_the_first_harmonic_has_exact_derivatives() -> None:
 
 def test_the_far_and_the_near_poles_are_the_whole_structure() -> None:
     balance, point = balance_and_point(np.random.default_rng(4))
-    free, parts = balance.free, balance.parts(point)
+    free, parts = balance.free, balance.unknowns.parts(point)
     relative = parts.shape[1] - 1j * parts.shape[2]
     near = free.near
     into = parts.pole * near.viscous + parts.pole**2 * near.inertial
@@ -123,7 +129,7 @@ def test_high_orders_of_a_tiny_motion_answer_until_nothing_is_left() -> None:
 
     left = balance.residual(point + balance.answer(point, residual, 1))
 
-    high = slice(3 * balance.width, None)
+    high = slice(3 * balance.unknowns.width, None)
     assert np.abs(residual[high]).max() > 1e-5
     assert np.abs(left[high]).max() < 1e-3 * np.abs(residual[high]).max()
     assert left[: high.start] == pytest.approx(residual[: high.start], abs=1e-6)

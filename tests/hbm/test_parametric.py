@@ -12,7 +12,7 @@ from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.paths.along_parameter import AlongParameter
 from microslip.scenes.quantity import SceneError
-from microslip.studies.curve import gathered
+from microslip.studies.gathered import gathered
 from microslip.studies.parameter import parameter
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem

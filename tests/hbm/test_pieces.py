@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-import hbm.continuation.cornered
+import hbm.continuation.tracing
 from hbm.continuation.corner import Turned
 from hbm.continuation.cornered import Cornered
 from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.effort import Effort
 from hbm.continuation.settler import Unsettled
 from hbm.continuation.step_control import StepControl
+from hbm.continuation.tracing import Tracing
 from hbm.curves.pieces import Pieces
 from hbm.curves.restart import FIRST
 from hbm.errors import ContinuationError
@@ -82,7 +83,7 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
         if reached != end:
             raise ContinuationError(f"the curve does not go on at {place:g}")
 
-    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
     monkeypatch.setattr("hbm.continuation.cornered.round_corner", lambda *_: None)
     monkeypatch.setattr(
         "hbm.curves.restart.approaches",
@@ -129,7 +130,7 @@ def test_a_curve_goes_on_from_where_more_harmonics_have_it_too(
         if not system.more:
             raise ContinuationError("the curve does not go on")
 
-    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
     monkeypatch.setattr("hbm.curves.pieces.path_metric", lambda *_: np.ones(2))
     loose = replace(pieces(0.0, 1.0, Finer()), control=StepControl(negligible=1e-5))
 
@@ -144,7 +145,7 @@ def test_what_more_harmonics_do_not_have_is_followed_back_with_few(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     square, more = Finer(ends=0.0), list[bool]()
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.tracing)[
         "trace"
     ]
 
@@ -152,7 +153,7 @@ def test_what_more_harmonics_do_not_have_is_followed_back_with_few(
         more.append(square.more)
         return traced(*given, **options)
 
-    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
     monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
 
     points = [each.point[-1] for each in pieces(0.0, 1.0, square)]
@@ -222,7 +223,7 @@ def test_a_curve_that_stops_is_followed_from_the_other_end(
 def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.tracing)[
         "trace"
     ]
 
@@ -232,7 +233,7 @@ def test_a_curve_that_stops_and_folds_back_at_the_other_end_is_not_whole(
         back = 1.0 if start[-1] == 1.0 else end
         return traced(system, start, back, **options)
 
-    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
     monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
 
     with pytest.raises(ContinuationError, match="does not go on at 0"):
@@ -272,7 +273,7 @@ def returned(
                 point, residual, linearised, Outcome.CONVERGED, (0.0,), along
             )
 
-    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
     return begun
 
 
@@ -288,7 +289,7 @@ def test_what_lies_between_curves_that_turn_back_is_sought(
 def test_what_resists_between_curves_that_turn_back_is_leaped_over(
     returned: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.tracing)[
         "trace"
     ]
 
@@ -300,7 +301,7 @@ def test_what_resists_between_curves_that_turn_back_is_leaped_over(
         if resists:
             raise ContinuationError("the curve does not go on at 0.45")
 
-    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
 
     points = [each.point[-1] for each in pieces(0.0, 1.0)]
 
@@ -323,7 +324,7 @@ def test_what_lies_between_curves_that_turn_back_and_is_not_found_is_told(
 def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
     begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.cornered)[
+    traced: Callable[..., Iterator[Correction]] = vars(hbm.continuation.tracing)[
         "trace"
     ]
 
@@ -334,7 +335,7 @@ def test_a_curve_that_does_not_begin_is_followed_from_the_other_end(
             raise ContinuationError("no response is found at 0")
         return traced(system, start, end, **options)
 
-    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
     monkeypatch.setattr("hbm.curves.restart.approaches", lambda *_, **__: iter(()))
 
     points = [each.point for each in pieces(0.0, 1.0)]
@@ -359,11 +360,12 @@ def test_behind_a_corner_a_piece_does_not_lead_back(
             raise ContinuationError("the curve does not go on")
 
     turned = Turned(np.array([1.0, 0.3]), np.array([0.0, 1.0]), folds=True)
-    monkeypatch.setattr("hbm.continuation.cornered.trace", trace)
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
     monkeypatch.setattr("hbm.continuation.cornered.round_corner", lambda *_: turned)
     square, start = Square(), np.array([1.0, 0.0])
 
-    _, found = Cornered(square, start, 1.0, 0.0, np.ones_like, StepControl(), square)
+    tracing = Tracing(square, 1.0, 0.0, np.ones_like, StepControl(), square)
+    _, found = Cornered(tracing, start)
 
     assert found.turns
     assert found.point[-1] == pytest.approx(0.3 + ahead)

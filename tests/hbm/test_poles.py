@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import microslip
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.modes.linear_modes import linear_modes
 from hbm.structure.poles import damping_ratios, followed, frequencies, poles
 from microslip_mechanics.static import StaticState

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from convergence import observed_order
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.step_control import StepControl

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.balance.rigid import with_pushes
 from hbm.continuation.correction import Outcome

@@ -20,9 +20,11 @@ from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from hbm.paths.path_resolution import PathResolution
 from hbm.paths.smoothness import FALL, smoothest
-from hbm.resolution.adaptive import WAIT, AdaptiveBalance
-from hbm.resolution.resolution import Estimate, Resolution
+from hbm.resolution.adaptive import AdaptiveBalance
+from hbm.resolution.estimate import Estimate
+from hbm.resolution.resolution import Resolution
 from hbm.resolution.resolution_choice import SHARPER
+from hbm.resolution.resolution_steps import WAIT
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem

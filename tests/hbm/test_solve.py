@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contact_tables import contact_points
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.curves.periodic_response import periodic_response, settled_response
 from hbm.errors import ContinuationError

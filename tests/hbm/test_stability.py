@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.curves.periodic_response import periodic_response
 from hbm.forces.fourier import FourierBasis

@@ -13,7 +13,7 @@ from flights import (
     remembering,
     rubbing_multipliers,
 )
-from hbm.balance.relative import relative_problem
+from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions

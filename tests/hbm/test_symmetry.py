@@ -7,9 +7,11 @@ import pytest
 from numpy.typing import NDArray
 
 from hbm.balance.active import extended, moving, symmetric
-from hbm.balance.relative import RelativeProblem, relative_problem
+from hbm.balance.relative import RelativeProblem
+from hbm.balance.relative_problem import relative_problem
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.fourier import FourierBasis
+from hbm.forces.touch_factors import touch_factors
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.coulomb import RegularisedCoulomb
 from microslip_mechanics.laws.unilateral import UnilateralSpring
@@ -128,7 +130,7 @@ def test_faces_that_part_in_half_a_period_part_in_the_other_too() -> None:
     for each in (dataclasses.replace(whole, odd=odd), whole):
         contact = each.contact(FourierBasis(3, 64))
         contact(moved, 1.0)
-        touched.append(contact.touched(places))
+        touched.append(touch_factors(contact, places))
 
     assert touched[0] is not None
     assert touched[1] is not None

@@ -9,12 +9,8 @@ from matplotlib.figure import Figure
 
 from figure_checks import check_lines, legend, unique, unmarked
 from microslip.figures.abscissa import abscissa
-from microslip.figures.amplitude import (
-    close_up,
-    crowd,
-    frequency_response,
-    stretches,
-)
+from microslip.figures.amplitude import frequency_response, stretches
+from microslip.figures.close_up import close_up, crowd
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 

@@ -27,7 +27,7 @@ from hbm.solve import frequency_response
 from microslip.files.result_file import load
 from microslip.interruption import heeded, unmasked
 from microslip.progress import shown
-from microslip.studies.curve import gathered
+from microslip.studies.gathered import gathered
 from microslip.studies.sweep import kept
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel

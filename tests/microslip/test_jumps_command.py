@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import traced_curves
-from microslip.commands.verify_tables import HELD
+from microslip.commands.verify_sweeps import HELD
 from microslip.figures.jumps import JumpLine, jumps_figure
 from microslip.studies.curve import Traced
 from microslip.studies.jumps.folds import Fold, folds_of

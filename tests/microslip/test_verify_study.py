@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from microslip.commands.verify_tables import sweep_rows
+from microslip.commands.verify_sweeps import sweep_rows
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
 from microslip.scenes.scene_file import load_scene

@@ -8,14 +8,9 @@ import pytest
 
 from microslip.commands.frc_tables import events, resolution, table
 from microslip.commands.verify_findings import Findings, verdict
-from microslip.commands.verify_tables import (
-    HELD,
-    march_rows,
-    marches_said,
-    orbit_rows,
-    sweep_rows,
-    sweeps_said,
-)
+from microslip.commands.verify_marches import march_rows, marches_said
+from microslip.commands.verify_orbits import orbit_rows
+from microslip.commands.verify_sweeps import HELD, sweep_rows, sweeps_said
 from microslip.studies.curve import Traced
 from microslip.studies.verify.orbits import Verdict
 from microslip.studies.verify.verify import SweepAgreement

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc
-from microslip.commands.verify_tables import HELD
+from microslip.commands.verify_sweeps import HELD
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:

@@ -6,7 +6,9 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from microslip.commands import verify_tables
+from microslip.commands.verify_marches import march_rows, marches_said
+from microslip.commands.verify_orbits import orbit_rows, orbits_said
+from microslip.commands.verify_sweeps import sweep_rows, sweeps_said
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -34,11 +36,11 @@ class Findings:
 def report(found: Findings) -> None:
     """Print what was found."""
     if found.orbits:
-        print(verify_tables.orbit_rows(found.orbits))
+        print(orbit_rows(found.orbits))
     if found.marches:
-        print(verify_tables.march_rows(found.marches, found.probes))
+        print(march_rows(found.marches, found.probes))
     if found.sweeps:
-        print(verify_tables.sweep_rows(found.sweeps))
+        print(sweep_rows(found.sweeps))
 
 
 def draw(found: Findings, curve: ResponseCurve, picture: Path, title: str) -> None:
@@ -78,13 +80,13 @@ def verdict(found: Findings, tolerance: float) -> int:
     from microslip.studies.verify.orbits import too_many
     from microslip.studies.verify.verify import falls
 
-    print(verify_tables.orbits_said(found.orbits))
+    print(orbits_said(found.orbits))
     agrees = not (too_many(found.orbits) or any(each.cause for each in found.orbits))
     if found.marches:
-        said, stays = verify_tables.marches_said(found.marches, found.probes, tolerance)
+        said, stays = marches_said(found.marches, found.probes, tolerance)
         print(said)
         agrees &= stays
     slows = falls(found.sweeps)
     if len(found.sweeps) > 1:
-        print(verify_tables.sweeps_said(found.sweeps, agree=slows, holds=found.holds))
+        print(sweeps_said(found.sweeps, agree=slows, holds=found.holds))
     return 0 if agrees and slows else 1

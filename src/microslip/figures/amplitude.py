@@ -1,12 +1,9 @@
-"""The amplitude of a curve, what is located on it, and a close-up of that."""
+"""The amplitude of a curve, where it is stable, and what is located on it."""
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.abscissa import abscissa, abscissa_name
 from microslip.figures.names import absolute, readable
@@ -27,14 +24,8 @@ MARKERS = {
 """for each event of a curve"""
 CHANGES = ("fold", "branch point", "Neimark-Sacker", "period doubling")
 """events at which stability may change"""
-NEAR = 0.07
-"""of both axes, by which what is located is apart at least, to be told apart well"""
-FLAT = 1e-3
-"""of an amplitude, that a close-up of it shows above and below at least"""
 STEEP = 1e6
 """largest amplitude over the smallest, from which on a curve is nothing but a spike"""
-BESIDE = 0.5
-"""of what is located, that a close-up shows to either side of it"""
 
 
 def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
@@ -53,7 +44,7 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
     if len(shown) < len(watched):
         axes.plot(
             abscissa(curve),
-            _highest(curve),
+            highest(curve),
             color="0.6",
             linewidth=WIDTH,
             label="largest",
@@ -65,10 +56,10 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
         title=f"First harmonic{some(shown, watched)}",
     )
     residual_range(axes, curve, shown)
-    _unstable(axes, curve)
-    _events(axes, curve)
-    highest = _highest(curve)
-    if np.nanmax(highest) > STEEP * np.nanmin(highest) > 0.0:
+    mark_unstable(axes, curve)
+    mark_events(axes, curve)
+    size = highest(curve)
+    if np.nanmax(size) > STEEP * np.nanmin(size) > 0.0:
         axes.set_yscale("log")
     else:
         from_nothing(axes)
@@ -77,8 +68,8 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
 
 def greatest(places: list[int], values: np.ndarray, count: int) -> list[int]:
     """Return the columns of ``values`` that come highest, in their order."""
-    highest = np.nanmax(values, axis=0, initial=0.0)
-    return sorted(sorted(places, key=lambda place: -highest[place])[:count])
+    largest = np.nanmax(values, axis=0, initial=0.0)
+    return sorted(sorted(places, key=lambda place: -largest[place])[:count])
 
 
 def some(shown: list[int], watched: list[int]) -> str:
@@ -87,67 +78,7 @@ def some(shown: list[int], watched: list[int]) -> str:
     return f": the greatest {len(shown)} of {len(watched)}" if few else ""
 
 
-def close_up(axes: Axes, curve: ResponseCurve) -> None:
-    """Draw the largest amplitude, and each point, where a crowd of events is."""
-    low, high = _window(curve)
-    at, size = abscissa(curve), _highest(curve)
-    stable, _ = stretches(curve)
-    line = np.where(stable, size, np.nan)
-    axes.plot(at, line, color=COLOURS[0], linewidth=WIDTH * 1.5, label=steady(curve))
-    axes.plot(at, size, ".", color=COLOURS[0], markersize=4.0, label="point")
-    _unstable(axes, curve)
-    _events(axes, curve)
-    inside = (at >= low) & (at <= high)
-    stretch = np.cumsum(~inside)  # the same for all points from coming in to leaving
-    shown = size[inside & np.isin(stretch, stretch[crowd(curve)])]
-    room = max(0.1 * float(np.ptp(shown)), FLAT * float(shown.max()))
-    of_several = ", largest of probes" if len(absolute(curve.probes)) > 1 else ""
-    framed(
-        axes,
-        x=abscissa_name(curve),
-        y="amplitude [mm]",
-        title=f"Close-up of the first harmonic{of_several}",
-    )
-    axes.set_xlim(low, high)
-    axes.set_ylim(shown.min() - room, shown.max() + room)
-    axes.ticklabel_format(useOffset=False)
-    axes.xaxis.set_major_locator(MaxNLocator(5))
-    axes.legend(frameon=False)
-
-
-def crowd(curve: ResponseCurve) -> list[int]:
-    """Return the points that are located too closely together to be told apart."""
-    places = [i for i, event in enumerate(curve.event) if event in MARKERS]
-    if not places:
-        return []
-    at, size = abscissa(curve), _highest(curve)
-    width, height = NEAR * np.ptp(at[np.isfinite(at)]), NEAR * np.nanmax(size)
-    near = {
-        place
-        for one, other in itertools.pairwise(sorted(places, key=lambda i: at[i]))
-        if abs(at[one] - at[other]) < width and abs(size[one] - size[other]) < height
-        for place in (one, other)
-    }
-    return sorted(near)
-
-
-def _window(curve: ResponseCurve) -> tuple[float, float]:
-    """Return the ends of a close-up: all that is located beside the crowd is in it."""
-    at = abscissa(curve)
-    located = [i for i, event in enumerate(curve.event) if event in MARKERS]
-    width = NEAR * np.ptp(at[np.isfinite(at)])
-    inside = at[crowd(curve)]
-    while True:
-        low, high = inside.min() - width, inside.max() + width
-        wider = at[[i for i in located if low <= at[i] <= high]]
-        if len(wider) == len(inside):
-            break
-        inside = wider
-    room = BESIDE * float(np.ptp(inside))
-    return float(inside.min()) - room, float(inside.max()) + room
-
-
-def _highest(curve: ResponseCurve) -> np.ndarray:
+def highest(curve: ResponseCurve) -> np.ndarray:
     """Return the largest amplitude of the absolute motions [mm], shape (points,)."""
     watched = absolute(curve.probes)
     found: np.ndarray = 1e3 * curve.amplitude[:, watched].max(axis=1, initial=0.0)
@@ -172,21 +103,21 @@ def steady(curve: ResponseCurve) -> str:
     return "curve" if (curve.unstable < 0).any() else "stable"
 
 
-def _unstable(axes: Axes, curve: ResponseCurve) -> None:
+def mark_unstable(axes: Axes, curve: ResponseCurve) -> None:
     """Draw over the unstable stretches."""
     _, unstable = stretches(curve)
     if not unstable.any():
         return
     axes.plot(
         abscissa(curve),
-        np.where(unstable, _highest(curve), np.nan),
+        np.where(unstable, highest(curve), np.nan),
         color="0.15",
         linewidth=WIDTH * 0.8,
         label="unstable",
     )
 
 
-def _events(axes: Axes, curve: ResponseCurve) -> None:
+def mark_events(axes: Axes, curve: ResponseCurve) -> None:
     """Mark what was located on the curve."""
     events = np.array(curve.event)
     for kind, marker in MARKERS.items():
@@ -194,7 +125,7 @@ def _events(axes: Axes, curve: ResponseCurve) -> None:
         if places.any():
             axes.plot(
                 abscissa(curve)[places],
-                _highest(curve)[places],
+                highest(curve)[places],
                 marker,
                 color="0.15",
                 markersize=6.0,

@@ -11,13 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.abscissa import abscissa, abscissa_name, one_way, parted
-from microslip.figures.amplitude import (
-    close_up,
-    crowd,
-    frequency_response,
-    greatest,
-    some,
-)
+from microslip.figures.amplitude import frequency_response, greatest, some
+from microslip.figures.close_up import close_up, crowd
 from microslip.figures.names import absolute, faces, force_kind, readable, relative
 from microslip.figures.style import (
     COLOURS,

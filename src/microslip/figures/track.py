@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -57,42 +58,62 @@ def track_figure(
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
     peaks = sorted(peaks)
-    places = [value for value, *_ in peaks]
-    sizes = [1e3 * each[-1] for each in (*peaks, *otherwise)]
-    values = sorted({*places, *(value for value, *_ in others)}) or [1.0]
+    places = {value for value, *_ in (*peaks, *others)}
     line = {"color": COLOURS[0], "linewidth": 0.0 if names else WIDTH}
-    left.plot(places, [1e3 * amplitude for *_, amplitude in peaks], "-^", **line)
-    if otherwise:
-        at, most = zip(*otherwise, strict=True)
-        left.plot(
-            at, [1e3 * each for each in most], "v",
-            color=COLOURS[0], fillstyle="none", label="with other residual tractions",
-        )  # fmt: skip
-        left.legend(frameon=False)
-    hertz = [frequency for _, frequency, _ in peaks]
-    right.plot(places, hertz, "-^", label="highest peak", **line)
-    for kind, marker in MARKERS.items():
-        seen = [(value, found) for value, name, found in others if name == kind]
-        if seen:
-            right.plot(
-                *zip(*seen, strict=True),
-                marker,
-                color="0.15",
-                fillstyle="none",
-                label=kind,
-            )
+    _draw_peaks(left, peaks, otherwise, line)
+    _draw_frequencies(right, peaks, others, line)
     for axes in (left, right):
-        _abscissa(axes, values, names)
+        _abscissa(axes, sorted(places) or [1.0], names)
     right.ticklabel_format(axis="y", useOffset=False)
     widened(right, error)
     framed(left, x=literal(key), y="amplitude [mm]", title="Highest peak")
-    _amplitudes(left, sizes)
+    _amplitudes(left, [1e3 * each[-1] for each in (*peaks, *otherwise)])
     framed(right, x=literal(key), y="frequency [Hz]", title="Where it happens")
     right.legend(frameon=False)
     for axes in (left, right):
         axes.margins(x=0.04)
     headline(figure, title)
     return figure
+
+
+def _draw_peaks(
+    axes: Axes,
+    peaks: Sequence[tuple[float, float, float]],
+    otherwise: Sequence[tuple[float, float]],
+    line: dict[str, Any],
+) -> None:
+    """Draw the amplitude of the highest peak."""
+    places = [value for value, *_ in peaks]
+    axes.plot(places, [1e3 * amplitude for *_, amplitude in peaks], "-^", **line)
+    if otherwise:
+        at, most = zip(*otherwise, strict=True)
+        axes.plot(
+            at, [1e3 * each for each in most], "v",
+            color=COLOURS[0], fillstyle="none", label="with other residual tractions",
+        )  # fmt: skip
+        axes.legend(frameon=False)
+
+
+def _draw_frequencies(
+    axes: Axes,
+    peaks: Sequence[tuple[float, float, float]],
+    others: Sequence[tuple[float, str, float]],
+    line: dict[str, Any],
+) -> None:
+    """Draw where the highest peak is, and the other events."""
+    places = [value for value, *_ in peaks]
+    hertz = [frequency for _, frequency, _ in peaks]
+    axes.plot(places, hertz, "-^", label="highest peak", **line)
+    for kind, marker in MARKERS.items():
+        seen = [(value, found) for value, name, found in others if name == kind]
+        if seen:
+            axes.plot(
+                *zip(*seen, strict=True),
+                marker,
+                color="0.15",
+                fillstyle="none",
+                label=kind,
+            )
 
 
 def _amplitudes(axes: Axes, sizes: Sequence[float]) -> None:

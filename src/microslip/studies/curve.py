@@ -17,6 +17,7 @@ from microslip.scenes.experiments import Curve
 from microslip.scenes.quantity import SceneError
 from microslip.studies.detached import Searched, search
 from microslip.studies.gaps import BROKEN, MISSING, told
+from microslip.studies.gathered import gathered
 from microslip.studies.prominent import prominent
 from microslip_mechanics.cyclic import CyclicProblem
 from microslip_mechanics.problem import Problem
@@ -171,28 +172,6 @@ def _lost(
         return found, f"{LOST}: {error}"
     except KeyboardInterrupt:
         return found, "interrupted"
-    return found, "complete"
-
-
-def gathered(
-    responses: Iterable[PeriodicResponse],
-) -> tuple[list[PeriodicResponse], str]:
-    """Return the responses until their source ends, stops or is interrupted, and why.
-
-    Raises
-    ------
-    ContinuationError, KeyboardInterrupt
-        If there is no response yet.
-    """
-    found: list[PeriodicResponse] = []
-    try:
-        with unmasked():
-            for response in responses:
-                found.append(response)  # noqa: PERF402  (what is there must be kept)
-    except (ContinuationError, KeyboardInterrupt) as cause:
-        if not found:
-            raise
-        return found, str(cause) or "interrupted"
     return found, "complete"
 
 

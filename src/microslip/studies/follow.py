@@ -9,8 +9,8 @@ from hbm.options import CurveOptions
 from microslip.progress import Watch
 from microslip.scenes.experiments import Resolution
 from microslip.scenes.rigs import solvable
-from microslip.studies.curve import gathered
 from microslip.studies.gaps import told
+from microslip.studies.gathered import gathered
 from microslip.studies.parameter import Parameter, told_along
 from microslip.studies.prominent import prominent
 from microslip_mechanics.problem import Problem

@@ -19,7 +19,8 @@ from hbm.solve import frequency_response
 from microslip.progress import Watch
 from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
 from microslip.scenes.scene import Scene
-from microslip.studies.curve import curve_options, gathered
+from microslip.studies.curve import curve_options
+from microslip.studies.gathered import gathered
 from microslip_mechanics.arrays import TINY
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction.reduction import reduced

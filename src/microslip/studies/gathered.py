@@ -1,0 +1,31 @@
+"""Responses gathered until their source ends, stops or is interrupted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from hbm.errors import ContinuationError
+from microslip.interruption import unmasked
+from microslip_mechanics.results.response import PeriodicResponse
+
+
+def gathered(
+    responses: Iterable[PeriodicResponse],
+) -> tuple[list[PeriodicResponse], str]:
+    """Return the responses until their source ends, stops or is interrupted, and why.
+
+    Raises
+    ------
+    ContinuationError, KeyboardInterrupt
+        If there is no response yet.
+    """
+    found: list[PeriodicResponse] = []
+    try:
+        with unmasked():
+            for response in responses:
+                found.append(response)  # noqa: PERF402  (what is there must be kept)
+    except (ContinuationError, KeyboardInterrupt) as cause:
+        if not found:
+            raise
+        return found, str(cause) or "interrupted"
+    return found, "complete"

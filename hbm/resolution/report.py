@@ -13,6 +13,9 @@ from hbm.resolution.estimate import Estimate
 from hbm.resolution.resolution_choice import MARKED
 from microslip_mechanics.arrays import Array
 
+WORTHLESS = 1.0
+"""error of a corrected point, relative, with which it tells less than the point"""
+
 
 @dataclass(frozen=True, slots=True)
 class Report:
@@ -32,14 +35,14 @@ class Report:
     def kept(self, point: Array) -> tuple[Array, FourierBasis, float]:
         """Return the settled point as it is to be reported, its resolution and error.
 
-        With a tolerance it is the corrected one; fixed harmonics stay what they are,
-        and have the error of what is not corrected.
+        With a tolerance it is the corrected one, unless all of that is in doubt; fixed
+        harmonics stay what they are, and have the error of what is not corrected.
         """
         if not self.estimates:
             return point, self.settled, math.nan
         if self.estimate is None or math.isinf(self.estimate.error):
             return point, self.settled, math.inf
-        if not self.corrects:
+        if self._as_settled(self.estimate):
             return point, self.settled, self.estimate.before
         return self.estimate.corrected, self.estimate.fourier, self.estimate.error
 
@@ -50,8 +53,12 @@ class Report:
             return math.nan
         if self.estimate is None or math.isinf(self.estimate.error):
             return math.inf
-        uncorrected = self.estimate.shift if not self.corrects else 0.0
-        return uncorrected + self.estimate.aside
+        shift = self.estimate.shift if self._as_settled(self.estimate) else 0.0
+        return shift + self.estimate.aside
+
+    def _as_settled(self, estimate: Estimate) -> bool:
+        """Return whether the point is reported as it was settled."""
+        return not self.corrects or estimate.error >= WORTHLESS
 
     def reported(
         self, correction: Correction, scale: Array

@@ -347,3 +347,23 @@ def test_motions_that_beat_are_told(run: Run) -> None:
 
     assert status == 0
     assert "cycles: several motions decay together and beat" in output
+
+
+@pytest.mark.parametrize(
+    ("step", "frequency", "stride"),
+    [(0.3, 5.0, 1), (0.05, 5.0, 1), (1e-3, 0.1, 1000)],
+    ids=["aliased", "four to a cycle", "of a drive that is slow"],
+)
+def test_rows_too_few_to_a_cycle_are_not_measured(
+    step: float, frequency: float, stride: int
+) -> None:
+    problem = system(mass=[1.0], stiffness=[1e3], damping_ratio=0.01)
+    start, march = Start(np.ones(1), np.zeros(1)), March(step, stride)
+
+    turning = 2.0 * np.pi * frequency
+    blocks = released(problem, start, march, frequency=turning, periods=40)
+    history = joined(list(blocks), "complete")
+
+    assert not measured(problem, history, 0).time.size
+    told = unmeasured(problem, history, 0)
+    assert re.match(r"x1 has [\d.]+ rows to a cycle, where .* need 12: give a ", told)

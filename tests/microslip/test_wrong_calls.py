@@ -34,8 +34,15 @@ def duffing() -> Any:
             r"elements = Element\(.*: give a list of microslip.Element",
         ),
         ({"elements": 3}, "elements = 3: give a list"),
-        ({"names": [1, "x"]}, "names of degrees of freedom: 1 is no text"),
-        ({"names": 3}, "names of degrees of freedom: 3 is no text"),
+        ({"names": [1, "x"]}, "names of degrees of freedom: 1 is no name: give a"),
+        ({"names": 3}, "names of degrees of freedom: 3 is no name"),
+        ({"names": ["x", None]}, "names of degrees of freedom: None is no name"),
+        ({"names": ["x", ""]}, "names of degrees of freedom: '' is no name"),
+        ({"probes": {1: "x1"}}, "probe 1: give a text as its name"),
+        ({"sets": [1]}, r"sets = \[1\]: give nodes by the name of their set, such as"),
+        ({"sets": {"face": "x1"}}, "sets: face = 'x1': give a list of nodes as texts"),
+        ({"sets": {"face": []}}, r"sets: face = \[\]: give a list of nodes"),
+        ({"sets": {"face": [1]}}, r"sets: face = \[1\]: give a list of nodes"),
         ({"damping_ratio": "1 %"}, "damping_ratio = '1 %': give a number such as 0.01"),
         ({"damping_ratio": ["a"]}, r"damping_ratio = \['a'\]: give a number"),
         ({"loss_factor": "1 %"}, "loss_factor = '1 %': give a number such as 0.01"),
@@ -83,7 +90,7 @@ def test_a_picture_is_not_what_is_saved(duffing: Any, tmp_path: Path) -> None:
     assert not (tmp_path / "x.png").exists()
 
 
-def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
+def call(name: str, /, *given: Any, **more: Any) -> Callable[[], object]:
     return lambda: getattr(microslip, name)(*given, **more)
 
 
@@ -101,6 +108,31 @@ def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
             "polynomial-spring: .* of power 'a': give",
         ),
         (call("PolynomialSpring", {3: "b"}), "polynomial-spring: coefficient 'b' of"),
+        (
+            call("Element", SPRING, ("x1", "ground"), name=5),
+            "Element: name = 5: give a text",
+        ),
+        (
+            call("Iwan", slip_force=1.0, stiffness=1e3, chi=0.0, beta=1.0, sliders=2.5),
+            "iwan: sliders = 2.5: is not a whole number: give one",
+        ),
+        (call("EngineOrder", "x1", 1, 1.0), "engine order: blades = 'x1': give a list"),
+        (
+            call("EngineOrder", [1], 1, 1.0),
+            r"engine order: blades = \[1\]: give a list",
+        ),
+        (
+            call("EngineOrder", ["x1"], "1", 1.0),
+            "engine order '1': give a whole number",
+        ),
+        (
+            call("EngineOrder", ["x1"], 1.5, 1.0),
+            "engine order 1.5: give a whole number",
+        ),
+        (
+            call("EngineOrder", ["x1"], 1, math.nan),
+            "engine order: amplitude nan: give a finite number",
+        ),
         (call("BaseMotion", [0, 0, math.nan], 1), "base: direction .*: give three"),
         (call("BaseMotion", "xyz", 1), "base: direction xyz: give three numbers"),
         (call("BaseMotion", [0, 0, 1], math.nan), "base: acceleration nan: give a"),

@@ -90,6 +90,21 @@ def test_a_picture_is_not_what_is_saved(duffing: Any, tmp_path: Path) -> None:
     assert not (tmp_path / "x.png").exists()
 
 
+@pytest.mark.parametrize("ending", ["toml", "csv", "npz", "TOML"])
+def test_a_result_is_not_saved_over_a_scene_a_table_or_a_matrix(
+    duffing: Any, tmp_path: Path, ending: str
+) -> None:
+    march = microslip.sweep(duffing, 4.0, 5.0, duration=0.1, time_step=1e-2)
+    place = tmp_path / f"mine.{ending}"
+    place.write_text("mine")
+
+    with pytest.raises(
+        microslip.MicroslipError, match=r"it writes netCDF: give .* ends with \.nc$"
+    ):
+        microslip.save(march, place)
+    assert place.read_text() == "mine"
+
+
 def call(name: str, /, *given: Any, **more: Any) -> Callable[[], object]:
     return lambda: getattr(microslip, name)(*given, **more)
 

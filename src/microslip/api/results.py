@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 REST = "microslip.curve, microslip.follow, microslip.sweep or microslip.load"
 PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
+OTHERS = (".toml", ".csv", ".npz", ".mtx", ".mat", ".txt", ".inp")
+"""endings of scenes, tables and matrices, which a result must not be written over"""
 
 
 def save(result: Result, path: str | PathLike[str]) -> None:
@@ -31,17 +33,20 @@ def save(result: Result, path: str | PathLike[str]) -> None:
     Raises
     ------
     MicroslipError
-        If the file cannot be written or is to be a picture, or the result is none.
+        If the file cannot be written or has the ending of a picture, a scene, a table
+        or a matrix, or the result is none.
     """
     from microslip.errors import GivenError
     from microslip.files import store
 
     _check(result, "microslip.save")
     place = _path(path, "microslip.save")
-    if place.suffix.lower() in PICTURES:
+    ending = place.suffix.lower()
+    if ending in PICTURES + OTHERS:
+        drawn = "; microslip.figure(result).savefig(path) writes a picture"
         raise GivenError(
             f"microslip.save: {path}: it writes netCDF: give a name that ends with "
-            ".nc; microslip.figure(result).savefig(path) writes a picture"
+            f".nc{drawn if ending in PICTURES else ''}"
         )
     store.save(place, store.Stored(result, "", "microslip.save"))
 

@@ -18,7 +18,14 @@ from microslip.figures.amplitude import (
     greatest,
     some,
 )
-from microslip.figures.names import absolute, faces, force_kind, readable, relative
+from microslip.figures.names import (
+    absolute,
+    faces,
+    force_kind,
+    listed,
+    listed_motion,
+    relative,
+)
 from microslip.figures.style import (
     COLOURS,
     SHORT,
@@ -29,6 +36,7 @@ from microslip.figures.style import (
     headline,
     legend_above,
     plain_logarithmic,
+    widened,
 )
 from microslip_mechanics.results.response_curve import ResponseCurve
 
@@ -109,7 +117,7 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
             style,
             color=colour,
             linewidth=WIDTH * 1.5,
-            label=readable(curve.probes[place]),
+            label=listed_motion(curve.probes[place]),
         )
     seen = curve.velocity_peak[:, shown]
     if np.nanmax(seen, initial=0.0) > SHORT * np.nanmin(seen, initial=np.inf) > 0.0:
@@ -123,6 +131,7 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
         y="velocity [m/s]",
         title=f"Largest {'relative ' if slips else ''}velocity{some(shown, watched)}",
     )
+    widened(axes)
     axes.legend(frameon=False)
 
 
@@ -143,6 +152,7 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
             label=name,
         )
     framed(axes, x=abscissa_name(curve), y="energy [mJ]", title="Dissipated per period")
+    widened(axes)
     legend_above(axes)
 
 
@@ -186,7 +196,7 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
                 style,
                 color=colour,
                 linewidth=WIDTH,
-                label=curve.contacts[place],
+                label=listed(curve.contacts[place]),
             )
     lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
     highest = float(np.nanmax(curve.normal_largest, initial=0.0))

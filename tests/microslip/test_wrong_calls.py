@@ -220,3 +220,25 @@ def test_modes_are_kept_up_to_a_frequency_with_a_unit() -> None:
         "<ReducedProblem: of 2 degrees of freedom; <Problem: "
     )
     assert "\n" not in repr(plain)
+
+
+@pytest.mark.parametrize("keep", ["x1", [1], None])
+def test_what_is_kept_of_a_reduction_is_a_list_of_texts(keep: Any) -> None:
+    problem = microslip.system(**CHAIN)
+
+    with pytest.raises(
+        ValueError, match=r"^reduced_problem: keep = .*: give a list of"
+    ):
+        microslip.reduced_problem(problem, 0.2, keep=keep)
+
+
+def test_modes_in_a_list_are_drawn_and_one_alone_is_told_how(duffing: Any) -> None:
+    modes = microslip.modes(duffing, 4.0, 6.0, smallest=1e-4, largest=2e-4)
+
+    drawn = microslip.figure(list(modes))
+    with pytest.raises(
+        microslip.MicroslipError, match=r"give what microslip.modes, microslip\.cu"
+    ):
+        microslip.figure(modes[0])  # type: ignore[arg-type]
+
+    assert drawn.axes[0].lines

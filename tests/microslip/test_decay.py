@@ -367,3 +367,19 @@ def test_rows_too_few_to_a_cycle_are_not_measured(
     assert not measured(problem, history, 0).time.size
     told = unmeasured(problem, history, 0)
     assert re.match(r"x1 has [\d.]+ rows to a cycle, where .* need 12: give a ", told)
+
+
+@pytest.mark.parametrize("option", ["--tolerance", "--most-periods"])
+def test_limits_of_a_dwell_do_not_go_with_a_file(
+    option: str, run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    words = ("--from", "quick-sweep.nc", option, "1")
+
+    status, output, error = run("decay", str(quick_scene), *words)
+
+    assert (status, output) == (2, "")
+    assert error == (
+        f"microslip: {option} beside --from: the motion of a file has come to its end: "
+        "leave one of them out\n"
+    )
+    assert not (tmp_path / "quick-decay.nc").exists()

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from microslip_mechanics.results.time_history import TimeHistory
 
 PERIODS = 300
+LIMITS = {"tolerance": dwell.TOLERANCE, "most_periods": dwell.PERIODS}
+"""of the dwell before the decay, where they are left out"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -47,6 +49,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="march of the same scene at whose end the drive is let go",
     )
     dwell.add_limits(parser)
+    parser.set_defaults(**dict.fromkeys(LIMITS))
     parser.add_argument(
         "--periods",
         type=arguments.whole(1, dwell.MOST),
@@ -120,6 +123,7 @@ def _driven(
     """Return the state in which the drive is let go, and its frequency [rad/s]."""
     from microslip.files.recording import last_state
 
+    _limit(options)
     if options.file is not None:
         return last_state(options.file, scene.text)
     history, _, ending = dwell.dwelled(options, scene, problem, data)
@@ -131,6 +135,26 @@ def _driven(
     if history.checkpoint is None:
         raise ValueError("the march does not tell its last state")
     return history.checkpoint, math.tau * options.frequency
+
+
+def _limit(options: argparse.Namespace) -> None:
+    """Take usual limits of the dwell where none are given.
+
+    Raises
+    ------
+    SceneError
+        If some are, but the state is that of a file.
+    """
+    from microslip.scenes.quantity import SceneError
+
+    for name, usual in LIMITS.items():
+        if getattr(options, name) is None:
+            setattr(options, name, usual)
+        elif options.file is not None:
+            raise SceneError(
+                f"--{name.replace('_', '-')} beside --from: the motion of a file has "
+                "come to its end: leave one of them out"
+            )
 
 
 def _tell_step_errors(

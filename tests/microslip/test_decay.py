@@ -383,3 +383,21 @@ def test_limits_of_a_dwell_do_not_go_with_a_file(
         "leave one of them out\n"
     )
     assert not (tmp_path / "quick-decay.nc").exists()
+
+
+@pytest.mark.parametrize(
+    "part", ["microslip.studies.decay.measured", "microslip.files.store.save_table"]
+)
+def test_a_decay_that_ends_while_it_is_measured_names_its_file(
+    part: str, run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: Any) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(part, interrupted)
+
+    words = ("--frequency", "135", "--tolerance", "0.5", "--periods", "12")
+    status, output, _ = run("decay", str(quick_scene), *words)
+
+    assert status == 130
+    assert output == "decay in quick-decay.nc\n"

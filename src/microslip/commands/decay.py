@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments, dwell
 from microslip.commands.decay_march import marched, recorded
 from microslip.commands.decay_tables import COLUMNS, cycles
-from microslip.commands.written import written
+from microslip.commands.written import named, written
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
@@ -80,7 +80,8 @@ def _run(options: argparse.Namespace) -> int:
     history = recorded(options, scene, problem, begin, data)
     ending = history.ending
     probe = liveliest(history) if chosen is None else chosen
-    decay = measured(problem, history, probe)
+    with named(f"decay in {data}"):
+        decay = measured(problem, history, probe)
     if not decay.time.size:
         print(f"decay in {data}")
         if ending == "complete":
@@ -89,7 +90,8 @@ def _run(options: argparse.Namespace) -> int:
     table = data.with_suffix(".csv")
     hertz = decay.frequency / math.tau
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
-    save_table(table, COLUMNS, zip(*columns, strict=True))
+    with named(f"decay in {data}"):
+        save_table(table, COLUMNS, zip(*columns, strict=True))
     title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:g} Hz"
     with written(f"decay in {data}, table in {table}", picture):
         print("\n".join(cycles(decay, history.probes[probe])))

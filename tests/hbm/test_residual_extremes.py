@@ -14,6 +14,7 @@ from hbm.curves.tracer import Tracer
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from hbm.solve import frequency_response
+from lap_joint import lap_joint
 from microslip import scene
 from microslip_mechanics.static import static_equilibrium
 
@@ -67,3 +68,14 @@ def test_other_curves_at_the_same_frequency_are_no_extremes() -> None:
     ranges = [np.abs(each.residual_range).max(initial=0.0) for each in curve]
     assert any(each.unstable > 0 for each in curve)
     assert max(ranges) < 0.3
+
+
+def test_without_drive_tractions_change_nothing() -> None:
+    problem = lap_joint(4, bolts=2000.0, drive=0.0)
+    frequency = 2.0 * np.pi * 60.0
+    options = CurveOptions(frequency, 1.001 * frequency)
+
+    for each in frequency_response(problem, static_equilibrium(problem), options):
+        assert not each.seen(problem.probes.rows)[1:].any()
+        assert each.residual_range is not None
+        assert not each.residual_range.any()

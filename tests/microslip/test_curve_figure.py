@@ -250,3 +250,20 @@ def test_curves_that_lie_on_one_another_have_different_dashes(
     assert len(forces) > 1
     assert len(set(forces)) == min(4, len(forces))
     assert len(set(slips)) == min(4, len(slips))
+
+
+@pytest.mark.parametrize(("most", "scale"), [(1e9, "log"), (2e3, "linear")])
+def test_a_parameter_over_decades_has_an_axis_of_decades(
+    small_curve: ResponseCurve, most: float, scale: str
+) -> None:
+    curve = dataclasses.replace(
+        small_curve, parameter=np.geomspace(1e3, most, 4), along="stiffness [N/m]"
+    )
+
+    figure = curves.curve_figure(curve, "")
+
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        assert axes.get_xscale() == scale
+        assert axes.get_xlim() == pytest.approx((1e3, most))
+    check_labels(figure)

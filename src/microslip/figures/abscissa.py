@@ -7,7 +7,7 @@ import itertools
 
 import numpy as np
 
-from microslip.figures.style import literal
+from microslip.figures.style import LONG, literal
 from microslip_mechanics.results.response import BEGINNINGS
 from microslip_mechanics.results.response_curve import ResponseCurve
 
@@ -22,6 +22,13 @@ def abscissa(curve: ResponseCurve) -> np.ndarray:
 def abscissa_name(curve: ResponseCurve) -> str:
     """Return what stands below the axis."""
     return literal(curve.along) if curve.along else FREQUENCY
+
+
+def by_decades(curve: ResponseCurve) -> bool:
+    """Return whether a parameter goes over so many decades that its axis needs them."""
+    if not curve.along:
+        return False
+    return bool(np.nanmax(curve.parameter) > LONG * np.nanmin(curve.parameter) > 0.0)
 
 
 def one_way(at: np.ndarray) -> list[slice]:

@@ -10,7 +10,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.abscissa import abscissa, abscissa_name, one_way, parted
+from microslip.figures.abscissa import (
+    abscissa,
+    abscissa_name,
+    by_decades,
+    one_way,
+    parted,
+)
 from microslip.figures.amplitude import (
     close_up,
     crowd,
@@ -54,11 +60,12 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     """Draw amplitude, sliding velocity, energy, normal forces and estimated error.
 
     What is located too closely together to be told apart has a close-up; what is
-    nothing, or does not change, has no panel.
+    nothing, or does not change, has no panel. A parameter that goes over decades has
+    an axis of decades.
     """
     curve = parted(curve)
     drawn = [frequency_response, sliding_velocity]
-    if crowd(curve):
+    if crowd(curve) and not by_decades(curve):
         drawn.insert(1, close_up)
     if (_largest(curve.friction_energy), _largest(curve.damping_energy)) != (0.0, 0.0):
         drawn.append(dissipated_energy)
@@ -70,6 +77,9 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     figure = Figure(figsize=(width, 7.0), layout="constrained")
     for draw, axes in zip(drawn, _panels(figure, ROWS[len(drawn)]), strict=True):
         draw(axes, curve)
+        if by_decades(curve):
+            axes.set_xscale("log")
+            plain_logarithmic(axes.xaxis)
     headline(figure, title)
     return figure
 

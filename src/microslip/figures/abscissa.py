@@ -25,10 +25,13 @@ def abscissa_name(curve: ResponseCurve) -> str:
 
 
 def by_decades(curve: ResponseCurve) -> bool:
-    """Return whether a parameter goes over so many decades that its axis needs them."""
-    if not curve.along:
-        return False
-    return bool(np.nanmax(curve.parameter) > LONG * np.nanmin(curve.parameter) > 0.0)
+    """Return whether a curve goes along a parameter over many decades."""
+    return bool(curve.along) and over_decades(curve.parameter)
+
+
+def over_decades(values: np.ndarray) -> bool:
+    """Return whether values go over so many decades that their axis needs them."""
+    return bool(np.nanmax(values) > LONG * np.nanmin(values) > 0.0)
 
 
 def one_way(at: np.ndarray) -> list[slice]:

@@ -94,8 +94,9 @@ class ResidualRange:
         balance, there = self._resolution.at(FOURIER).at_frequency(wide)
         table = np.zeros((FOURIER.coefficients, self._resolution.rank))
         table[0] = balance.problem.rest
-        known = point[:-1].reshape(-1, self._kept.size)[: len(table)]
-        table[: len(known), self._kept] = known
+        if self._kept.size:  # without drive nothing is solved for
+            known = point[:-1].reshape(-1, self._kept.size)[: len(table)]
+            table[: len(known), self._kept] = known
         return balance, balance.point(table, float(there[-1]))
 
     def _open(self, here: Reached, last: Extremes, others: list[Reached]) -> set[int]:

@@ -34,8 +34,12 @@ from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.tangents import contact_tangents
 
 TURN = 2.0 * np.pi
-STEPS = 256
-"""of a period, without those that events add"""
+STEPS, MOST = 256, 4096
+"""of a period at first and at most, without those that events add"""
+FINER = 4
+"""times as many steps are taken next, while an orbit seems unstable"""
+ALIKE = 1e-2
+"""of the largest multiplier, by which that may change where steps are enough"""
 LEAST = 0.05
 """share of the period in which a slider is taken to stick in the mean, at least"""
 
@@ -47,6 +51,9 @@ def recalled_multipliers(
     frequency: float,
 ) -> ComplexArray:
     """Return the multipliers of motion and tractions, the largest modulus first.
+
+    Steps too long for the fastest motions make those unstable: an orbit that seems so
+    is looked at with finer ones.
 
     Parameters
     ----------
@@ -65,13 +72,31 @@ def recalled_multipliers(
     known: regularised friction beside what remembers turns over too fast for equal
     steps, and a body that nothing holds has no motions of its own.
     """
+    steps = STEPS
+    known = _of_steps(matrices, basis, contact, frequency, steps)
+    while steps < MOST and np.abs(known).max(initial=0.0) > 1.0:
+        steps, before = FINER * steps, np.abs(known[0])
+        known = _of_steps(matrices, basis, contact, frequency, steps)
+        if abs(np.abs(known[0]) - before) <= ALIKE * before:
+            break
+    return known
+
+
+def _of_steps(
+    matrices: tuple[Array, Array, Array],
+    basis: Array,
+    contact: AlternatingFrequencyTime,
+    frequency: float,
+    steps: int,
+) -> ComplexArray:
+    """Return the multipliers by so many steps of a period."""
     points = contact.points
     if any(regularised(points, point) for point in range(points.load.size)):
         return np.empty(0, complex)
     sliders = Sliders.of(points, basis, contact.floating)
     orbit = SampledOrbit.of(contact, frequency)
     pressed = events(points, last_path(contact, frequency, half=False))
-    slid = slid_orbit(sliders, orbit, TURN / contact.samples * pressed, STEPS)
+    slid = slid_orbit(sliders, orbit, TURN / contact.samples * pressed, steps)
     middle = 0.5 * (slid.phase[1:] + slid.phase[:-1])
     elastic, viscous = contact_tangents(points, basis, *orbit.at(middle))
     share = np.diff(slid.phase) / TURN

@@ -65,7 +65,7 @@ class SmallMotions:
         steps = step_tangents(
             contact, self.basis, self.inertia, frequency, half=signs is not None
         )
-        found = []
+        found = [np.empty(0, complex)]  # what moves freely alone has none
         for family in self._families(steps.elastic, steps.viscous):
             carried = self._map(family, steps)
             if signs is None:

@@ -38,7 +38,11 @@ class Element:
     name: str = ""
 
     def __post_init__(self) -> None:
-        """Check that the law is one."""
+        """Check that the law is one, and the name a text."""
+        if not isinstance(self.name, str | None):
+            raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+                f"Element: name = {self.name!r}: give a text"
+            )
         if isinstance(self.law, type):
             kind = self.law.__name__
             keys = ", ".join(

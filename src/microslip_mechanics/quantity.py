@@ -167,6 +167,10 @@ def check_quantities(made: Any, name: str) -> None:  # noqa: ANN401  (a dataclas
                 f"{name}: {each.name} = {value!r} is a text: give a number in SI units"
             )
         try:
-            kind.read(value)
+            number = kind.read(value)
         except ValueError as error:
             raise ValueError(f"{name}: {each.name} = {value}: {error}") from None
+        if each.type == "int" and number % 1.0:
+            raise ValueError(
+                f"{name}: {each.name} = {value}: is not a whole number: give one"
+            )

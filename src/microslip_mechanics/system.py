@@ -14,10 +14,10 @@ from microslip_mechanics.loads.given_loads import (
     BaseMotion,
     Drive,
     EngineOrder,
-    Sets,
     driven,
     preloaded,
 )
+from microslip_mechanics.loads.node_sets import Sets, given_sets
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structures.damping import Damping
 from microslip_mechanics.structures.forms import Form, Pair, form, relative
@@ -92,7 +92,7 @@ structures.hysteretic.equivalent_viscous`).
         square_matrix(mass, "mass"),
         square_matrix(stiffness, "stiffness"),
     )
-    known, groups = dof_names(names, masses.shape[0]), sets or {}
+    known, groups = dof_names(names, masses.shape[0]), given_sets(sets)
     check_like(elastic, masses, "stiffness")
     check_massive(masses, known)
     lossy = Damping(damping, damping_ratio, rayleigh_damping, loss_factor)
@@ -125,14 +125,21 @@ def _probes(given: ProbeForms | None, names: tuple[str, ...]) -> Probes:
         raise ValueError(f"probes = {given!r}: give the names of one or more")
     if not isinstance(given, Mapping):
         given = {str(name): name for name in given}
-    rows = []
-    for name, wanted in given.items():
-        what = f"probe {name}"
-        if isinstance(wanted, (str, Mapping)):
-            row = form(wanted, names, what)
-        else:
-            row = relative(wanted, names, what)
-        if not row.any():
-            raise ValueError(f"{what} never moves: give a degree of freedom")
-        rows.append(row)
+    rows = [_probe(name, wanted, names) for name, wanted in given.items()]
     return Probes(tuple(given), np.array(rows))
+
+
+def _probe(name: str, wanted: Form | Pair, names: tuple[str, ...]) -> Array:
+    """Return what a probe sees of the motion, shape (dofs,)."""
+    what = f"probe {name}"
+    if not isinstance(name, str):
+        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
+            f"{what}: give a text as its name"
+        )
+    if isinstance(wanted, (str, Mapping)):
+        row = form(wanted, names, what)
+    else:
+        row = relative(wanted, names, what)
+    if not row.any():
+        raise ValueError(f"{what} never moves: give a degree of freedom")
+    return row

@@ -9,6 +9,7 @@ from hbm.solve import frequency_response
 from lap_joint import lap_joint
 from microslip_mechanics.static import static_equilibrium
 from timedomain.record.start import on_orbit
+from timedomain.shooting.comparison import compared
 from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
 TURN = 2.0 * np.pi
@@ -72,3 +73,19 @@ def test_its_mode_is_where_the_tip_is_a_quarter_period_behind() -> None:
     found = float(np.interp(amplitude, sizes, rates))
     assert sticking - found > 0.02  # it slips
     assert found == pytest.approx(quarter, abs=0.1 * (sticking - found))
+
+
+def test_fast_motions_of_a_joint_do_not_make_it_unstable() -> None:
+    # it turns at 100 kHz: by 256 steps of a period alone the multiplier was 31, but a
+    # march of 262144 stays on the orbit
+    problem = lap_joint(4, bolts=2000.0, drive=10.0)
+    place = 2.0 * np.pi * 134.0
+    options = CurveOptions(place, 1.001 * place, harmonics=63, samples=2048)
+
+    found = next(
+        iter(frequency_response(problem, static_equilibrium(problem), options))
+    )
+    shot = compared(problem, found)
+
+    assert found.unstable == 0
+    assert shot.multiplier == pytest.approx(shot.found_multiplier, abs=2e-3)

@@ -14,7 +14,8 @@ from hbm.curves.tracer import Tracer
 from hbm.options import CurveOptions
 from hbm.paths.path import along_frequency
 from hbm.solve import frequency_response
-from microslip import scene
+from lap_joint import lap_joint
+from microslip import curve, scene
 from microslip_mechanics.static import static_equilibrium
 
 
@@ -67,3 +68,11 @@ def test_other_curves_at_the_same_frequency_are_no_extremes() -> None:
     ranges = [np.abs(each.residual_range).max(initial=0.0) for each in curve]
     assert any(each.unstable > 0 for each in curve)
     assert max(ranges) < 0.3
+
+
+def test_without_drive_tractions_change_nothing() -> None:
+    still = curve(lap_joint(4, bolts=2000.0, drive=0.0), 60.0, 61.0)
+
+    assert still.ending == "complete"
+    assert not still.amplitude.any()
+    assert not still.amplitude_highest.any()

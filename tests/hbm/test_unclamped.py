@@ -11,6 +11,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from timedomain.shooting.comparison import compared
 
 HERTZ = (4.0, 9.0)
@@ -66,3 +67,13 @@ def test_shooting_finds_the_same_orbits_and_the_stability() -> None:
         assert each.unstable == 0
         assert found.found_multiplier == pytest.approx(1.0, abs=1e-6)
         assert 0.0 < found.multiplier < 1.0
+
+
+def test_a_body_that_does_nothing_but_move_freely_has_the_response_of_its_mass() -> (
+    None
+):
+    problem = system(mass=[2.0], stiffness=[0.0], drive={"x1": 1.0})
+
+    for each in curve(problem):
+        moved = np.hypot(*each.seen(problem.probes.rows)[1:3, 0])
+        assert moved == pytest.approx(1.0 / (2.0 * each.frequency**2), rel=1e-9)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from microslip_mechanics.results.ring_down import ring_down
+from microslip_mechanics.results.ring_down import cycle_rows, ring_down
 
 
 @pytest.mark.parametrize("ratio", [1e-4, 2e-3, 0.02, 0.1])
@@ -83,3 +83,23 @@ def test_a_decay_ends_where_it_is_lost_in_the_last_digits() -> None:
 
     assert 1e-9 < found.amplitude[-1] < 4e-9
     np.testing.assert_allclose(found.damping, ratio, rtol=1e-2)
+
+
+@pytest.mark.parametrize("rows", [0.31, 1.13, 2.13, 4.0, 13.3, 60.0])
+def test_rows_of_a_cycle_are_counted_where_they_show_no_swings_too(rows: float) -> None:
+    # rows about a cycle apart look like a slow motion
+    natural, ratio = 10.0, 0.01
+    pole = complex(-ratio, np.sqrt(1.0 - ratio**2)) * natural
+    time = np.arange(0.0, 30.0, 2.0 * np.pi / (natural * rows))
+    motion = np.exp(pole * time + 0.7j)
+
+    counted = cycle_rows(time, motion.real + 0.4, (pole * motion).real, rest=0.4)
+
+    # of rows far apart few phases are seen
+    assert counted == pytest.approx(rows, rel=0.5)
+
+
+def test_what_does_not_move_has_no_end_of_rows_to_a_cycle() -> None:
+    time = np.linspace(0.0, 1.0, 50)
+
+    assert cycle_rows(time, np.ones(50), np.zeros(50)) == np.inf

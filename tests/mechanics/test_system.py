@@ -14,7 +14,6 @@ from microslip_mechanics.laws.iwan import Iwan
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
-from microslip_mechanics.loads.given_loads import EngineOrder
 from microslip_mechanics.system import system
 
 MASS, STIFFNESS = [1.0, 2.0], [[30.0, -10.0], [-10.0, 10.0]]
@@ -201,10 +200,6 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
         {"stiffness": [["20 kN/m", -1e4], [-1e4, 1e4]]},
         ("stiffness holds the text '20 kN/m'", "SI units"),
     ),
-    "half an engine order": (
-        {"engine_order": EngineOrder(("x1", "x2"), 1.5, 1.0)},  # type: ignore[arg-type]
-        ("engine order 1.5", "whole number"),
-    ),
     "negative ratio": ({"damping_ratio": -0.1}, ("damping_ratio = -0.1", "0 to")),
     "negative Rayleigh": ({"rayleigh_damping": (-1.0, 0.0)}, ("by mass -1",)),
     "damping twice": (
@@ -311,6 +306,14 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "NaN in the drive": ({"drive": {"x1": np.nan}}, ("drive of x1", "finite")),
     "NaN in the preload": ({"preload": {"x2": np.inf}}, ("preload of x2", "finite")),
     "drive on nothing": ({"drive": {"x9": 1.0}}, ("drive", "'x9'")),
+    "drive on a node twice": (
+        {
+            "names": ["1.z", "2.z"],
+            "sets": {"face": ["1", "2", "1"]},
+            "drive": {"face.z": 1.0},
+        },
+        ("drive of face.z", "node 1", "more than once", "give each node once"),
+    ),
     "drive by number": ({"drive": {1: 1.0}}, ("drive", "no degree of freedom 1")),
     "preload by number": ({"preload": {2: 1.0}}, ("preload", "no degree of freedom 2")),
     "engine order of a table": (

@@ -53,6 +53,25 @@ def test_dissipated_energy_shows_friction_and_contact_damping_in_millijoules(
     assert axes.get_ylabel() == "energy [mJ]"
 
 
+@pytest.mark.parametrize("panel", ["dissipated_energy", "sliding_velocity"])
+def test_what_only_rounding_moves_has_no_axis_of_rounding(
+    axes: Axes, small_curve: ResponseCurve, panel: str
+) -> None:
+    steady = 0.63 + 1e-9 * small_curve.friction_energy / small_curve.friction_energy[0]
+    curve = dataclasses.replace(
+        small_curve,
+        friction_energy=steady,
+        damping_energy=np.zeros(4),
+        velocity_peak=np.tile(steady[:, None], len(small_curve.probes)),
+    )
+
+    getattr(curves, panel)(axes, curve)
+
+    axes.get_tightbbox()
+    assert np.ptp(axes.get_ylim()) > 1e-7
+    assert axes.yaxis.get_offset_text().get_text() == ""
+
+
 def test_normal_forces_show_the_range_of_every_point(
     axes: Axes, small_curve: ResponseCurve
 ) -> None:
@@ -231,3 +250,20 @@ def test_curves_that_lie_on_one_another_have_different_dashes(
     assert len(forces) > 1
     assert len(set(forces)) == min(4, len(forces))
     assert len(set(slips)) == min(4, len(slips))
+
+
+@pytest.mark.parametrize(("most", "scale"), [(1e9, "log"), (2e3, "linear")])
+def test_a_parameter_over_decades_has_an_axis_of_decades(
+    small_curve: ResponseCurve, most: float, scale: str
+) -> None:
+    curve = dataclasses.replace(
+        small_curve, parameter=np.geomspace(1e3, most, 4), along="stiffness [N/m]"
+    )
+
+    figure = curves.curve_figure(curve, "")
+
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        assert axes.get_xscale() == scale
+        assert axes.get_xlim() == pytest.approx((1e3, most))
+    check_labels(figure)

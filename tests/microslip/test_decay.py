@@ -347,3 +347,57 @@ def test_motions_that_beat_are_told(run: Run) -> None:
 
     assert status == 0
     assert "cycles: several motions decay together and beat" in output
+
+
+@pytest.mark.parametrize(
+    ("step", "frequency", "stride"),
+    [(0.3, 5.0, 1), (0.05, 5.0, 1), (1e-3, 0.1, 1000)],
+    ids=["aliased", "four to a cycle", "of a drive that is slow"],
+)
+def test_rows_too_few_to_a_cycle_are_not_measured(
+    step: float, frequency: float, stride: int
+) -> None:
+    problem = system(mass=[1.0], stiffness=[1e3], damping_ratio=0.01)
+    start, march = Start(np.ones(1), np.zeros(1)), March(step, stride)
+
+    turning = 2.0 * np.pi * frequency
+    blocks = released(problem, start, march, frequency=turning, periods=40)
+    history = joined(list(blocks), "complete")
+
+    assert not measured(problem, history, 0).time.size
+    told = unmeasured(problem, history, 0)
+    assert re.match(r"x1 has [\d.]+ rows to a cycle, where .* need 12: give a ", told)
+
+
+@pytest.mark.parametrize("option", ["--tolerance", "--most-periods"])
+def test_limits_of_a_dwell_do_not_go_with_a_file(
+    option: str, run: Run, quick_scene: Path, tmp_path: Path
+) -> None:
+    words = ("--from", "quick-sweep.nc", option, "1")
+
+    status, output, error = run("decay", str(quick_scene), *words)
+
+    assert (status, output) == (2, "")
+    assert error == (
+        f"microslip: {option} beside --from: the motion of a file has come to its end: "
+        "leave one of them out\n"
+    )
+    assert not (tmp_path / "quick-decay.nc").exists()
+
+
+@pytest.mark.parametrize(
+    "part", ["microslip.studies.decay.measured", "microslip.files.store.save_table"]
+)
+def test_a_decay_that_ends_while_it_is_measured_names_its_file(
+    part: str, run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: Any) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(part, interrupted)
+
+    words = ("--frequency", "135", "--tolerance", "0.5", "--periods", "12")
+    status, output, _ = run("decay", str(quick_scene), *words)
+
+    assert status == 130
+    assert output == "decay in quick-decay.nc\n"

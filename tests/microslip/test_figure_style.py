@@ -1,12 +1,16 @@
 """Axes of pictures: ticks of logarithmic ones, short and long."""
 
+import dataclasses
 import itertools
 
 import pytest
 from matplotlib.figure import Figure
 
 from microslip.figures.names import called
+from microslip.figures.result import result_figure
 from microslip.figures.style import framed, headline, plain_logarithmic
+from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.time_history import TimeHistory
 
 
 @pytest.mark.parametrize(
@@ -77,3 +81,24 @@ def test_titles_tell_faces_from_elements(
     face: str, contacts: list[str], title: str
 ) -> None:
     assert called(face, contacts) == title
+
+
+@pytest.mark.parametrize("first", ["_x", "a$^$", "$"])
+def test_names_of_any_letters_are_drawn_as_they_are(
+    small_curve: ResponseCurve, small_history: TimeHistory, first: str
+) -> None:
+    # legends leave out what begins with "_", and dollars make formulas
+    probes = (first, *small_curve.probes[1:])
+    contacts = tuple(f"{first}{place}" for place, _ in enumerate(small_curve.contacts))
+    curve = dataclasses.replace(small_curve, probes=probes, contacts=contacts)
+    march = dataclasses.replace(small_history, probes=probes, contacts=contacts)
+
+    for result in (curve, march):
+        figure = result_figure(result, "")
+        figure.draw_without_rendering()
+        shown = [
+            text.get_text()
+            for axes in figure.axes
+            for text in getattr(axes.get_legend(), "get_texts", list)()
+        ]
+        assert any(first.replace("$", r"\$") in text for text in shown)

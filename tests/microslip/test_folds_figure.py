@@ -1,5 +1,6 @@
 """The picture of folds against a parameter."""
 
+import pytest
 from matplotlib.figure import Figure
 
 from microslip.figures.folds import FoldLine, folds_figure
@@ -18,6 +19,17 @@ def test_a_short_fold_has_no_offset_beside_its_axes() -> None:
     figure = folds_figure([fold], "drive.y [N]", "short")
 
     assert offsets(figure) == [""] * 4
+
+
+@pytest.mark.parametrize(("most", "scale"), [(1e3, "log"), (10.0, "linear")])
+def test_folds_over_decades_have_an_axis_of_decades(most: float, scale: str) -> None:
+    fold = FoldLine(
+        [0.1, 1.0, most], [6.0, 7.0, 8.0], [1e-3] * 3, [False] * 3, [""] * 3
+    )
+
+    figure = folds_figure([fold], "drive.y [N]", "long")
+
+    assert [axes.get_xscale() for axes in figure.axes] == [scale, scale]
 
 
 def offsets(figure: Figure) -> list[str]:

@@ -61,6 +61,23 @@ def test_a_result_has_no_name_of_a_scene(
     assert not quick_scene.with_name("quick.toml.nc").exists()
 
 
+@pytest.mark.parametrize("command", ["tables", "grid two-blades"])
+def test_a_table_is_not_written_over_a_scene(
+    tmp_path: Path, run: Run, command: str
+) -> None:
+    scene = tmp_path / "mine.toml"
+    scene.write_text("mine")
+
+    status, _, error = run(*command.split(), "--csv", "mine.toml")
+
+    assert status == 2
+    assert error == (
+        "microslip: --csv mine.toml is the name of a scene, not of a result: give one "
+        "that ends with .csv, or has no ending\n"
+    )
+    assert scene.read_text() == "mine"
+
+
 @pytest.mark.parametrize(("name", "sticks"), [("gap", False), ("jenkins", True)])
 def test_modes_stick_where_there_is_friction(
     name: str, run: Run, monkeypatch: pytest.MonkeyPatch, *, sticks: bool

@@ -15,6 +15,7 @@ from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import built_in_text, load_scene
 from microslip.scenes.systems.build import reduction
 from microslip.studies.explain.explain import pruned
+from microslip.studies.parameter import parameter
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.reduction.reduced_problem import (
     Method,
@@ -361,3 +362,38 @@ def test_an_element_without_a_name_is_set_by_its_number(tmp_path: Path) -> None:
 
     assert problem_of(scene).interface.points.dynamic[0] != 0.0
     assert scene.rig.element["element-1"].limit == 2.0
+
+
+def test_an_element_with_dots_in_its_name_is_set_and_followed(tmp_path: Path) -> None:
+    path = tmp_path / "dotted.toml"
+    path.write_text(built_in_text("jenkins").replace('"slider"', '"tip.left"'))
+
+    scene = load_scene(str(path), ["element.tip.left.limit=2"])
+    followed = parameter(str(path), (), "element.tip.left.limit", "2", "3")
+
+    assert scene.rig.element["tip.left"].limit == 2.0
+    assert followed.label == "element.tip.left.limit [N]"
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("element.slider=2", "give element.NAME.KEY=value"),
+        ("element.slide.limit=2", "there is no element slide: do you mean slider?"),
+    ],
+)
+def test_an_override_that_reaches_no_key_of_an_element_is_refused(
+    override: str, message: str
+) -> None:
+    with pytest.raises(SceneError, match=f"^--set {override}: {re.escape(message)}$"):
+        load_scene("jenkins", [override])
+
+
+def test_a_power_that_is_no_number_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "spring.toml"
+    spring = 'law = "polynomial-spring"\ncoefficients = {a = 1}'
+    text = built_in_text("duffing").replace('law = "cubic-spring"', spring)
+    path.write_text(text.replace('cubic = "0.05 N/mm^3"\n', ""))
+
+    with pytest.raises(SceneError, match=r"coefficients: power a is no number: give"):
+        load_scene(str(path))

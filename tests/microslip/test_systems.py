@@ -386,3 +386,14 @@ def test_phase_of_a_force_with_dots_can_be_overridden() -> None:
 
     assert scene.rig.drive["tip.uz"].phase == 0.0
     assert turned.rig.drive["tip.uz"].phase == 1.0
+
+
+@pytest.mark.parametrize(("exponent", "unit"), [("1", "N/m"), ("1.5", "N/m^p")])
+def test_the_unit_of_a_stiffness_that_is_followed_is_that_of_its_exponent(
+    exponent: str, unit: str
+) -> None:
+    overrides = (f"element.stop.exponent={exponent}",)
+
+    followed = parameter("gap", overrides, "element.stop.stiffness", "1e3", "2e3")
+
+    assert followed.label == f"element.stop.stiffness [{unit}]"

@@ -34,8 +34,15 @@ def duffing() -> Any:
             r"elements = Element\(.*: give a list of microslip.Element",
         ),
         ({"elements": 3}, "elements = 3: give a list"),
-        ({"names": [1, "x"]}, "names of degrees of freedom: 1 is no text"),
-        ({"names": 3}, "names of degrees of freedom: 3 is no text"),
+        ({"names": [1, "x"]}, "names of degrees of freedom: 1 is no name: give a"),
+        ({"names": 3}, "names of degrees of freedom: 3 is no name"),
+        ({"names": ["x", None]}, "names of degrees of freedom: None is no name"),
+        ({"names": ["x", ""]}, "names of degrees of freedom: '' is no name"),
+        ({"probes": {1: "x1"}}, "probe 1: give a text as its name"),
+        ({"sets": [1]}, r"sets = \[1\]: give nodes by the name of their set, such as"),
+        ({"sets": {"face": "x1"}}, "sets: face = 'x1': give a list of nodes as texts"),
+        ({"sets": {"face": []}}, r"sets: face = \[\]: give a list of nodes"),
+        ({"sets": {"face": [1]}}, r"sets: face = \[1\]: give a list of nodes"),
         ({"damping_ratio": "1 %"}, "damping_ratio = '1 %': give a number such as 0.01"),
         ({"damping_ratio": ["a"]}, r"damping_ratio = \['a'\]: give a number"),
         ({"loss_factor": "1 %"}, "loss_factor = '1 %': give a number such as 0.01"),
@@ -83,7 +90,22 @@ def test_a_picture_is_not_what_is_saved(duffing: Any, tmp_path: Path) -> None:
     assert not (tmp_path / "x.png").exists()
 
 
-def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
+@pytest.mark.parametrize("ending", ["toml", "csv", "npz", "TOML"])
+def test_a_result_is_not_saved_over_a_scene_a_table_or_a_matrix(
+    duffing: Any, tmp_path: Path, ending: str
+) -> None:
+    march = microslip.sweep(duffing, 4.0, 5.0, duration=0.1, time_step=1e-2)
+    place = tmp_path / f"mine.{ending}"
+    place.write_text("mine")
+
+    with pytest.raises(
+        microslip.MicroslipError, match=r"it writes netCDF: give .* ends with \.nc$"
+    ):
+        microslip.save(march, place)
+    assert place.read_text() == "mine"
+
+
+def call(name: str, /, *given: Any, **more: Any) -> Callable[[], object]:
     return lambda: getattr(microslip, name)(*given, **more)
 
 
@@ -101,6 +123,31 @@ def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
             "polynomial-spring: .* of power 'a': give",
         ),
         (call("PolynomialSpring", {3: "b"}), "polynomial-spring: coefficient 'b' of"),
+        (
+            call("Element", SPRING, ("x1", "ground"), name=5),
+            "Element: name = 5: give a text",
+        ),
+        (
+            call("Iwan", slip_force=1.0, stiffness=1e3, chi=0.0, beta=1.0, sliders=2.5),
+            "iwan: sliders = 2.5: is not a whole number: give one",
+        ),
+        (call("EngineOrder", "x1", 1, 1.0), "engine order: blades = 'x1': give a list"),
+        (
+            call("EngineOrder", [1], 1, 1.0),
+            r"engine order: blades = \[1\]: give a list",
+        ),
+        (
+            call("EngineOrder", ["x1"], "1", 1.0),
+            "engine order '1': give a whole number",
+        ),
+        (
+            call("EngineOrder", ["x1"], 1.5, 1.0),
+            "engine order 1.5: give a whole number",
+        ),
+        (
+            call("EngineOrder", ["x1"], 1, math.nan),
+            "engine order: amplitude nan: give a finite number",
+        ),
         (call("BaseMotion", [0, 0, math.nan], 1), "base: direction .*: give three"),
         (call("BaseMotion", "xyz", 1), "base: direction xyz: give three numbers"),
         (call("BaseMotion", [0, 0, 1], math.nan), "base: acceleration nan: give a"),
@@ -173,3 +220,25 @@ def test_modes_are_kept_up_to_a_frequency_with_a_unit() -> None:
         "<ReducedProblem: of 2 degrees of freedom; <Problem: "
     )
     assert "\n" not in repr(plain)
+
+
+@pytest.mark.parametrize("keep", ["x1", [1], None])
+def test_what_is_kept_of_a_reduction_is_a_list_of_texts(keep: Any) -> None:
+    problem = microslip.system(**CHAIN)
+
+    with pytest.raises(
+        ValueError, match=r"^reduced_problem: keep = .*: give a list of"
+    ):
+        microslip.reduced_problem(problem, 0.2, keep=keep)
+
+
+def test_modes_in_a_list_are_drawn_and_one_alone_is_told_how(duffing: Any) -> None:
+    modes = microslip.modes(duffing, 4.0, 6.0, smallest=1e-4, largest=2e-4)
+
+    drawn = microslip.figure(list(modes))
+    with pytest.raises(
+        microslip.MicroslipError, match=r"give what microslip.modes, microslip\.cu"
+    ):
+        microslip.figure(modes[0])  # type: ignore[arg-type]
+
+    assert drawn.axes[0].lines

@@ -48,6 +48,19 @@ def test_objects_in_an_archive_are_not_unpickled(tmp_path: Path) -> None:
         MatrixSource(tmp_path / "a.npz").read(("K",))
 
 
+def test_what_is_not_asked_for_in_an_archive_may_be_anything(tmp_path: Path) -> None:
+    np.savez(tmp_path / "a.npz", K=MASS, notes=np.array([{}, "text"], dtype=object))
+
+    read = MatrixSource(tmp_path / "a.npz").read(("K",))
+
+    np.testing.assert_array_equal(read.matrix.toarray(), MASS)
+
+
+def test_a_folder_in_place_of_a_matrix_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(MatrixFileError, match=r"has no ending: give \.mtx"):
+        MatrixSource(tmp_path).read(("K",))
+
+
 @pytest.mark.parametrize(
     ("arrays", "message"),
     [

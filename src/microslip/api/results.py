@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from os import PathLike
 
     from matplotlib.figure import Figure
@@ -13,8 +14,11 @@ if TYPE_CHECKING:
     from microslip.files.schema import Result
     from microslip.studies.modes import FollowedMode
 
-REST = "microslip.curve, microslip.follow, microslip.sweep or microslip.load"
+SAVED = "microslip.curve, microslip.follow, microslip.sweep or microslip.load"
+DRAWN = f"microslip.modes, {SAVED}"
 PICTURES = (".png", ".pdf", ".svg", ".jpg", ".jpeg")
+OTHERS = (".toml", ".csv", ".npz", ".mtx", ".mat", ".txt", ".inp")
+"""endings of scenes, tables and matrices, which a result must not be written over"""
 
 
 def save(result: Result, path: str | PathLike[str]) -> None:
@@ -31,17 +35,20 @@ def save(result: Result, path: str | PathLike[str]) -> None:
     Raises
     ------
     MicroslipError
-        If the file cannot be written or is to be a picture, or the result is none.
+        If the file cannot be written or has the ending of a picture, a scene, a table
+        or a matrix, or the result is none.
     """
     from microslip.errors import GivenError
     from microslip.files import store
 
-    _check(result, "microslip.save")
+    _check(result, "microslip.save", SAVED)
     place = _path(path, "microslip.save")
-    if place.suffix.lower() in PICTURES:
+    ending = place.suffix.lower()
+    if ending in PICTURES + OTHERS:
+        drawn = "; microslip.figure(result).savefig(path) writes a picture"
         raise GivenError(
             f"microslip.save: {path}: it writes netCDF: give a name that ends with "
-            ".nc; microslip.figure(result).savefig(path) writes a picture"
+            f".nc{drawn if ending in PICTURES else ''}"
         )
     store.save(place, store.Stored(result, "", "microslip.save"))
 
@@ -59,7 +66,9 @@ def load(path: str | PathLike[str]) -> Result:
     return result_file.load(_path(path, "microslip.load")).result
 
 
-def figure(result: Result | tuple[FollowedMode, ...], title: str = "") -> Figure:
+def figure(
+    result: Result | tuple[FollowedMode, ...] | list[FollowedMode], title: str = ""
+) -> Figure:
     """Return the picture that the command line draws of a curve, a march, or modes.
 
     A notebook shows it; ``figure(result).savefig(path)`` writes it.
@@ -78,15 +87,15 @@ def figure(result: Result | tuple[FollowedMode, ...], title: str = "") -> Figure
             f"microslip.figure: title = {title!r}: give a text; the picture has axes "
             "of its own"
         )
-    if isinstance(result, tuple):
+    if isinstance(result, tuple | list):
         return _modes(result, title)
     from microslip.figures.result import result_figure
 
-    _check(result, "microslip.figure")
+    _check(result, "microslip.figure", DRAWN)
     return result_figure(result, title)
 
 
-def _modes(result: tuple[FollowedMode, ...], title: str) -> Figure:
+def _modes(result: Sequence[FollowedMode], title: str) -> Figure:
     """Return the picture of modes.
 
     Raises
@@ -100,9 +109,7 @@ def _modes(result: tuple[FollowedMode, ...], title: str) -> Figure:
     from microslip.studies.modes import FollowedMode
 
     if not all(isinstance(each, FollowedMode) for each in result):
-        raise GivenError(
-            f"microslip.figure: {result!r}: give what microslip.modes, {REST} returns"
-        )
+        raise GivenError(f"microslip.figure: {result!r}: give what {DRAWN} returns")
     lines = mode_lines(result)
     if not lines:
         raise GivenError("microslip.figure: no mode has a point: see their endings")
@@ -128,7 +135,7 @@ def _path(path: str | PathLike[str], function: str) -> Path:
     return place
 
 
-def _check(result: Result, function: str) -> None:
+def _check(result: Result, function: str, known: str) -> None:
     """Check that something is a result.
 
     Raises
@@ -140,4 +147,4 @@ def _check(result: Result, function: str) -> None:
     from microslip.files.schema import SCHEMAS
 
     if not isinstance(result, tuple(made for made, _ in SCHEMAS.values())):
-        raise GivenError(f"{function}: {result!r}: give what {REST} returns")
+        raise GivenError(f"{function}: {result!r}: give what {known} returns")

@@ -71,7 +71,7 @@ def outputs(
         If one of them cannot be written, or has the name of a scene.
     """
     chosen: Path = options.output or Path()
-    demand_no_scene(chosen)
+    demand_no_scene(chosen, "-o", ".nc")
     if is_folder(chosen):
         chosen /= f"{Path(options.scene).stem}-{suffix}"
     elif chosen.suffix in {".nc", ".png", ".csv"}:
@@ -104,10 +104,11 @@ def table(options: argparse.Namespace) -> Path | None:
     Raises
     ------
     OutputError
-        If it cannot be written.
+        If it cannot be written, or has the name of a scene.
     """
     chosen: Path | None = options.csv
     if chosen is not None:
+        demand_no_scene(chosen, "--csv", ".csv")
         demand_place(chosen)
     return chosen
 

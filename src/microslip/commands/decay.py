@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments, dwell
 from microslip.commands.decay_march import marched, recorded
 from microslip.commands.decay_tables import COLUMNS, cycles
-from microslip.commands.written import written
+from microslip.commands.written import named, written
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from microslip_mechanics.results.time_history import TimeHistory
 
 PERIODS = 300
+LIMITS = {"tolerance": dwell.TOLERANCE, "most_periods": dwell.PERIODS}
+"""of the dwell before the decay, where they are left out"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -47,6 +49,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="march of the same scene at whose end the drive is let go",
     )
     dwell.add_limits(parser)
+    parser.set_defaults(**dict.fromkeys(LIMITS))
     parser.add_argument(
         "--periods",
         type=arguments.whole(1, dwell.MOST),
@@ -77,7 +80,8 @@ def _run(options: argparse.Namespace) -> int:
     history = recorded(options, scene, problem, begin, data)
     ending = history.ending
     probe = liveliest(history) if chosen is None else chosen
-    decay = measured(problem, history, probe)
+    with named(f"decay in {data}"):
+        decay = measured(problem, history, probe)
     if not decay.time.size:
         print(f"decay in {data}")
         if ending == "complete":
@@ -86,7 +90,8 @@ def _run(options: argparse.Namespace) -> int:
     table = data.with_suffix(".csv")
     hertz = decay.frequency / math.tau
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
-    save_table(table, COLUMNS, zip(*columns, strict=True))
+    with named(f"decay in {data}"):
+        save_table(table, COLUMNS, zip(*columns, strict=True))
     title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:g} Hz"
     with written(f"decay in {data}, table in {table}", picture):
         print("\n".join(cycles(decay, history.probes[probe])))
@@ -120,6 +125,7 @@ def _driven(
     """Return the state in which the drive is let go, and its frequency [rad/s]."""
     from microslip.files.recording import last_state
 
+    _limit(options)
     if options.file is not None:
         return last_state(options.file, scene.text)
     history, _, ending = dwell.dwelled(options, scene, problem, data)
@@ -131,6 +137,26 @@ def _driven(
     if history.checkpoint is None:
         raise ValueError("the march does not tell its last state")
     return history.checkpoint, math.tau * options.frequency
+
+
+def _limit(options: argparse.Namespace) -> None:
+    """Take usual limits of the dwell where none are given.
+
+    Raises
+    ------
+    SceneError
+        If some are, but the state is that of a file.
+    """
+    from microslip.scenes.quantity import SceneError
+
+    for name, usual in LIMITS.items():
+        if getattr(options, name) is None:
+            setattr(options, name, usual)
+        elif options.file is not None:
+            raise SceneError(
+                f"--{name.replace('_', '-')} beside --from: the motion of a file has "
+                "come to its end: leave one of them out"
+            )
 
 
 def _tell_step_errors(

@@ -55,8 +55,8 @@ def demand_place(path: Path) -> None:
         raise OutputError(f"{path} cannot be written to: give another name")
 
 
-def demand_no_scene(path: Path) -> None:
-    """Refuse a result with the ending of scene files.
+def demand_no_scene(path: Path, option: str, ending: str) -> None:
+    """Refuse a result with the ending of scene files, in place of one of its own.
 
     Raises
     ------
@@ -65,8 +65,8 @@ def demand_no_scene(path: Path) -> None:
     """
     if path.suffix == ".toml" and not is_folder(path):
         raise OutputError(
-            f"-o {path} is the name of a scene, not of a result: give one that ends "
-            "with .nc, or has no ending"
+            f"{option} {path} is the name of a scene, not of a result: give one that "
+            f"ends with {ending}, or has no ending"
         )
 
 

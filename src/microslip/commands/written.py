@@ -13,9 +13,16 @@ def written(told: str, picture: Path) -> Iterator[None]:
 
     Where this ends early, as by an interruption, the file is named all the same.
     """
+    with named(told):
+        yield
+    print(f"{told}, picture in {picture}")
+
+
+@contextlib.contextmanager
+def named(told: str) -> Iterator[None]:
+    """Tell where results are if what follows ends early."""
     try:
         yield
     except BaseException:
         print(told)
         raise
-    print(f"{told}, picture in {picture}")

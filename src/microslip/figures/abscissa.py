@@ -7,7 +7,7 @@ import itertools
 
 import numpy as np
 
-from microslip.figures.style import literal
+from microslip.figures.style import LONG, literal
 from microslip_mechanics.results.response import BEGINNINGS
 from microslip_mechanics.results.response_curve import ResponseCurve
 
@@ -22,6 +22,16 @@ def abscissa(curve: ResponseCurve) -> np.ndarray:
 def abscissa_name(curve: ResponseCurve) -> str:
     """Return what stands below the axis."""
     return literal(curve.along) if curve.along else FREQUENCY
+
+
+def by_decades(curve: ResponseCurve) -> bool:
+    """Return whether a curve goes along a parameter over many decades."""
+    return bool(curve.along) and over_decades(curve.parameter)
+
+
+def over_decades(values: np.ndarray) -> bool:
+    """Return whether values go over so many decades that their axis needs them."""
+    return bool(np.nanmax(values) > LONG * np.nanmin(values) > 0.0)
 
 
 def one_way(at: np.ndarray) -> list[slice]:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from microslip.figures.abscissa import abscissa, abscissa_name
-from microslip.figures.names import absolute, readable
+from microslip.figures.names import absolute, listed_motion
 from microslip.figures.residual_range import residual_range
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, from_nothing
 from microslip_mechanics.results.response_curve import ResponseCurve
@@ -39,7 +39,7 @@ def frequency_response(axes: Axes, curve: ResponseCurve) -> None:
             style,
             color=colour,
             linewidth=WIDTH * 2.0,
-            label=readable(curve.probes[place]),
+            label=listed_motion(curve.probes[place]),
         )
     if len(shown) < len(watched):
         axes.plot(

@@ -10,10 +10,23 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from microslip.figures.abscissa import abscissa, abscissa_name, one_way, parted
+from microslip.figures.abscissa import (
+    abscissa,
+    abscissa_name,
+    by_decades,
+    one_way,
+    parted,
+)
 from microslip.figures.amplitude import frequency_response, greatest, some
 from microslip.figures.close_up import close_up, crowd
-from microslip.figures.names import absolute, faces, force_kind, readable, relative
+from microslip.figures.names import (
+    absolute,
+    faces,
+    force_kind,
+    listed,
+    listed_motion,
+    relative,
+)
 from microslip.figures.style import (
     COLOURS,
     SHORT,
@@ -24,6 +37,7 @@ from microslip.figures.style import (
     headline,
     legend_above,
     plain_logarithmic,
+    widened,
 )
 from microslip_mechanics.results.response_curve import ResponseCurve
 
@@ -41,11 +55,12 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     """Draw amplitude, sliding velocity, energy, normal forces and estimated error.
 
     What is located too closely together to be told apart has a close-up; what is
-    nothing, or does not change, has no panel.
+    nothing, or does not change, has no panel. A parameter that goes over decades has
+    an axis of decades.
     """
     curve = parted(curve)
     drawn = [frequency_response, sliding_velocity]
-    if crowd(curve):
+    if crowd(curve) and not by_decades(curve):
         drawn.insert(1, close_up)
     if (_largest(curve.friction_energy), _largest(curve.damping_energy)) != (0.0, 0.0):
         drawn.append(dissipated_energy)
@@ -57,6 +72,9 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     figure = Figure(figsize=(width, 7.0), layout="constrained")
     for draw, axes in zip(drawn, _panels(figure, ROWS[len(drawn)]), strict=True):
         draw(axes, curve)
+        if by_decades(curve):
+            axes.set_xscale("log")
+            plain_logarithmic(axes.xaxis)
     headline(figure, title)
     return figure
 
@@ -104,7 +122,7 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
             style,
             color=colour,
             linewidth=WIDTH * 1.5,
-            label=readable(curve.probes[place]),
+            label=listed_motion(curve.probes[place]),
         )
     seen = curve.velocity_peak[:, shown]
     if np.nanmax(seen, initial=0.0) > SHORT * np.nanmin(seen, initial=np.inf) > 0.0:
@@ -118,6 +136,7 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
         y="velocity [m/s]",
         title=f"Largest {'relative ' if slips else ''}velocity{some(shown, watched)}",
     )
+    widened(axes)
     axes.legend(frameon=False)
 
 
@@ -138,6 +157,7 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
             label=name,
         )
     framed(axes, x=abscissa_name(curve), y="energy [mJ]", title="Dissipated per period")
+    widened(axes)
     legend_above(axes)
 
 
@@ -181,7 +201,7 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
                 style,
                 color=colour,
                 linewidth=WIDTH,
-                label=curve.contacts[place],
+                label=listed(curve.contacts[place]),
             )
     lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
     highest = float(np.nanmax(curve.normal_largest, initial=0.0))

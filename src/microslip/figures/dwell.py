@@ -11,7 +11,13 @@ from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.amplitude import greatest
 from microslip.figures.march import energies
-from microslip.figures.names import absolute, foremost, readable, relative, swings
+from microslip.figures.names import (
+    absolute,
+    foremost,
+    listed_motion,
+    relative,
+    swings,
+)
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip.figures.sweep import displacement
 from microslip_mechanics.results.time_history import TimeHistory
@@ -64,7 +70,7 @@ def _orbit(axes: Axes, history: TimeHistory, rows: int) -> None:
             style,
             color=colour,
             linewidth=WIDTH * 1.5,
-            label=readable(history.probes[place]),
+            label=listed_motion(history.probes[place]),
         )
     framed(axes, x="time [ms]", y="displacement [mm]", title="The last period")
     axes.legend(frameon=False, fontsize="small")
@@ -82,7 +88,7 @@ def _velocities(axes: Axes, history: TimeHistory, rows: int) -> None:
             style,
             color=colour,
             linewidth=WIDTH * 1.5,
-            label=readable(history.probes[place]),
+            label=listed_motion(history.probes[place]),
         )
     name = "Relative velocities" if slips else "Velocities"
     framed(axes, x="time [ms]", y="velocity [m/s]", title=f"{name} in the last period")

@@ -7,13 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.march import TIME, Panels, march_figure
-from microslip.figures.names import called, force_kind, readable
+from microslip.figures.names import called, force_kind, listed, readable
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
     framed,
     legend_beside,
-    whole_numbers,
     widened,
 )
 from microslip_mechanics.results.envelope import Envelope
@@ -57,13 +56,12 @@ def _normal_force(axes: Axes, envelope: Envelope, face: str, places: list[int]) 
             alpha=0.4,
             color=colour,
             linewidth=WIDTH,
-            label=envelope.contacts[place],
+            label=listed(envelope.contacts[place]),
         )
     where = called(face, [envelope.contacts[place] for place in places])
     low, high = envelope.normal_smallest[:, places], envelope.normal_largest[:, places]
     framed(axes, x=TIME, y="force [N]", title=f"{force_kind(low, high)}, {where}")
     widened(axes)
-    whole_numbers(axes.yaxis)
     legend_beside(axes, high)
 
 

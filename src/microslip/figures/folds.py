@@ -9,12 +9,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from microslip.figures.abscissa import over_decades
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
     framed,
     headline,
     literal,
+    plain_logarithmic,
     whole_numbers,
 )
 
@@ -54,6 +56,9 @@ def folds_figure(folds: Sequence[FoldLine], label: str, title: str) -> Figure:
     for axes in (left, right):
         whole_numbers(axes.yaxis)
         axes.margins(x=0.04)
+        if over_decades(np.concatenate([fold.parameter for fold in folds])):
+            axes.set_xscale("log")
+            plain_logarithmic(axes.xaxis)
     _legend(left, folds)
     headline(figure, title)
     return figure

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from microslip.figures.style import literal
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response_curve import pulling
 
@@ -57,7 +58,7 @@ def called(face: str, contacts: Sequence[str]) -> str:
     if len(face) == 1:
         return f"face {face}"
     name = contacts[0] if len(contacts) == 1 else face
-    return name if name.startswith("element") else f"element {name}"
+    return literal(name if name.startswith("element") else f"element {name}")
 
 
 def force_kind(smallest: Array, largest: Array) -> str:
@@ -67,4 +68,19 @@ def force_kind(smallest: Array, largest: Array) -> str:
 
 def readable(name: str) -> str:
     """Return a probe's name as words."""
-    return name.replace("-", " ")
+    return literal(name.replace("-", " "))
+
+
+def listed(*names: str) -> str:
+    """Return what a legend, which leaves out what begins with "_", calls contacts."""
+    return _seen(literal(", ".join(names)))
+
+
+def listed_motion(name: str) -> str:
+    """Return what a legend calls a probe."""
+    return _seen(readable(name))
+
+
+def _seen(label: str) -> str:
+    """Return a label that legends do not leave out."""
+    return f" {label}" if label.startswith("_") else label

@@ -71,7 +71,11 @@ def whole_numbers(axis: Axis) -> None:
 
 
 def widened(axes: Axes, error: float = 0.0) -> None:
-    """Widen a vertical axis that would show nothing but the ``error`` of its data."""
+    """Widen a vertical axis that would show nothing but the ``error`` of its data.
+
+    It has no offset beside it, either.
+    """
+    whole_numbers(axes.yaxis)
     low, high = axes.dataLim.intervaly
     if not np.isfinite([low, high]).all():
         return

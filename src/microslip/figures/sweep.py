@@ -6,13 +6,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.march import TIME, Panels, march_figure
-from microslip.figures.names import called, force_kind, readable
+from microslip.figures.names import called, force_kind, listed, readable
 from microslip.figures.style import (
     COLOURS,
     alike,
     framed,
     legend_beside,
-    whole_numbers,
     widened,
 )
 from microslip_mechanics.results.time_history import TimeHistory
@@ -62,7 +61,7 @@ def normal_force(
             color=colour,
             linewidth=0.3,
             alpha=0.8,
-            label=", ".join(history.contacts[place] for place in group),
+            label=listed(*(history.contacts[place] for place in group)),
             rasterized=True,
         )
     where = called(face, [history.contacts[place] for place in places])
@@ -70,7 +69,6 @@ def normal_force(
     title = f"{force_kind(shown, shown)}, {where}"
     framed(axes, x=TIME, y="force [N]", title=title)
     widened(axes)
-    whole_numbers(axes.yaxis)
     legend_beside(axes, shown)
     legend = axes.get_legend()
     for line in legend.get_lines() if legend else ():

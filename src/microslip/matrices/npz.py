@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,7 @@ def read_npz(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
         If there is none, or the file is not such an archive.
     """
     _check_archive(path)
-    there = _arrays(path)
+    there = _arrays(path, ("names", *SPARSE, *wanted))
     if there.keys() >= SPARSE:
         return LabelledMatrix(matrix_of(path, {"it": _sparse(path)}, ("it",)), ())
     names = tuple(str(name) for name in np.ravel(there.pop("names", ())))
@@ -63,10 +64,14 @@ def _sparse(path: Path) -> Any:  # noqa: ANN401  (of any of scipy's formats)
         ) from None
 
 
-def _arrays(path: Path) -> dict[str, Any]:
+def _arrays(path: Path, wanted: Collection[str]) -> dict[str, Any]:
+    """Return the wanted arrays of an archive, and nothing of each other one."""
     try:
         with np.load(path, allow_pickle=False) as archive:
-            return dict(archive)
+            return {
+                name: archive[name] if name in wanted else None
+                for name in archive.files
+            }
     except UNSOUND as error:
         raise MatrixFileError(
             path, f"is no sound archive of numbers ({error}): use numpy.savez"

@@ -63,9 +63,8 @@ class MatrixSource:
         if suffix in (".sti", ".mas"):
             return read_calculix(self.path)
         if suffix not in (".mtx", ".txt"):
-            raise MatrixFileError(
-                self.path, f"{suffix or 'no suffix'} is not known: give {FORMATS}"
-            )
+            what = f"{suffix} is not known" if suffix else "has no ending"
+            raise MatrixFileError(self.path, f"{what}: give {FORMATS}")
         if text_of(self.path).lower().startswith("%%matrixmarket"):
             return read_matrix_market(self.path)
         return read_abaqus(self.path)

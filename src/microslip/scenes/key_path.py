@@ -4,6 +4,8 @@ from __future__ import annotations
 
 OF_MOTIONS = ("drive", "preload", "probes")
 """tables whose keys are degrees of freedom, which may have dots in their names"""
+OF_ELEMENTS = "element"
+"""table of elements, which may have dots in their names"""
 AMPLITUDE = "amplitude"
 """of a harmonic force: a bare number stands for it"""
 OF_WAVES = (f".{AMPLITUDE}", ".phase")
@@ -13,9 +15,13 @@ def key_path(name: str) -> tuple[str, ...]:
     """Return tables and key of a name such as ``element.slider.limit``.
 
     ``drive.tip.uz`` and ``drive."tip.uz"`` are the key ``tip.uz`` of the table
-    ``drive``; ``drive.tip.uz.phase`` is the phase of that force.
+    ``drive``; ``drive.tip.uz.phase`` is the phase of that force, and
+    ``element.tip.left.limit`` the key ``limit`` of the element ``tip.left``.
     """
     table, dot, rest = name.strip().partition(".")
+    if table == OF_ELEMENTS and "." in rest:
+        element, _, key = rest.rpartition(".")
+        return table, _bare(element), key
     if not dot or table not in OF_MOTIONS:
         return tuple(name.strip().split("."))
     for ending in OF_WAVES:

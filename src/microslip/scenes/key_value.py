@@ -30,13 +30,18 @@ def replaced(tables: Any, path: Sequence[str], value: float) -> Any:  # noqa: AN
 
 
 def unit(tables: Any, path: Sequence[str]) -> str:  # noqa: ANN401
-    """Return the SI unit of the number at a path; empty if it has none."""
+    """Return the SI unit of the number at a path; empty if it has none.
+
+    That of a stiffness follows from its exponent.
+    """
     holder = _table(tables, path[:-1])
     if isinstance(holder, Mapping):
         inner = holder[path[-1]]
         return unit(inner, (AMPLITUDE,)) if hasattr(inner, AMPLITUDE) else "N"
     fields = {field.name: field for field in dataclasses.fields(holder)}
-    return str(fields[path[-1]].metadata["quantity"].unit)
+    kind = fields[path[-1]].metadata["quantity"]
+    exponent = path[-1].replace("stiffness", "exponent")
+    return str(kind.of_power(getattr(holder, exponent, None)).unit)
 
 
 def _table(tables: Any, path: Sequence[str]) -> Any:  # noqa: ANN401

@@ -75,7 +75,9 @@ def _inner(place: dict[str, typing.Any], table: str, override: str) -> typing.An
         for number, each in enumerate(elements, start=1)
         if isinstance(each, dict)
     }
-    name = override.split(".")[1]
+    _, name, *rest = key_path(override.partition("=")[0])
+    if not rest:
+        raise SceneError(f"--set {override}: give element.NAME.KEY=value")
     if name not in named:
         raise SceneError(
             f"--set {override}: there is no element {name}"

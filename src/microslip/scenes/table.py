@@ -131,9 +131,19 @@ def _by_power(kind: Quantity, value: object) -> dict[float, float]:
             "is no table: give a number for each power, such as {1 = 10, 3 = 2e6}"
         )
     return {
-        float(power): kind.of_power(float(power)).read(each)
+        _power(power): kind.of_power(_power(power)).read(each)
         for power, each in value.items()
     }
+
+
+def _power(text: str) -> float:
+    """Return a power that is the key of its number."""
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(
+            f"power {text} is no number: give powers such as {{1 = 10, 3 = 2e6}}"
+        ) from None
 
 
 def _several(kind: Quantity, value: object) -> tuple[float, ...]:

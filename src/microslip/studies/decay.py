@@ -16,7 +16,13 @@ from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.checkpoint import Checkpoint
-from microslip_mechanics.results.ring_down import RingDown, ring_down
+from microslip_mechanics.results.ring_down import (
+    FEWEST_ROWS,
+    RingDown,
+    cycle_rows,
+    no_swings,
+    ring_down,
+)
 from microslip_mechanics.results.time_history import TimeHistory
 from microslip_mechanics.static import static_equilibrium
 from timedomain.integrate import MarchOptions, integrate
@@ -100,18 +106,31 @@ def _let_go(problem: Problem, state: Checkpoint) -> Start:
     )
 
 
-def measured(
-    problem: Problem, history: TimeHistory, probe: int, *, every: int = 1
-) -> RingDown:
+def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:
     """Return frequency and damping of a probe's decay about its place of rest.
 
     That is the static equilibrium or, where friction depends on the past and may hold
-    it anywhere, the middle of the last cycle of the march. Extremes are sought in
-    ``every`` so many rows.
+    it anywhere, the middle of the last cycle of the march. Too few rows, or swings,
+    give none.
     """
+    if _cycle_rows(problem, history, probe) < FEWEST_ROWS:
+        return no_swings()
+    return _swings(problem, history, probe)
+
+
+def _swings(
+    problem: Problem, history: TimeHistory, probe: int, *, every: int = 1
+) -> RingDown:
+    """Return what ``every`` so many rows tell of a decay."""
     time, rest = history.time[::every], _rest(problem, history, probe)
     rows = (each[::every, probe] for each in (history.displacement, history.velocity))
     return ring_down(time, *rows, rest=rest)
+
+
+def _cycle_rows(problem: Problem, history: TimeHistory, probe: int) -> float:
+    """Return how many rows a cycle of a probe's decay has."""
+    rows = history.displacement[:, probe], history.velocity[:, probe]
+    return cycle_rows(history.time, *rows, rest=_rest(problem, history, probe))
 
 
 def step_errors(
@@ -135,7 +154,7 @@ def step_errors(
         over the largest damping ratio; NaN if there are none.
     """
     fine = measured(problem, history, probe)
-    other = measured(problem, coarse, probe, every=2)
+    other = _swings(problem, coarse, probe, every=2)
     count = min(fine.time.size, other.time.size)
     if count == 0:
         return math.nan, math.nan
@@ -152,12 +171,19 @@ def _apart(fine: Array, coarse: Array) -> float:
 
 
 def unmeasured(problem: Problem, history: TimeHistory, probe: int) -> str:
-    """Return why a decay has too few swings to be measured, and what may help."""
+    """Return why a decay cannot be measured, and what may help."""
     seen, name = history.displacement[:, probe], history.probes[probe]
     away = np.abs(seen - _rest(problem, history, probe))
     size = float(away.max())
     if size <= STILL * float(np.abs(seen).max()):
         return f"{name} does not move when it is let go: give the scene a drive"
+    rows = _cycle_rows(problem, history, probe)
+    if rows < FEWEST_ROWS:
+        return (
+            f"{name} has {rows:.2g} rows to a cycle, where frequency and damping need "
+            f"{FEWEST_ROWS}: give a shorter march.time_step or a smaller "
+            "march.store_every"
+        )
     late = away[history.time >= 0.9 * history.time[-1]]
     if late.max() <= GONE * size:
         return (

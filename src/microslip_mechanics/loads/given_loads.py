@@ -13,13 +13,12 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array, ComplexArray, numbers_of
 from microslip_mechanics.loads.engine_order import engine_order
+from microslip_mechanics.loads.node_sets import Sets, members, texts
 from microslip_mechanics.structures.forms import place_of
 from microslip_mechanics.structures.structure import Structure
 
 Drive: TypeAlias = Mapping[str, float | tuple[float, float]]
 """amplitude [N], or amplitude and phase [rad], by degree of freedom"""
-Sets: TypeAlias = Mapping[str, Sequence[str]]
-"""nodes, by the name of their set"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +31,23 @@ class EngineOrder:
     """maxima around the disk"""
     amplitude: float
     """on each blade [N]"""
+
+    def __post_init__(self) -> None:
+        """Check that blades are names and the others numbers."""
+        if not texts(self.blades):
+            raise ValueError(
+                f"engine order: blades = {self.blades!r}: give a list of degrees of "
+                "freedom, one of each blade"
+            )
+        order = numbers_of(self.order)
+        if order.shape != () or order % 1.0:
+            raise ValueError(
+                f"engine order {self.order!r}: give a whole number of maxima"
+            )
+        if numbers_of(self.amplitude).shape != ():
+            raise ValueError(
+                f"engine order: amplitude {self.amplitude}: give a finite number [N]"
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,14 +185,6 @@ def loads(
     for name, force in given.items():
         if not isinstance(force, numbers.Number) or not cmath.isfinite(force):
             raise ValueError(f"{what} of {name} is {force}: give a finite number")
-        for each in _members(name, names, sets):
+        for each in members(name, names, sets, what):
             total[place_of(each, names, what)] += force
     return total
-
-
-def _members(name: str, names: tuple[str, ...], sets: Sets) -> list[str]:
-    """Return the degrees of freedom that a name stands for."""
-    group, _, direction = str(name).rpartition(".")  # what is no text is refused later
-    if name in names or group not in sets:
-        return [name]
-    return [f"{node}.{direction}" for node in sets[group]]

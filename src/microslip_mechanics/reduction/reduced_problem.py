@@ -10,7 +10,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from microslip_mechanics.loads.given_loads import Sets
+from microslip_mechanics.loads.node_sets import Sets, given_sets, texts
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.quantity import Quantity
 from microslip_mechanics.reduction.reduced_structure import (
@@ -89,8 +89,13 @@ def reduced_problem(
             f"reduced_problem: problem = {problem!r}: give what microslip.system or "
             "microslip.scene returns"
         )
+    if not texts(keep):
+        raise ValueError(
+            f"reduced_problem: keep = {keep!r}: give a list of degrees of freedom, "
+            'nodes, patterns or sets, such as ["tip.*"]'
+        )
     limit = 2.0 * math.pi * _hertz(highest, "reduced_problem: highest")
-    kept = _kept(problem, selected(problem.structure.names, keep, sets or {}))
+    kept = _kept(problem, selected(problem.structure.names, keep, given_sets(sets)))
     made = METHODS[method](problem.structure, kept, limit)
     rows = made.rows(problem.interface.displacement)
     return ReducedProblem(

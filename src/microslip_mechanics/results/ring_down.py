@@ -13,6 +13,8 @@ FAINT = 1e-9
 """amplitude over the largest deflection at which a decay has ended"""
 FEWEST = 4
 """extremes that a damping ratio needs"""
+FEWEST_ROWS = 12
+"""in each cycle, of which extremes and the turning of a motion can be told"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +48,8 @@ def ring_down(
     Parameters
     ----------
     time, displacement, velocity
-        Rows of the motion [s, m, m/s], a dozen or more in each cycle, shape (rows,).
+        Rows of the motion [s, m, m/s], shape (rows,): ``FEWEST_ROWS`` or more to a
+        cycle, which ``cycle_rows`` counts.
     rest
         Where it comes to rest [m].
     """
@@ -57,8 +60,7 @@ def ring_down(
         last = int(faint.argmax())
         swing, moments = swing[:last], moments[: last + 1]
     if moments.size < FEWEST:
-        none = np.zeros(0)
-        return RingDown(none, none, none, none)
+        return no_swings()
     middle = 0.5 * (moments[1:] + moments[:-1])
     half = 0.5 * (middle[2:] - middle[:-2])
     decrement = np.log(swing[:-2] / swing[2:])
@@ -70,6 +72,32 @@ def ring_down(
         np.sqrt(np.pi**2 + bent) / half,
         decrement / np.hypot(2.0 * np.pi, decrement),
     )
+
+
+def no_swings() -> RingDown:
+    """Return the decay of which nothing can be told."""
+    none = np.zeros(0)
+    return RingDown(none, none, none, none)
+
+
+def cycle_rows(
+    time: Array, displacement: Array, velocity: Array, *, rest: float = 0.0
+) -> float:
+    """Return how many rows a cycle of a motion about a place of rest has.
+
+    Its frequency is that of the root mean squares of velocity and displacement, which
+    rows too far apart to show the swings tell as well. Infinite without velocity.
+
+    Parameters
+    ----------
+    time, displacement, velocity, rest
+        As ``ring_down`` takes them.
+    """
+    size = float(np.linalg.norm(displacement - rest))
+    turning = float(np.linalg.norm(velocity)) * (time[-1] - time[0])
+    if turning == 0.0:
+        return float("inf")
+    return float(2.0 * np.pi * size * (time.size - 1) / turning)
 
 
 def _extremes(time: Array, place: Array, velocity: Array) -> tuple[Array, Array]:

@@ -86,11 +86,11 @@ def dof_names(given: Sequence[str] | None, count: int) -> tuple[str, ...]:
     if given is None:
         return tuple(f"x{place}" for place in range(1, count + 1))
     names = tuple(given) if isinstance(given, Iterable) else (given,)
-    none = next((name for name in names if not isinstance(name, str)), None)
-    if none is not None:
+    wrong = [name for name in names if not isinstance(name, str) or not name]
+    if wrong:
         raise ValueError(
-            f"names of degrees of freedom: {none!r} is no text: give a list of texts, "
-            "such as ['x1', 'x2']"
+            f"names of degrees of freedom: {wrong[0]!r} is no name: give a list of "
+            "texts, such as ['x1', 'x2']"
         )
     if len(names) != count:
         raise ValueError(

@@ -15,6 +15,10 @@ SURE = 0.25
 """share of a residual that a Newton step leaves, after which the next leaves less"""
 STEPS = 4
 """that are taken at the most until one does"""
+MANY, HALVINGS = 500, 3
+"""harmonics with which a step is halved that would raise the residual, and how often;
+from fewer that lead away a point goes on to more
+"""
 LOST = 0.5
 """share of a residual that is still there after steps that lead to no point"""
 FEW = 16
@@ -68,7 +72,8 @@ def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Re
 
     ``harmonics`` are those of ``system``, about twice those of the point. There are two
     steps, and up to :data:`STEPS` until one leaves little, or one alone that is mere
-    rounding. A step has the factors of the one before if that left a tenth.
+    rounding. With :data:`MANY` harmonics one that would raise the residual is halved. A
+    step has the factors of the one before if that left a tenth.
 
     Raises
     ------
@@ -84,14 +89,30 @@ def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Re
     ):
         slope = slope if _served(sizes) else latest
         step = slope.solve(normal, np.append(-now, 0.0))
-        before, after = after, after + step
-        now, latest = system(after)
+        before = after
+        halvings = HALVINGS if harmonics >= MANY else 0
+        after, now, latest = _lowered(system, before, step, sizes[-1], halvings)
         sizes.append(_size(now))
         moves = _size(step) > ROUNDING * _size(point[:-1])
     share = system.impulses(harmonics, 2 * harmonics + 1) / known if known else 0.0
     left = _left(sizes) if moves else 1.0
     beyond = _beyond(share, harmonics)
     return Refined(residual, before, after, left, beyond, now, slope)
+
+
+def _lowered(
+    system: Resolved, point: Array, step: Array, size: float, halvings: int
+) -> tuple[Array, Array, Linearised]:
+    """Return where a step leads that lowers the residual from ``size``, and what is.
+
+    It is halved until it does, or so many times.
+    """
+    for halving in range(halvings + 1):
+        reached = point + 0.5**halving * step
+        residual, linearised = system(reached)
+        if _size(residual) <= size:
+            break
+    return reached, residual, linearised
 
 
 def _size(values: Array) -> float:

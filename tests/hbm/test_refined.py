@@ -55,6 +55,16 @@ class Root:
         raise NotImplementedError(point, residual, above)
 
 
+class Bending(Root):
+    """arctan x = 0, beyond which whole steps go farther and farther."""
+
+    def __call__(self, point: Array) -> tuple[Array, Linearised]:
+        return self.residual(point), Slope(1.0 / (1.0 + point[0] ** 2))
+
+    def residual(self, point: Array) -> Array:
+        return np.arctan(point[:1])
+
+
 def steps(start: float, system: Root, harmonics: int = MANY) -> Refined:
     return refined(system, np.array([start, 5.0]), harmonics, UPRIGHT)
 
@@ -72,6 +82,16 @@ def test_the_steps_leave_what_the_next_ones_change(start: float) -> None:
 
 def test_steps_that_lead_away_leave_everything() -> None:
     assert steps(3.0, Root(1.0, 0.1, away=True)).left == math.inf
+
+
+def test_with_the_most_harmonics_steps_that_would_lead_away_are_halved() -> None:
+    whole, halved = (
+        steps(1.5, Bending(1.0, 0.1), harmonics) for harmonics in (255, 511)
+    )
+
+    assert whole.left == math.inf
+    assert halved.left < 0.1
+    assert halved.corrected[0] == pytest.approx(0.0, abs=1e-3)
 
 
 def test_steps_of_rounding_are_not_taken_for_steps_that_lead_away() -> None:

@@ -32,6 +32,7 @@ from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.law import regularised
 from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.tangents import contact_tangents
+from microslip_mechanics.results.response import MARGIN
 
 TURN = 2.0 * np.pi
 STEPS, MOST = 256, 4096
@@ -74,7 +75,7 @@ def recalled_multipliers(
     """
     steps = STEPS
     known = _of_steps(matrices, basis, contact, frequency, steps)
-    while steps < MOST and np.abs(known).max(initial=0.0) > 1.0:
+    while steps < MOST and np.abs(known).max(initial=0.0) > 1.0 + MARGIN:
         steps, before = FINER * steps, np.abs(known[0])
         known = _of_steps(matrices, basis, contact, frequency, steps)
         if abs(np.abs(known[0]) - before) <= ALIKE * before:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.balance.relative import RelativeProblem
 from hbm.balance.residual import HarmonicBalance
@@ -31,6 +32,8 @@ SMOOTH = 1e4
 """times the threshold velocity with which a homotopy begins"""
 PRESSED = 1e4
 """depth to which faces are pressed as one begins, over the motion without contacts"""
+SOFT = 1e-6
+"""stiffness of stops with which one begins, over what they have"""
 TOUCHING = 1e-3
 """depth at rest up to which faces just touch, over that motion"""
 Easier: TypeAlias = Callable[[RelativeProblem, float], RelativeProblem]
@@ -147,6 +150,8 @@ def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
     points = problem.points
     rubs = bool(points.dynamic.any() or points.static.any())
     ways: list[Easier] = [driven, *((_threshold, _friction) if rubs else ())]
+    if _apart(problem).any():
+        ways = [*ways, _stops]
     motion = largest(problem.apart(frequency))
     if not _touches(problem, motion):
         return ways
@@ -166,6 +171,21 @@ def _friction(problem: RelativeProblem, share: float) -> RelativeProblem:
         dynamic=problem.points.dynamic * share, static=problem.points.static * share
     )
     return replace(problem, points=points)
+
+
+def _stops(problem: RelativeProblem, share: float) -> RelativeProblem:
+    """Return the problem with softer stops behind their gaps."""
+    factor = np.where(_apart(problem), SOFT ** (1.0 - share), 1.0)
+    points = problem.points._replace(stiffness=problem.points.stiffness * factor)
+    return replace(problem, points=points)
+
+
+def _apart(problem: RelativeProblem) -> NDArray[np.bool_]:
+    """Return which stops are open at rest, shape (points,)."""
+    points = problem.points
+    depth = (problem.basis @ problem.rest + problem.offset)[::3] - points.gap
+    apart: NDArray[np.bool_] = (points.normal == ONE_SIDED) & (depth < 0.0)
+    return apart
 
 
 def _pressed(problem: RelativeProblem, depth: float, share: float) -> RelativeProblem:

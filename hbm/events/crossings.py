@@ -12,7 +12,7 @@ from hbm.continuation.segment import PRECISION, ROUGH, ROUGHER, Segment, folds
 from hbm.events.crossed import BRANCH, crossed, crossings, turns
 from hbm.events.crossing_error import crossing_error, witness
 from hbm.events.moving_multiplier import MovingMultiplier
-from hbm.events.multipliers import Multipliers
+from hbm.events.multipliers import HARMONICS, Multipliers
 from hbm.events.settled import Settled
 from hbm.forces.fourier import FourierBasis, by_harmonics
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -167,8 +167,11 @@ class Crossings:
     ) -> Correction | None:
         """Return where a multiplier of orbits with a finer resolution crosses.
 
-        They are found between those that are reported; None if one is not.
+        They are found between those that are reported; None if one is not, or if points
+        have no room for so many.
         """
+        if finer.coefficients * self.multipliers.resolution.rank >= self.system.size:
+            return None
         system = self.multipliers.resolution.at(finer)
         ends = before.reported, after.reported
         orbits = replace(
@@ -193,14 +196,16 @@ class Crossings:
         """Return the resolution of multipliers at two points, what may do, a precision.
 
         It is that of the orbits that are reported, or what their multipliers ask for;
-        none if it is that of the curve.
+        none if it is that of the curve. Where so many were asked for, fewer do not do.
         """
-        own = self.system.fourier
+        own, asks = self.system.fourier, before.asks or after.asks
         told = max(before.finer, after.finer, key=by_harmonics)
         samples = max(LOCATING.samples, own.samples)
         most = replace(LOCATING, samples=samples, threshold=told.threshold)
         finer = min(told, max(own, most, key=by_harmonics), key=by_harmonics)
-        precision = ROUGHER if before.asks or after.asks else ROUGH
+        if asks and told.harmonics > HARMONICS:
+            finer = told
+        precision = ROUGHER if asks else ROUGH
         first, second = (
             each if each.harmonics > own.harmonics else None for each in (told, finer)
         )

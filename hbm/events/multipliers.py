@@ -10,11 +10,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.optimize import linear_sum_assignment
 
 from hbm.continuation.arc import upright
 from hbm.continuation.correction import Outcome
 from hbm.continuation.newton import Small, correct
 from hbm.continuation.step_control import StepControl
+from hbm.events.moving_multiplier import outside
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path_resolution import PathResolution
 from hbm.stability.stability import SmallMotions
@@ -24,9 +26,14 @@ from microslip_mechanics.contact.points import GENERAL_KINETIC
 RATTLING = 0.5
 """share of the contact points that lift off, from which more harmonics are tried"""
 HARMONICS = 63
-"""most that are taken for multipliers alone"""
+"""most that are taken for multipliers alone where friction falls"""
+FINEST, UNKNOWNS = 1023, 2100
+"""most that are taken where contacts rattle, and most unknowns beyond those above: a
+stiff stop turns a small motion within a small part of a period"""
 CHANGE = 1e-2
 """of the leading multipliers from one order to the next, from which they are known"""
+DOUBT = 0.1
+"""of that change: with more, where stability changes too, it is not known"""
 ALIKE = 1e-3
 """of those from the order that the curve has to that of the reported orbit, up to which
 the latter are known: a finer orbit need not be sought"""
@@ -70,8 +77,8 @@ class Multipliers:
     ) -> tuple[ComplexArray, FourierBasis, bool]:
         """Return the multipliers, of more harmonics if they ask for it, and which.
 
-        With them comes whether the orbit is confirmed: where friction falls it must be
-        found with more harmonics too.
+        None if they are in doubt even then. With them comes whether the orbit is
+        confirmed: where friction falls it must be found with more harmonics too.
 
         Parameters
         ----------
@@ -87,11 +94,13 @@ class Multipliers:
         asks = falls or _rattles(normal_smallest)
         if self.fixed or known.size == 0 or not asks:
             return known, fourier, True
-        if coarser and not falls and self._alike(coarser, known):
+        before = self.at(*coarser) if coarser and not falls else known
+        if coarser and not falls and _change(before, known) < ALIKE:
             return known, fourier, True
         orbit, trusted, confirmed = point, fourier, True
-        while fourier.harmonics < HARMONICS:
-            fourier = _finer(fourier)
+        most = self._most(falls=falls)
+        while fourier.harmonics < most:
+            fourier = _finer(fourier, most)
             found = self.finer(orbit, fourier)
             confirmed = found is not None or not falls
             if found is None:
@@ -100,12 +109,18 @@ class Multipliers:
             known, trusted = self.at(orbit, fourier), fourier
             if _change(before, known) < CHANGE:
                 break
+        if _doubtful(before, known):
+            known = np.empty(0, complex)
         return known, trusted, confirmed
 
-    def _alike(self, coarser: tuple[Array, FourierBasis], known: ComplexArray) -> bool:
-        """Return whether an orbit with fewer harmonics has the same multipliers."""
-        others = self.at(*coarser)
-        return others.size == known.size and _change(others, known) < ALIKE
+    def _most(self, *, falls: bool) -> int:
+        """Return the harmonics that are not exceeded for multipliers alone."""
+        if falls:
+            return HARMONICS
+        harmonics = HARMONICS
+        while (4 * harmonics + 3) * self.resolution.rank <= UNKNOWNS:
+            harmonics = 2 * harmonics + 1
+        return min(harmonics, FINEST)
 
     def _falls(self, point: Array, fourier: FourierBasis) -> bool:
         """Return whether friction falls with the speed on an orbit just looked at."""
@@ -120,6 +135,7 @@ class Multipliers:
 
     def finer(self, point: Array, fourier: FourierBasis) -> Array | None:
         """Return the orbit at the same parameter with another resolution, if found."""
+        point = self._with_room(point, fourier)
         vibration = float(np.linalg.norm(point[self.resolution.rank : -1]))
         changes = np.full_like(point, SMALL * vibration)
         found = correct(
@@ -136,24 +152,39 @@ class Multipliers:
         other = np.abs(after - before).max() > ASIDE * before.max()
         return None if other else found.point
 
+    def _with_room(self, point: Array, fourier: FourierBasis) -> Array:
+        """Return a point with room for all coefficients of a resolution."""
+        missing = fourier.coefficients * self.resolution.rank + 1 - point.size
+        if missing <= 0:
+            return point
+        return np.concatenate((point[:-1], np.zeros(missing), point[-1:]))
+
 
 def _rattles(normal_smallest: Array) -> bool:
     lifts = np.count_nonzero(normal_smallest <= 0.0)
     return bool(lifts > 0 and lifts >= RATTLING * normal_smallest.size)
 
 
-def _finer(fourier: FourierBasis) -> FourierBasis:
+def _finer(fourier: FourierBasis, most: int) -> FourierBasis:
     finer = fourier.doubled
-    return replace(finer, harmonics=min(finer.harmonics, HARMONICS))
+    return replace(finer, harmonics=min(finer.harmonics, most))
 
 
 def _change(before: ComplexArray, after: ComplexArray) -> float:
-    """Return by how much the leading multipliers differ in modulus.
+    """Return by how much the leading multipliers differ, paired as they are nearest.
 
-    One that there is in either alone, of a slider that never slips in the other, counts
-    as a whole.
+    By their values, not moduli: a pair on its way to the real axis, where it parts,
+    need not change its modulus. One that there is in either alone, of a slider that
+    never slips in the other, counts as a whole.
     """
-    sizes = np.zeros((2, LEADING))
-    for row, each in zip(sizes, (before, after), strict=True):
-        row[: each.size] = np.abs(each[:LEADING])
-    return float(np.abs(sizes[0] - sizes[1]).max())
+    leading = np.zeros((2, LEADING), complex)
+    for row, each in zip(leading, (before, after), strict=True):
+        some = each[:LEADING]
+        row[: each.size] = some.real + 1j * np.abs(some.imag)
+    apart = np.abs(leading[0][:, None] - leading[1])
+    return float(apart[linear_sum_assignment(apart)].max())
+
+
+def _doubtful(before: ComplexArray, after: ComplexArray) -> bool:
+    """Return whether stability turns on the order, and multipliers change by much."""
+    return outside(before) != outside(after) and _change(before, after) > DOUBT

@@ -19,6 +19,7 @@ import numpy as np
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.contact_path import events, last_path
 from hbm.forces.sampled_orbit import SampledOrbit
+from hbm.stability.brief_touches import touched_times, vibration, within_touches
 from hbm.stability.jumps import jumps_of
 from hbm.stability.mean_motions import (
     MeanMotions,
@@ -48,6 +49,7 @@ LEAST = 0.05
 def recalled_multipliers(
     matrices: tuple[Array, Array, Array],
     basis: Array,
+    inertia: Array,
     contact: AlternatingFrequencyTime,
     frequency: float,
 ) -> ComplexArray:
@@ -62,6 +64,8 @@ def recalled_multipliers(
         Mass, damping and stiffness, each (coordinates, coordinates), y first.
     basis
         Map from y to the contact points, shape (3 points, rank).
+    inertia
+        What a sudden force on a contact point moves [kg], shape (3 points,).
     contact
         Just called at the orbit.
     frequency
@@ -73,11 +77,11 @@ def recalled_multipliers(
     known: regularised friction beside what remembers turns over too fast for equal
     steps, and a body that nothing holds has no motions of its own.
     """
-    steps = STEPS
-    known = _of_steps(matrices, basis, contact, frequency, steps)
+    steps, given = STEPS, (matrices, basis, inertia, contact, frequency)
+    known = _of_steps(*given, steps)
     while steps < MOST and np.abs(known).max(initial=0.0) > 1.0 + MARGIN:
         steps, before = FINER * steps, np.abs(known[0])
-        known = _of_steps(matrices, basis, contact, frequency, steps)
+        known = _of_steps(*given, steps)
         if abs(np.abs(known[0]) - before) <= ALIKE * before:
             break
     return known
@@ -86,6 +90,7 @@ def recalled_multipliers(
 def _of_steps(
     matrices: tuple[Array, Array, Array],
     basis: Array,
+    inertia: Array,
     contact: AlternatingFrequencyTime,
     frequency: float,
     steps: int,
@@ -96,11 +101,16 @@ def _of_steps(
         return np.empty(0, complex)
     sliders = Sliders.of(points, basis, contact.floating)
     orbit = SampledOrbit.of(contact, frequency)
-    pressed = events(points, last_path(contact, frequency, half=False))
-    slid = slid_orbit(sliders, orbit, TURN / contact.samples * pressed, steps)
+    path = last_path(contact, frequency, half=False)
+    pressed = TURN / contact.samples * events(points, path)
+    brief = touched_times(contact, path, half=False), inertia[::3]
+    among = within_touches(points, orbit, pressed, *brief)
+    slid = slid_orbit(sliders, orbit, among, steps)
     middle = 0.5 * (slid.phase[1:] + slid.phase[:-1])
     elastic, viscous = contact_tangents(points, basis, *orbit.at(middle))
     share = np.diff(slid.phase) / TURN
+    share[vibration(points, orbit, middle, *brief) > 0.0] = 0.0  # far from any mean
+    share /= share.sum()
     held = np.tensordot(share, elastic, axes=1) + _springs(sliders, slid, share)
     drag = np.tensordot(share, viscous, axes=1)
     motions = mean_motions(matrices, held, drag, frequency)

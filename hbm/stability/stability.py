@@ -60,7 +60,8 @@ class SmallMotions:
         """
         if remembers(contact.points).any():
             matrices = self.mass, self.damping, self.stiffness
-            return recalled_multipliers(matrices, self.basis, contact, frequency)
+            given = matrices, self.basis, self.inertia
+            return recalled_multipliers(*given, contact, frequency)
         signs = self._signs(contact)
         steps = step_tangents(
             contact, self.basis, self.inertia, frequency, half=signs is not None

@@ -6,10 +6,13 @@ points for itself.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from hbm.forces.contact_path import ContactPath, place
+from hbm.stability.brief_touches import BRIEFLY
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import ContactPoints
@@ -73,6 +76,22 @@ def largest_change(moments: Array, inertia: Array, length: float) -> float:
                         + abs(moments[point, 2, kind, row, column])
                     )
             largest = max(largest, change / held)
+    return largest
+
+
+@bare_kernel
+def largest_phase(
+    moments: Array, inertia: Array, touched: Array, length: float
+) -> float:
+    """Return by what angle a point vibrates on its normal stiffness at most [rad].
+
+    Those count that are ``touched`` so briefly that it matters.
+    """
+    largest = 0.0
+    for point in range(moments.shape[0]):
+        rate = math.sqrt(abs(moments[point, 0, 0, 0, 0]) / inertia[3 * point])
+        if rate * touched[point] <= BRIEFLY:
+            largest = max(largest, rate * length)
     return largest
 
 

@@ -7,7 +7,8 @@ speed asks. Each interval is carried in two steps with the tangents
     A₁,₂ = A₀ ∓ 4 A₁ ,    A₀ = ∫ A ds ,    A₁ = ∫ (s − ½) A ds ,    0 ≤ s ≤ 1 ,
 
 a commutator-free Magnus method of fourth order (Blanes and Moan, 2006). An interval is
-halved until A changes in it by little beside the inertia of its points.
+halved until A changes in it by little beside the inertia of its points, and until what
+touches briefly vibrates in it by a small part of its own period.
 """
 
 from __future__ import annotations
@@ -19,11 +20,13 @@ from numpy.typing import NDArray
 
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.contact_path import ContactPath, events, last_path
+from hbm.stability.brief_touches import touched_times
 from hbm.stability.tangent_jumps import add_jump
 from hbm.stability.tangent_moments import (
     add_steps,
     caught,
     largest_change,
+    largest_phase,
     write_moments,
 )
 from microslip_mechanics.arrays import Array
@@ -39,7 +42,9 @@ CHANGE = 0.1
 BRIEF = 1.0 / 256.0
 """of a period: first interval of a point that sticks"""
 SHORTEST = 1.0 / 2048.0
-"""of a period: what is shorter is not halved"""
+"""of a period: what is shorter is not halved for that"""
+PHASE = 0.5
+"""angle by which a point that touches briefly may vibrate in an interval [rad]"""
 
 
 class StepTangents(NamedTuple):
@@ -86,8 +91,9 @@ def step_tangents(
     fewest = COARSE if contact.samples <= FEW else FINE
     edges = _edges(np.unique(cuts), contact.samples / fewest)
     shortest = contact.samples * SHORTEST
+    touched = touched_times(contact, path, half=half)
     return StepTangents(
-        *_integrated(contact.points, path, basis, inertia, edges, shortest)
+        *_integrated(contact.points, path, basis, inertia, touched, edges, shortest)
     )
 
 
@@ -109,6 +115,7 @@ def _integrated(
     path: ContactPath,
     basis: Array,
     inertia: Array,
+    touched: Array,
     edges: Array,
     shortest: float,
 ) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
@@ -131,7 +138,7 @@ def _integrated(
             length = ends[waiting - 1] - begin
             write_moments(points, path, begin, length, moments)
             taken, begins = _taken(
-                moments, inertia, length, shortest, path.length, held
+                moments, inertia, touched, length, shortest, path.length, held
             )
             if taken < length:
                 ends[waiting] = begin + taken
@@ -152,6 +159,7 @@ def _integrated(
 def _taken(
     moments: Array,
     inertia: Array,
+    touched: Array,
     length: float,
     shortest: float,
     sample: float,
@@ -163,7 +171,8 @@ def _taken(
     taken.
     """
     changes = largest_change(moments, inertia, length * sample) > CHANGE
-    if changes and length > 2.0 * shortest:
+    turns = largest_phase(moments, inertia, touched, length * sample) > PHASE
+    if turns or (changes and length > 2.0 * shortest):
         return 0.5 * length, False
     brief = BRIEF / SHORTEST * shortest
     before = held.copy()

@@ -34,13 +34,14 @@ class Struck:
 
     stop: float
     """its stiffness [N/m]"""
+    drive: float = DRIVE
 
     def carried(self, omega: float, time: float, *, touching: bool) -> Array:
         """Return what carries x, v, cos ωt, sin ωt and 1 on over a time, (5, 5)."""
         held = self.stop if touching else 0.0
         rates = np.zeros((5, 5))
         rates[0, 1] = 1.0
-        rates[1] = [-(STIFFNESS + held), -DAMPING, 0.0, DRIVE, held * GAP]
+        rates[1] = [-(STIFFNESS + held), -DAMPING, 0.0, self.drive, held * GAP]
         rates[1] /= MASS
         rates[2, 3], rates[3, 2] = -omega, omega
         return np.asarray(expm(rates * time))
@@ -73,6 +74,32 @@ class Struck:
         on, off = self.period(omega, touching)
         values = np.linalg.eigvals(off[:2, :2] @ on[:2, :2])
         return float(np.abs(values).max())
+
+    def doubling(self, response: PeriodicResponse) -> float:
+        """Return the frequency [rad/s] near a response at which a multiplier is -1."""
+        phase, unknown = self.near(response)
+
+        def missed(state: Array) -> Array:
+            omega, share, _ = state[1:]
+            on, off = self.period(omega, share * 2.0 * np.pi / omega)
+            carried = off[:2, :2] @ on[:2, :2]
+            excess = 1.0 + np.trace(carried) + np.linalg.det(carried)
+            return np.append(self.missed(state[1:], state[0]), excess)
+
+        exact = root(missed, np.append(phase, unknown), tol=1e-13).x
+        assert np.abs(missed(exact)).max() < 1e-10
+        return float(exact[1])
+
+    def at(self, response: PeriodicResponse) -> Array:
+        """Return phase and unknowns of the motion at a response's frequency."""
+        phase, (omega, *rest) = self.near(response)
+
+        def missed(state: Array) -> Array:
+            return self.missed(np.append(omega, state[1:]), float(state[0]))
+
+        exact = root(missed, [phase, *rest], tol=1e-13).x
+        assert np.abs(missed(exact)).max() < 1e-10
+        return np.array([exact[0], omega, *exact[1:]])
 
     def start(self, unknown: Array, phase: float) -> Start:
         """Return the state of a motion where the drive's sine goes up through zero."""
@@ -154,6 +181,51 @@ def test_the_curve_of_a_mass_that_strikes_a_stiff_stop_is_whole(stop: float) -> 
             largest = float(np.abs(each.multipliers).max())
             assert largest == pytest.approx(exactly, rel=0.1)
             assert each.unstable == (exactly > 1.0) or abs(exactly - 1.0) < 0.02
+
+
+@pytest.mark.parametrize("ends", [(4.6, 5.0), (5.0, 4.6)])
+def test_stability_of_brief_touches_is_known_as_exactly_as_it_is_told(
+    ends: tuple[float, float],
+) -> None:
+    # a thousand times as stiff as the spring: it touches for a seventieth of a period
+    struck = Struck(1e6)
+    scene = load_scene("gap", [f"drive.x={DRIVE}", "element.stop.stiffness=1e6"])
+    problem = problem_of(scene)
+    options = CurveOptions(2.0 * np.pi * ends[0], 2.0 * np.pi * ends[1])
+
+    found = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    doublings = [each for each in found if each.event == "period doubling"]
+    assert len(doublings) == 2
+    for each in doublings:
+        exact = struck.doubling(each)
+        assert abs(each.frequency - exact) <= each.parameter_error < 2e-4 * exact
+    touching = [each for each in found if each.normal_largest[0] > 0.0]
+    for each in touching:
+        if not each.event:
+            _, omega, share, _ = struck.at(each)
+            exactly = struck.multiplier(omega, share * 2.0 * np.pi / omega)
+            assert np.abs(each.multipliers).max() == pytest.approx(exactly, rel=2e-3)
+
+
+@pytest.mark.parametrize("hertz", [5.05, 5.3])
+@pytest.mark.parametrize("stop", [1e6, 2.5e7])
+def test_a_curve_begins_where_a_stiff_stop_is_struck(stop: float, hertz: float) -> None:
+    # a drive that grows meets the fold of first touch, a stop that stiffens does not
+    scene = load_scene("gap", [f"element.stop.stiffness={stop}"])
+    problem, turn = problem_of(scene), 2.0 * np.pi * hertz
+    options = CurveOptions(turn, 1.001 * turn, events=False, stability=False)
+    struck = Struck(stop, drive=0.1)
+
+    first = next(
+        iter(frequency_response(problem, static_equilibrium(problem), options))
+    )
+
+    phase, (_, _, speed) = struck.near(first)
+    exactly, _, _, impact = struck.at(first)
+    assert first.frequency == turn
+    assert phase == pytest.approx(exactly, rel=1e-3)
+    assert speed == pytest.approx(impact, rel=0.02)
 
 
 @pytest.mark.parametrize(("stop", "steps"), [(6e4, 1024), (2e5, 2048)])

@@ -20,11 +20,15 @@ from small_problems import between_stops
 
 
 @pytest.mark.parametrize(
-    ("friction", "tried"),
-    [(0.0, ["driven"]), (0.3, ["driven", "_threshold", "_friction"])],
+    ("friction", "stop", "tried"),
+    [
+        (0.0, False, ["driven"]),
+        (0.3, False, ["driven", "_threshold", "_friction"]),
+        (0.0, True, ["driven", "_stops"]),
+    ],
 )
-def test_without_friction_the_drive_alone_makes_a_problem_easier(
-    friction: float, tried: list[str], monkeypatch: pytest.MonkeyPatch
+def test_what_a_problem_has_makes_it_easier(
+    friction: float, stop: bool, tried: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     found: list[str] = []
 
@@ -37,6 +41,7 @@ def test_without_friction_the_drive_alone_makes_a_problem_easier(
         return np.zeros((1, 1))
 
     monkeypatch.setattr(hbm.curves.homotopy, "_touches", lambda *_: False)
+    monkeypatch.setattr(hbm.curves.homotopy, "_apart", lambda _: np.array([stop]))
     monkeypatch.setattr(hbm.curves.homotopy, "_followed", followed)
     monkeypatch.setattr(hbm.curves.homotopy, "_along_an_arc", along)
     laws = np.array([friction])

@@ -1,5 +1,6 @@
 """When the multipliers of an orbit as it is reported are known well enough."""
 
+from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
@@ -18,6 +19,8 @@ from microslip_mechanics.static import static_equilibrium
 from small_problems import sliding_block
 
 COARSE, REPORTED = FourierBasis(7, 64), FourierBasis(15, 128)
+MANY = 12
+"""coordinates: as many as those of the full rig"""
 LIFTS, STAYS = np.array([0.0, 0.0]), np.array([1.0, 1.0])
 
 
@@ -41,16 +44,24 @@ def sought(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return harmonics
 
 
+def at_rank(rank: int, *, fixed: bool = False) -> Multipliers:
+    """Return the multipliers of so many coordinates."""
+    resolution = cast(PathResolution, SimpleNamespace(rank=rank))
+    return Multipliers(resolution, None, cast(StepControl, None), fixed=fixed)
+
+
 def sure(
-    change: float, lifts: Array, *, falls: bool, monkeypatch: pytest.MonkeyPatch
+    change: float,
+    lifts: Array,
+    *,
+    falls: bool,
+    monkeypatch: pytest.MonkeyPatch,
+    rank: int = MANY,
 ) -> tuple[ComplexArray, FourierBasis, bool]:
     """Return what is known where the leading multiplier is 1.1 + ``change`` / H²."""
     monkeypatch.setattr(Multipliers, "_falls", lambda *_: falls)
-    multipliers = Multipliers(
-        cast(PathResolution, None), None, cast(StepControl, None), fixed=False
-    )
     point = np.array([change, 0.0, 1.0])
-    return multipliers.sure(point, REPORTED, lifts, (point, COARSE))
+    return at_rank(rank).sure(point, REPORTED, lifts, (point, COARSE))
 
 
 @pytest.mark.parametrize(
@@ -87,16 +98,77 @@ def test_finer_orbits_are_sought_where_the_reported_one_says_too_little(
 def test_harmonics_beside_the_given_ones_are_sought_up_to_a_number(
     given: int, fixed: bool, expected: list[int], sought: list[int]
 ) -> None:
-    multipliers = Multipliers(
-        cast(PathResolution, None), None, cast(StepControl, None), fixed=fixed
-    )
     point, fourier = np.array([50.0, 0.0, 1.0]), FourierBasis(given, 128)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Multipliers, "_falls", lambda *_: False)
-        multipliers.sure(point, fourier, LIFTS)
+        at_rank(MANY, fixed=fixed).sure(point, fourier, LIFTS)
 
     assert sought == expected
+
+
+@pytest.mark.parametrize(
+    ("rank", "falls", "expected"),
+    [
+        (1, False, [31, 63, 127, 255, 511, 1023]),
+        (2, False, [31, 63, 127, 255, 511]),
+        (4, False, [31, 63, 127, 255]),
+        (9, False, [31, 63]),
+        (1, True, [31, 63]),
+    ],
+)
+def test_few_coordinates_that_rattle_are_looked_at_with_many_harmonics(
+    rank: int,
+    falls: bool,
+    expected: list[int],
+    sought: list[int],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    known, fourier, _ = sure(
+        1e5, LIFTS, falls=falls, monkeypatch=monkeypatch, rank=rank
+    )
+
+    assert sought == expected
+    assert fourier.harmonics == expected[-1]
+    assert known.size == 4  # stability is the same with the last two
+
+
+@pytest.mark.parametrize(
+    ("turned", "expected"), [(1e-4, []), (5e-4, [31]), (2e-3, [31, 63])]
+)
+def test_a_pair_that_turns_about_zero_is_not_known(
+    turned: float,
+    expected: list[int],
+    sought: list[int],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A pair of a constant modulus, which it leaves once it is real."""
+
+    def at(_: Multipliers, __: Array, fourier: FourierBasis) -> ComplexArray:
+        angle = turned * fourier.harmonics
+        return np.array([0.8 * np.exp(1j * angle), 0.8 * np.exp(-1j * angle)])
+
+    monkeypatch.setattr(Multipliers, "at", at)
+
+    sure(0.0, LIFTS, falls=False, monkeypatch=monkeypatch)
+
+    assert sought == expected
+
+
+@pytest.mark.parametrize(("apart", "known"), [(0.15, 0), (0.05, 2)])
+def test_stability_that_turns_on_the_harmonics_is_not_known(
+    apart: float, known: int, sought: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def at(_: Multipliers, __: Array, fourier: FourierBasis) -> ComplexArray:
+        leaves = fourier.harmonics in (15, 63)
+        return np.array([1.0 + apart * (0.5 if leaves else -0.5), 0.1 + 0j])
+
+    monkeypatch.setattr(Multipliers, "at", at)
+
+    found, _, _ = sure(0.0, LIFTS, falls=False, monkeypatch=monkeypatch)
+
+    assert sought == [31, 63]
+    assert found.size == known
 
 
 def test_a_multiplier_that_one_resolution_lacks_asks_for_more(

@@ -113,7 +113,7 @@ def _stability(curve: ResponseCurve) -> str:
         return (
             f"unstable at {unstable.sum()} of {unstable.size} points, between "
             f"{hertz.min():.4f} and {hertz.max():.4f} Hz; largest Floquet multiplier "
-            f"{_multiplier(float(curve.multiplier.max()))}"
+            f"{_multiplier(float(curve.multiplier.max()))}{_doubted(curve)}"
         )
     stable = curve.unstable == 0
     if stable.all():
@@ -128,6 +128,12 @@ def _stability(curve: ResponseCurve) -> str:
         "or of contacts that remember beside regularised friction or a body that "
         "nothing holds; microslip verify finds them by shooting"
     )
+
+
+def _doubted(curve: ResponseCurve) -> str:
+    """Return of how many points the stability is not known, if there are some."""
+    unknown = int((curve.unstable < 0).sum())
+    return f"; not known of {unknown}" if unknown else ""
 
 
 def _multiplier(value: float) -> str:

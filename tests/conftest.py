@@ -1,8 +1,12 @@
 """Fixtures: the command line in this process, small results, a limit on the time."""
 
+import os
 import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
+
+# before numpy is loaded; workers whose threads wait for each other's cores take long
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 import pytest

@@ -50,6 +50,7 @@ LEAST = 0.95
 SCENES = {
     "duffing": ("duffing",),
     "gap": ("gap",),
+    "stiff stop": ("gap", "element.stop.stiffness=1e6"),
     "jenkins slider": ("jenkins",),
     "tip-damper": ("tip-damper",),
     "friction-beam": ("friction-beam",),
@@ -60,6 +61,7 @@ SCENES = {
         for model in ("A", "B", "full")
         for law in ("coulomb", "gkf")
     },
+    "rig A sharp": ("two-blades", "model=A", "friction.threshold_velocity=1e-4"),
 }
 BETWEEN = (6.5, 8.9)
 """frequencies about the resonances of the three masses [rad/s]"""

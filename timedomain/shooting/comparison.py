@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from microslip_mechanics.arrays import TINY, Array, largest
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import MARGIN, PeriodicResponse
 from timedomain.record.start import on_orbit
+from timedomain.shooting.closed_march import ShootingError
 from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
 FLOOR = 1e-5
@@ -108,11 +109,28 @@ def compared(
 ) -> Comparison:
     """Shoot from a response of harmonic balance; compare the two.
 
+    Where they differ on stability, shorter steps are tried as long as there are some:
+    what touches briefly leaves by how exactly that is carried.
+
     Raises
     ------
     ShootingError
         If there is no orbit near it.
     """
+    chosen = options or ShootingOptions()
+    made = _compared(problem, response, chosen)
+    while not made.as_stable and 2 * made.steps <= chosen.most:
+        try:
+            made = _compared(problem, response, replace(chosen, steps=made.steps))
+        except ShootingError:
+            break
+    return made
+
+
+def _compared(
+    problem: Problem, response: PeriodicResponse, options: ShootingOptions
+) -> Comparison:
+    """Compare a response with the orbit that shooting with some steps finds."""
     start = on_orbit(problem, response)
     orbit = periodic_orbit(
         problem, response.frequency, start=start, options=options, near=response

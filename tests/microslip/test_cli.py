@@ -148,7 +148,7 @@ def test_curve_is_written_drawn_and_told(
     assert f"{len(curve.frequency)} points in quick-frc.nc" in output
     assert re.search(
         r"estimated error of amplitude: at most \S+ % at a point, \S+ % in the "
-        r"median; 1 to 1 harmonics, 16 to 16 samples$",
+        r"median; 1 harmonic, 16 samples$",
         output,
         re.MULTILINE,
     )

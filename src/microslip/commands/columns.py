@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -76,6 +76,16 @@ def decimal(
     if few or most >= 10.0 ** (width - decimals - 1):
         return f"{value:{width}.{DIGITS}e}"
     return f"{value:z{width}.{decimals}f}"
+
+
+def span(counts: Iterable[float], what: str) -> str:
+    """Return the least and the largest number of something, or the one that there is.
+
+    ``what`` is one of it, such as ``harmonic``.
+    """
+    known = sorted({int(each) for each in counts})
+    ends = f"{known[0]} to {known[-1]}" if len(known) > 1 else str(known[0])
+    return f"{ends} {what}{'' if ends == '1' else 's'}"
 
 
 def about(error: float, unit: str = "") -> str:

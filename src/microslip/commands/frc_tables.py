@@ -6,7 +6,15 @@ import math
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import about, decimal, force, headed, tabled, titled
+from microslip.commands.columns import (
+    about,
+    decimal,
+    force,
+    headed,
+    span,
+    tabled,
+    titled,
+)
 
 if TYPE_CHECKING:
     from microslip.scenes.scene import Scene
@@ -166,8 +174,7 @@ def resolution(curve: ResponseCurve) -> str:
         error += f", not known at {lost} of {curve.error.size} points"
     return (
         f"estimated error of amplitude: {error}; "
-        f"{curve.harmonics.min():.0f} to {curve.harmonics.max():.0f} harmonics, "
-        f"{curve.samples.min():.0f} to {curve.samples.max():.0f} samples"
+        f"{span(curve.harmonics, 'harmonic')}, {span(curve.samples, 'sample')}"
     )
 
 

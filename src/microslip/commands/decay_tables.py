@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import decimal
+from microslip.commands.columns import decimal, hertz
 
 if TYPE_CHECKING:
     from microslip_mechanics.results.ring_down import RingDown
@@ -24,12 +24,12 @@ def cycles(decay: RingDown, probe: str) -> list[str]:
         "time [s]  amplitude [mm]  frequency [Hz]  damping ratio [%]",
     ]
     chosen = sorted({round(n * (count - 1) / (SHOWN - 1)) for n in range(SHOWN)})
-    percent = 100.0 * decay.damping
+    percent, frequencies = 100.0 * decay.damping, decay.frequency / math.tau
     # about zero digits say nothing
     largest = percent.max() if (percent > 0.0).all() else 1.0
     rows += [
         f"{decay.time[place]:8.4f} {1e3 * decay.amplitude[place]:15.6g} "
-        f"{decay.frequency[place] / math.tau:15.4f} "
+        f"{hertz(frequencies[place], frequencies):>15} "
         f"{decimal(percent[place], largest, 4, 18)}"
         for place in chosen
     ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import decimal, span
+from microslip.commands.columns import decimal, hertz, span
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,10 +29,10 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
 
     from microslip.mode_lines import counted
 
-    hertz = mode.linear.frequency / math.tau
+    natural = mode.linear.frequency / math.tau
     rows = [
-        f"mode at {hertz:.4f} Hz, damping ratio {100.0 * mode.linear.damping:.4f} %, "
-        f"{state}",
+        f"mode at {hertz(natural, [natural])} Hz, damping ratio "
+        f"{100.0 * mode.linear.damping:.4f} %, {state}",
     ]
     if not mode.points:
         return [*rows, f"it has no first point: {mode.ending}"]
@@ -78,12 +78,14 @@ def _point_rows(mode: FollowedMode) -> list[str]:
         most_damped = None  # it may be damped more where it does not reach
     if max(damping) - min(damping) <= ROUNDING * max(damping):
         most_damped = None
+    seen = [point.frequency / math.tau for point in mode.points]
     rows = []
     for point in shown_points(mode):
         most = point is most_damped
         amplitude = 1e3 * point.amplitude
         rows.append(
-            f"{decimal(amplitude, amplitude, 5, 9)} {point.frequency / math.tau:10.4f} "
+            f"{decimal(amplitude, amplitude, 5, 9)} "
+            f"{hertz(point.frequency / math.tau, seen):>10} "
             f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
             f"{point.damping_error:10.1e}{'  most damped' if most else ''}"
         )
@@ -97,7 +99,8 @@ def ending_of(modes: Sequence[FollowedMode]) -> str:
         return "complete"
     if len(modes) == 1:
         return short[0].ending
-    places = ", ".join(f"{mode.linear.frequency / math.tau:.4f}" for mode in short)
+    found = [mode.linear.frequency / math.tau for mode in short]
+    places = ", ".join(hertz(each, found) for each in found)
     return (
         f"{len(short)} of {len(modes)} modes cannot be followed to the end, at "
         f"{places} Hz: their tables say why"

@@ -61,8 +61,8 @@ COMMANDS = (
 """in the order of the help"""
 EPILOG = """\
 start with: microslip frc two-blades
-exit status: 0 done, 1 failed or the solvers disagree, 2 wrong scene, file or arguments,
-130 interrupted (what was computed is kept)"""
+exit status: 0 done, 1 failed, not whole (what was computed is kept) or the solvers
+disagree, 2 wrong scene, file or arguments, 130 interrupted (kept likewise)"""
 
 
 def _plain(word: str) -> str:

@@ -68,8 +68,10 @@ class Problem:
     def __repr__(self) -> str:
         """Return what kind of problem it is, in a line."""
         contacts = ", ".join(self.interface.names) or "none"
+        count = self.structure.dofs
+        dofs = "1 degree" if count == 1 else f"{count} degrees"
         return (
-            f"<Problem: {self.structure.dofs} degrees of freedom; contacts {contacts}; "
+            f"<Problem: {dofs} of freedom; contacts {contacts}; "
             f"probes {', '.join(self.probes.names)}>"
         )
 

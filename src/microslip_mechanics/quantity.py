@@ -122,6 +122,14 @@ class Quantity:
         return f"it must be {edge} and at most {self.highest:g}{unit}"
 
 
+def apart(low: float, high: float) -> tuple[str, str]:
+    """Return two numbers as texts, with as many digits as tell them apart."""
+    digits = 6
+    while digits < 17 and low != high and f"{low:.{digits}g}" == f"{high:.{digits}g}":
+        digits += 1
+    return f"{low:.{digits}g}", f"{high:.{digits}g}"
+
+
 def quantity(
     unit: str = "",
     *,

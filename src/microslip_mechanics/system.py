@@ -92,7 +92,8 @@ structures.hysteretic.equivalent_viscous`).
         square_matrix(mass, "mass"),
         square_matrix(stiffness, "stiffness"),
     )
-    known, groups = dof_names(names, masses.shape[0]), given_sets(sets)
+    known = dof_names(names, masses.shape[0])
+    groups = given_sets(sets, known)
     check_like(elastic, masses, "stiffness")
     check_massive(masses, known)
     lossy = Damping(damping, damping_ratio, rayleigh_damping, loss_factor)

@@ -46,9 +46,22 @@ def test_blades_in_phase_or_against_each_other_have_exactly_real_loads(
 @pytest.mark.parametrize(
     ("blades", "amplitude", "message"),
     [
-        (["3.z", "4"], 1.0, "blade '4' is 2 degrees of freedom: give one"),
-        (["3.z", "3.z"], 1.0, "blade '3.z' stands there twice: give each one once"),
-        (["99.z"], 1.0, "no degree of freedom is called '99.z': did you mean 9.z?"),
+        (
+            ["3.z", "4"],
+            1.0,
+            "engine order: blade '4' is 2 degrees of freedom: give one",
+        ),
+        (
+            ["3.z", "3.z"],
+            1.0,
+            "engine order: blade '3.z' stands there twice: give each one once",
+        ),
+        (
+            ["99.z"],
+            1.0,
+            "engine order: blades: no degree of freedom is called '99.z': did you mean "
+            "9.z?",
+        ),
         (["3.z"], np.nan, "amplitude nan N: give a finite one"),
     ],
 )

@@ -145,4 +145,4 @@ def test_a_body_that_only_a_dashpot_holds_is_told_as_an_error_of_microslip() -> 
 
 
 def test_problems_tell_what_they_are_in_a_line(duffing: Any) -> None:
-    assert repr(duffing) == "<Problem: 1 degrees of freedom; contacts cubic; probes x>"
+    assert repr(duffing) == "<Problem: 1 degree of freedom; contacts cubic; probes x>"

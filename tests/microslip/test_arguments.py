@@ -38,6 +38,9 @@ def test_frequencies_that_are_none_are_refused(
         (("verify", "--periods=1"), "1: give a whole number from 2 to 10000000"),
         (("stress", "--processes=65"), "65: give a whole number from 1 to 64"),
         (("modes", "--harmonics=128"), "128: give a whole number from 1 to 127"),
+        (("decay", "--tolerance=2"), "2: give a number above 0 and below 1"),
+        (("verify", "--tolerance=1"), "1: give a number above 0 and below 1"),
+        (("jumps", "--lead=1"), "1: give a number above 0 and below 1"),
         (("modes", "--tolerance=2"), "2: give a number from 1e-06 to 0.5"),
     ],
 )

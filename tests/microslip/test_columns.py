@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from microslip.commands.columns import decimal, tabled
+from microslip.commands.columns import decimal, hertz, tabled
 
 
 @pytest.mark.parametrize(
@@ -25,6 +25,20 @@ def test_small_columns_have_powers_of_ten(
     value: float, largest: float, text: str
 ) -> None:
     assert decimal(value, largest, 5) == text
+
+
+@pytest.mark.parametrize(
+    ("seen", "texts"),
+    [
+        ([125.0, 145.0], ["125.0000", "145.0000"]),
+        ([5.5, 5.5002], ["5.5000000", "5.5002000"]),
+        ([2e-5, 9e-4], ["0.0000200", "0.0009000"]),
+        ([135.0, 135.0 + 1e-9], ["135.0000", "135.0000"]),
+        ([0.0], ["0.0000"]),
+    ],
+)
+def test_frequencies_are_told_apart(seen: list[float], texts: list[str]) -> None:
+    assert [hertz(each, seen) for each in seen] == texts
 
 
 def test_tables_have_the_probes_that_move_most_of_many() -> None:

@@ -12,7 +12,7 @@ import pytest
 
 from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import modes_in_range, nonlinear_mode
-from microslip.commands.decay_tables import cycles
+from microslip.commands.decay_tables import cycles, errors
 from microslip.files.result_file import load
 from microslip.scenes.experiments import March
 from microslip.scenes.quantity import SceneError
@@ -339,6 +339,29 @@ def test_what_grows_by_rounding_is_not_told(damping: float, *, told: bool) -> No
     assert ("the amplitude grows in 2 of 4 cycles" in "".join(lines)) == told
 
 
+def test_damping_that_rounding_hides_has_an_absolute_error() -> None:
+    still = np.ones(3)
+    undamped = RingDown(np.arange(3.0), still, still, 1e-11 * np.array([-1, 1, -2]))
+    damped = dataclasses.replace(undamped, damping=0.01 * still)
+
+    assert "-0.0000" not in "".join(cycles(undamped, "x"))
+    assert errors(undamped, 1e-6, 700.0) == (
+        "frequency 1.0e-06 of the largest; no damping can be measured, its ratio is "
+        "off by up to 1.4e-06 %"
+    )
+    assert errors(damped, 1e-6, 1e-3) == (
+        "frequency 1.0e-06, damping 1.0e-03, of the largest"
+    )
+
+
+def test_small_damping_keeps_its_digits() -> None:
+    still = np.ones(2)
+
+    lines = cycles(RingDown(np.arange(2.0), still, still, 8.153e-7 * still), "x")
+
+    assert lines[-1].endswith(" 8.153e-05")
+
+
 @pytest.mark.long
 def test_motions_that_beat_are_told(run: Run) -> None:
     words = ("--frequency", "0.16", "--tolerance", "0.5", "--periods", "60")
@@ -369,11 +392,13 @@ def test_rows_too_few_to_a_cycle_are_not_measured(
     assert re.match(r"x1 has [\d.]+ rows to a cycle, where .* need 12: give a ", told)
 
 
-@pytest.mark.parametrize("option", ["--tolerance", "--most-periods"])
+@pytest.mark.parametrize(
+    ("option", "given"), [("--tolerance", "0.1"), ("--most-periods", "1")]
+)
 def test_limits_of_a_dwell_do_not_go_with_a_file(
-    option: str, run: Run, quick_scene: Path, tmp_path: Path
+    option: str, given: str, run: Run, quick_scene: Path, tmp_path: Path
 ) -> None:
-    words = ("--from", "quick-sweep.nc", option, "1")
+    words = ("--from", "quick-sweep.nc", option, given)
 
     status, output, error = run("decay", str(quick_scene), *words)
 

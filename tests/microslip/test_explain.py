@@ -138,6 +138,14 @@ def test_symmetry_leaves_out_about_half_of_the_unknowns() -> None:
     assert 0.4 < unknowns.kept / unknowns.whole < 0.7
 
 
+def test_unknowns_of_coordinates_that_move_are_not_said_to_be_symmetry() -> None:
+    found = {each.what: each for each in pruned(load_scene("tip-damper"))}
+
+    unknowns = found["unknowns of harmonic balance with 63 harmonics"]
+    assert (unknowns.kept, unknowns.whole) == (2 * 127, 3 * 127)
+    assert unknowns.reason == "of the coordinates above"
+
+
 def test_unknowns_are_those_of_63_harmonics_where_the_tolerance_says_how_many() -> None:
     found = {each.what: each for each in pruned(load_scene("two-blades"))}
 

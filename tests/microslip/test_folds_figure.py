@@ -32,6 +32,20 @@ def test_folds_over_decades_have_an_axis_of_decades(most: float, scale: str) -> 
     assert [axes.get_xscale() for axes in figure.axes] == [scale, scale]
 
 
+def test_folds_are_named_by_their_colours() -> None:
+    fold = FoldLine([1.0, 2.0], [6.0, 7.0], [1e-3] * 2, [False] * 2, [""] * 2)
+
+    one, seven = (folds_figure([fold] * count, "", "").axes[1] for count in (1, 7))
+
+    assert one.get_legend() is None
+    legend = seven.get_legend()
+    assert legend is not None
+    names = [text.get_text() for text in legend.get_texts()]
+    assert names == ["folds 1, 7", *(f"fold {place}" for place in range(2, 7))]
+    colours = [line.get_color() for line in legend.get_lines()]
+    assert colours == [line.get_color() for line in seven.lines[::4][:6]]
+
+
 def offsets(figure: Figure) -> list[str]:
     """Return the texts beside all axes."""
     figure.draw_without_rendering()

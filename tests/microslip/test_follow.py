@@ -57,6 +57,16 @@ def test_a_sticking_rig_answers_in_proportion_to_the_drive() -> None:
     )
 
 
+def test_a_curve_from_zero_begins_at_zero() -> None:
+    fixed = ("curve.harmonics=7", "curve.samples=128")
+    gap = parameter("gap", fixed, "element.stop.gap", "0", "0.2 mm")
+
+    curve = follow(gap, math.tau * 5.2)
+
+    assert curve.ending == "complete"
+    assert curve.parameter[0] == 0.0
+
+
 def test_a_drive_of_nothing_is_a_wrong_scene(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -47,6 +47,10 @@ MALFORMED: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     "missing model": (edited('model = "full"', ""), ("model", "missing")),
     "missing rig table": (without_table("friction"), ("[friction]", "missing")),
     "missing experiment": (without_table("curve"), ("[curve]", "missing")),
+    "switch for a kind": (
+        edited('scene = "two-blades"', "scene = true"),
+        ("scene = true: name the kind",),
+    ),
     "empty table": (without_table("rope") + "\n[rope]", ("[rope] stiffness",)),
     "wrong unit": (
         length('"207.5 Hz"'),
@@ -62,7 +66,7 @@ MALFORMED: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     ),
     "switch for a number": (
         length("true"),
-        ("[blade] length", "not a number"),
+        ("[blade] length = true:", "not a number"),
     ),
     "date for a number": (
         length("1979-05-27"),

@@ -201,7 +201,7 @@ def test_a_mode_without_a_first_point_leaves_the_others(
     status, output, error = two_modes(tmp_path, capsys)
 
     assert status == 1
-    assert output.count("most damped") == 1
+    assert output.count(" points with ") == 1
     assert "it has no first point: no first point: try less" in output
     assert error.startswith(
         "microslip: 1 of 2 modes cannot be followed to the end, at "
@@ -307,6 +307,19 @@ def test_the_work_for_a_mode_is_bounded() -> None:
     assert "30 evaluations" in held.ending
     assert "grant more" in held.ending
     assert 1 < len(held.points) < len(free.points)
+
+
+def test_of_constant_damping_no_point_is_most_damped() -> None:
+    problem = microslip.system(
+        mass=[1.0], stiffness=[1e3], damping_ratio=0.01, drive={"x1": 1.0}
+    )
+    options = ModeOptions(1e-3, 2e-3, harmonics=1)
+
+    (mode,) = followed(problem, (30.0, 33.0), options)
+
+    told = "\n".join(mode_table(mode, "in small motions"))
+    assert "most damped" not in told
+    assert "points with 1 harmonic and 128 samples; " in told
 
 
 @pytest.mark.parametrize(("ending", "marks"), [("complete", 1), ("it stops", 0)])

@@ -71,6 +71,8 @@ def test_the_slope_is_that_of_the_runs_which_the_reference_can_judge() -> None:
 
     assert slope(found, 0, 1e-6) == pytest.approx(2.0)
     assert math.isnan(slope(found, 0, 1e-3))
+    alike = [run(1.0 + 1e-3 * n, 4.0**-n) for n in range(1, 12)]
+    assert math.isnan(slope(alike, 0, 1e-6))
 
 
 @functools.cache

@@ -28,12 +28,12 @@ def curve(
     ]
 
 
-def kept(points: Sequence[PeriodicResponse]) -> list[int]:
+def kept(points: Sequence[PeriodicResponse]) -> list[float]:
     """Return the places of the peaks that are kept."""
     found = prominent(oscillator(), points)
     others = [each for each in points if each.event != "peak"]
     assert [each for each in found if each.event != "peak"] == others
-    return [int(each.parameter) for each in found if each.event == "peak"]
+    return [each.parameter for each in found if each.event == "peak"]
 
 
 def test_a_ripple_on_a_slope_is_no_peak() -> None:
@@ -60,6 +60,19 @@ def test_the_highest_peak_is_kept_however_flat_it_is() -> None:
 
 def test_peaks_of_unknown_error_are_kept() -> None:
     assert kept(curve([1.0, 1.1, 1.0999, 1.2, 1.0], [1, 3], np.inf)) == [1, 3]
+
+
+def test_a_point_from_which_the_curve_is_taken_up_a_step_back_is_no_peak() -> None:
+    points = curve([1.0, 1.2, 1.2, 1.1, 1.15, 1.3, 1.0], [2, 5])
+    places = (1.0, 2.0, 2.0, 1.8, 1.9, 2.1, 3.0)
+    back = [
+        replace(each, parameter=place)
+        for each, place in zip(points, places, strict=True)
+    ]
+    fold = [*back[:3], replace(back[2], event="fold"), *back[3:]]
+
+    assert kept(back) == [2.1]
+    assert kept(fold) == [2, 2.1]
 
 
 def folded(places: Sequence[float], folds: Sequence[int]) -> list[PeriodicResponse]:

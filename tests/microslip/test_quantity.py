@@ -7,6 +7,7 @@ import pytest
 
 from microslip.scenes.quantity import UNITS, Quantity, SceneError
 from microslip.scenes.scene_file import load_scene
+from microslip_mechanics.quantity import apart
 
 LENGTH = Quantity("m", 0.0, 10.0, positive=True)
 RATIO = Quantity("", 0.0, 0.5, positive=False)
@@ -172,3 +173,17 @@ def test_a_stiffness_has_the_unit_that_its_power_gives_it(
     made = load_scene(str(path)).rig.element["e"]
     found = made.coefficients[1.0] if law == "polynomial-spring" else made.stiffness
     assert found == stiffness
+
+
+@pytest.mark.parametrize(
+    ("ends", "texts"),
+    [
+        ((125.0, 145.0), ("125", "145")),
+        ((4.0, 4.00000012), ("4", "4.0000001")),
+        ((4.0, 4.0), ("4", "4")),
+    ],
+)
+def test_two_numbers_have_digits_that_tell_them_apart(
+    ends: tuple[float, float], texts: tuple[str, str]
+) -> None:
+    assert apart(*ends) == texts

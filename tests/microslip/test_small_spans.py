@@ -131,3 +131,16 @@ def test_a_decay_of_one_frequency_does_not_show_rounding(
     frequency = decay_figure(small_history, decay, 0, "").axes[2]
 
     assert np.ptp(frequency.get_ylim()) == pytest.approx(1.1e-6 * hertz[0], rel=1e-3)
+
+
+def test_a_decay_that_does_not_decay_does_not_show_rounding(
+    small_history: TimeHistory,
+) -> None:
+    away = 1e-12 * np.array([1.0, -1.0, 1.0])
+    decay = RingDown(np.arange(3.0), 2e-3 * (1.0 + away), 100.0 + away, away)
+
+    _, shrinking, frequency, damping = decay_figure(small_history, decay, 0, "").axes
+
+    for limits in (shrinking.get_ylim(), frequency.get_xlim(), damping.get_xlim()):
+        assert np.ptp(limits) == pytest.approx(1.1e-6 * 2.0, rel=1e-3)
+    assert np.ptp(damping.get_ylim()) > 1e-4

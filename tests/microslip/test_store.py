@@ -101,8 +101,21 @@ def test_file_without_a_variable_is_no_result(
     save(saved, Stored(result, SCENE, COMMAND))
     monkeypatch.undo()
 
-    with pytest.raises(StoreError, match="is not a result file"):
+    with pytest.raises(StoreError, match="is not a result file, it has no "):
         load(saved)
+
+
+@pytest.mark.parametrize("name", ["frequency", "parameter", "amplitude"])
+def test_a_curve_of_no_numbers_is_no_result(
+    name: str, small_curve: ResponseCurve, tmp_path: Path
+) -> None:
+    path = tmp_path / "lost.nc"
+    lost = np.full_like(getattr(small_curve, name), np.nan)
+    curve = dataclasses.replace(small_curve, **{name: lost})
+    save(path, Stored(curve, SCENE, COMMAND))
+
+    with pytest.raises(StoreError, match="is not a result file"):
+        load(path)
 
 
 def test_curve_of_an_earlier_version_has_no_errors_of_its_parameter(

@@ -136,6 +136,28 @@ cubic = 10
     assert problem.drive.tolist() == [2, 0, 2, 0, 1, 0]
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('"1", "2"', '"1", "4"', "sets: left: no degree of freedom is called '4'"),
+        ("left", "3", "sets: 3 is the name of a node, too: name the set differently"),
+    ],
+)
+def test_sets_of_unknown_nodes_or_called_like_one_are_refused(
+    old: str, new: str, said: str, tmp_path: Path
+) -> None:
+    text = NODES.replace(old, new) + '[drive]\n"1.x" = 1\n'
+
+    with pytest.raises(SceneError, match=re.escape(said)):
+        made(tmp_path, text)
+
+
+def test_a_set_of_one_node_may_have_its_name(tmp_path: Path) -> None:
+    text = NODES.replace('left = ["1", "2"]', '1 = ["1"]')
+
+    assert made(tmp_path, text + '[drive]\n"1.x" = 1\n').drive.tolist()[0] == 1.0
+
+
 def test_moving_ground_loads_each_mass_along_its_direction(tmp_path: Path) -> None:
     text = NODES + '[base]\ndirection = [0, 0, 2]\nacceleration = "500 mm/s^2"\n'
 

@@ -126,6 +126,8 @@ def test_events_and_errors_are_told_in_the_units_beside_them(
     assert "133.000000 Hz \N{PLUS-MINUS SIGN} 0.0003 " in said
     assert "mm \N{PLUS-MINUS SIGN} 0.2 %" in said
     assert "at most 0.2 % at a point, 0.075 % in the median" in resolution(curve)
+    one = dataclasses.replace(curve, harmonics=np.ones(4), samples=np.full(4, 64.0))
+    assert resolution(one).endswith("; 1 harmonic, 64 samples")
 
 
 def test_the_table_of_a_curve_is_in_the_units_of_its_head(

@@ -142,6 +142,14 @@ def positive(text: str) -> float:
     return number
 
 
+def share(text: str) -> float:
+    """Read a number above 0 and below 1 from the command line."""
+    number = positive(text)
+    if number >= 1.0:
+        raise argparse.ArgumentTypeError(f"{text}: give a number above 0 and below 1")
+    return number
+
+
 def whole(lowest: int, highest: int) -> Callable[[str], int]:
     """Return what reads a whole number within bounds from the command line."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -18,6 +18,8 @@ SHOWN = 3
 """probes in a table"""
 DIGITS = 3
 """that a column's largest number has at least"""
+SAME = 1e-6
+"""way between frequencies, relative, up to which it may be rounding"""
 NOTHING = 1e-15
 """largest number of a column, in its unit, that rounding makes of zero"""
 
@@ -76,6 +78,29 @@ def decimal(
     if few or most >= 10.0 ** (width - decimals - 1):
         return f"{value:{width}.{DIGITS}e}"
     return f"{value:z{width}.{decimals}f}"
+
+
+def hertz(
+    value: float | np.floating[Any], seen: Sequence[float] | Array, decimals: int = 4
+) -> str:
+    """Return a frequency [Hz] with decimals that tell apart those that are ``seen``.
+
+    It has so many ``decimals`` at least; what rounding alone parts is not told apart.
+    """
+    most = max((abs(float(each)) for each in seen), default=0.0) or 1.0
+    width = float(max(seen) - min(seen)) if len(seen) else 0.0
+    finest = most if width <= SAME * most else min(most, width)
+    return f"{value:.{decimals + max(0, -1 - math.floor(math.log10(finest)))}f}"
+
+
+def span(counts: Iterable[float], what: str) -> str:
+    """Return the least and the largest number of something, or the one that there is.
+
+    ``what`` is one of it, such as ``harmonic``.
+    """
+    known = sorted({int(each) for each in counts})
+    ends = f"{known[0]} to {known[-1]}" if len(known) > 1 else str(known[0])
+    return f"{ends} {what}{'' if ends == '1' else 's'}"
 
 
 def about(error: float, unit: str = "") -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, dwell
 from microslip.commands.decay_march import marched, recorded
-from microslip.commands.decay_tables import COLUMNS, cycles
+from microslip.commands.decay_tables import COLUMNS, cycles, errors
 from microslip.commands.written import named, written
 from microslip_mechanics.errors import MicroslipError
 
@@ -168,7 +168,7 @@ def _tell_step_errors(
     probe: int,
 ) -> str:
     """Print what a march with steps twice as long changes; return how it ended."""
-    from microslip.studies.decay import step_errors
+    from microslip.studies.decay import measured, step_errors
 
     twice = replace(
         scene.march,
@@ -186,9 +186,7 @@ def _tell_step_errors(
         return ending
     said = f"not known: {ending}"
     if ending == "complete":
-        told, damping = step_errors(problem, history, coarse, probe)
-        said = f"frequency {told:.1e}, damping {damping:.1e}, of the largest"
-        if math.isnan(told):
-            said = "not known: steps twice as long show no swings"
+        told = step_errors(problem, history, coarse, probe)
+        said = errors(measured(problem, history, probe), *told)
     print(f"estimated error of time steps and rows: {said}")
     return "complete"

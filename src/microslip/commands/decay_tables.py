@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from microslip.commands.columns import decimal, hertz
+
 if TYPE_CHECKING:
     from microslip_mechanics.results.ring_down import RingDown
 
@@ -22,10 +24,13 @@ def cycles(decay: RingDown, probe: str) -> list[str]:
         "time [s]  amplitude [mm]  frequency [Hz]  damping ratio [%]",
     ]
     chosen = sorted({round(n * (count - 1) / (SHOWN - 1)) for n in range(SHOWN)})
+    percent, frequencies = 100.0 * decay.damping, decay.frequency / math.tau
+    # about zero digits say nothing
+    largest = percent.max() if (percent > 0.0).all() else 1.0
     rows += [
         f"{decay.time[place]:8.4f} {1e3 * decay.amplitude[place]:15.6g} "
-        f"{decay.frequency[place] / math.tau:15.4f} "
-        f"{100.0 * decay.damping[place]:18.4f}"
+        f"{hertz(frequencies[place], frequencies):>15} "
+        f"{decimal(percent[place], largest, 4, 18)}"
         for place in chosen
     ]
     grows = int((decay.damping < GROWS).sum())
@@ -35,3 +40,19 @@ def cycles(decay: RingDown, probe: str) -> list[str]:
             "together and beat, so that no row is of one alone, or something feeds them"
         )
     return rows
+
+
+def errors(decay: RingDown, frequency: float, damping: float) -> str:
+    """Return what time steps and rows change, over the largest of each.
+
+    Damping that is not larger than its error has an absolute one.
+    """
+    if math.isnan(frequency):
+        return "not known: steps twice as long show no swings"
+    if damping < 1.0:
+        return f"frequency {frequency:.1e}, damping {damping:.1e}, of the largest"
+    ratio = damping * float(abs(decay.damping).max())
+    return (
+        f"frequency {frequency:.1e} of the largest; no damping can be measured, its "
+        f"ratio is off by up to {100.0 * ratio:.1e} %"
+    )

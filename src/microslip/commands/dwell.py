@@ -55,7 +55,7 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
     """Add when a dwell ends."""
     parser.add_argument(
         "--tolerance",
-        type=arguments.positive,
+        type=arguments.share,
         default=TOLERANCE,
         help="estimated distance from the steady state, over the size of the motion, "
         f"at which the dwell ends (default: {TOLERANCE:g})",

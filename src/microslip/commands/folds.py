@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import KEY, decimal, keyed
+from microslip.commands.columns import KEY, decimal, hertz, keyed
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -110,8 +110,9 @@ def _line(fold: FollowedFold, place: int) -> str:
     note = f"  {event}: {meeting}" if event else ""
     amplitude = 1e3 * float(curve.amplitude[place].max())
     others = str(point.unstable) if point.unstable >= 0 else "-"
+    seen = curve.frequency / math.tau
     return (
-        f"{curve.parameter[place]:14.6g} {curve.frequency[place] / math.tau:10.4f} "
+        f"{curve.parameter[place]:14.6g} {hertz(seen[place], seen):>10} "
         f"{decimal(amplitude, amplitude, 5)} {others:>17s} "
         f"{point.frequency_error:10.1e} {point.parameter_error:10.1e}{note}"
     )

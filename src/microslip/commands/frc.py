@@ -26,7 +26,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "balance, with as many harmonics at each point as its error tolerance asks "
         "for; locate peaks, folds and changes of stability; tell how far amplitudes "
         "depend on what contacts that stick carry from before; print a short table, "
-        "write SCENE-frc.nc and SCENE-frc.png.",
+        "write SCENE-frc.nc and SCENE-frc.png. Exit status 1 if the curve does not "
+        "come to its end or leaves out more than 1 % of its range.",
         epilog="example: microslip frc two-blades --set model=A -o model-a",
     )
     arguments.add_scene(parser)

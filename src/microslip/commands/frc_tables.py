@@ -6,7 +6,16 @@ import math
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import about, decimal, force, headed, tabled, titled
+from microslip.commands.columns import (
+    about,
+    decimal,
+    force,
+    headed,
+    hertz,
+    span,
+    tabled,
+    titled,
+)
 
 if TYPE_CHECKING:
     from microslip.scenes.scene import Scene
@@ -39,10 +48,12 @@ def table(traced: Traced) -> str:
         head, units = f"{head}      {title:>16}", f"{units}     least      most"
     lines = [head, units]
     largest = int(curve.amplitude.max(axis=1).argmax())
-    energy = curve.friction_energy
+    energy, frequencies = curve.friction_energy, curve.frequency / math.tau
+    forces = curve.normal_smallest, curve.normal_largest
+    hardest = max(abs(each).max(initial=0.0) for each in forces)
     for place in shown_points(curve, largest):
         values = [
-            f"{curve.frequency[place] / math.tau:9.4f}",
+            f"{hertz(frequencies[place], frequencies):>9}",
             *(
                 decimal(1e3 * each[place], 1e3 * each.max(), 5)
                 for each in curve.amplitude.T[probes]
@@ -51,8 +62,8 @@ def table(traced: Traced) -> str:
         if rubs:
             values.append(decimal(1e3 * energy[place], 1e3 * energy.max(), 6, 12))
         if presses:
-            values.append(f"{curve.normal_smallest[place].min():z9.3f}")
-            values.append(f"{curve.normal_largest[place].max():z9.3f}")
+            ends = forces[0][place].min(), forces[1][place].max()
+            values += [decimal(each, hardest, 3, 9) for each in ends]
         mark = "  largest" if place == largest else ""
         lines.append(" ".join(values) + mark)
     return "\n".join(lines)
@@ -81,15 +92,15 @@ def events(curve: ResponseCurve, *, sector: bool = False) -> str:
     """
     from microslip.studies.gaps import lines as gap_lines
 
-    lines = []
+    lines, frequencies = [], curve.frequency / math.tau
     for place, name in enumerate(curve.event):
         if name:
-            hertz = curve.frequency[place] / math.tau
+            where = hertz(frequencies[place], frequencies, 6)
             largest = 1e3 * curve.amplitude[place].max()
             size = decimal(largest, largest, 6, 12)
             aside = about(curve.parameter_error[place] / math.tau)
             lines.append(
-                f"{name:<16} {hertz:12.6f} Hz{aside:<10} {size} mm"
+                f"{name:<16} {where:>12} Hz{aside:<10} {size} mm"
                 f"{about(100.0 * curve.error[place], ' %')}"
             )
     lines += gap_lines(curve)
@@ -109,11 +120,13 @@ def _stability(curve: ResponseCurve) -> str:
     """Return where the curve is unstable, as far as that is known."""
     unstable = curve.unstable > 0
     if unstable.any():
-        hertz = curve.frequency[unstable] / math.tau
+        seen = curve.frequency / math.tau
+        low, high = seen[unstable].min(), seen[unstable].max()
         return (
             f"unstable at {unstable.sum()} of {unstable.size} points, between "
-            f"{hertz.min():.4f} and {hertz.max():.4f} Hz; largest Floquet multiplier "
-            f"{_multiplier(float(curve.multiplier.max()))}{_doubted(curve)}"
+            f"{hertz(low, seen)} and {hertz(high, seen)} Hz; largest Floquet "
+            f"multiplier {_multiplier(float(curve.multiplier.max()))}"
+            f"{_doubted(curve)}"
         )
     stable = curve.unstable == 0
     if stable.all():
@@ -172,8 +185,7 @@ def resolution(curve: ResponseCurve) -> str:
         error += f", not known at {lost} of {curve.error.size} points"
     return (
         f"estimated error of amplitude: {error}; "
-        f"{curve.harmonics.min():.0f} to {curve.harmonics.max():.0f} harmonics, "
-        f"{curve.samples.min():.0f} to {curve.samples.max():.0f} samples"
+        f"{span(curve.harmonics, 'harmonic')}, {span(curve.samples, 'sample')}"
     )
 
 

@@ -50,7 +50,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     )
     parser.add_argument(
         "--lead",
-        type=arguments.positive,
+        type=arguments.share,
         default=0.008,
         help="how far before a fold sweeps begin, and how far behind it they end if "
         "nothing jumps, over its frequency (default: 0.008)",

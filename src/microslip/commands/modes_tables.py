@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import decimal
+from microslip.commands.columns import decimal, hertz, span
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from hbm.modes.modes import NonlinearMode
     from microslip.studies.modes import FollowedMode
@@ -19,26 +19,30 @@ HEADER = (
 )
 
 
+ROUNDING = 1e-6
+"""change of the damping ratio, relative, up to which no point is most damped"""
+
+
 def mode_table(mode: FollowedMode, state: str) -> list[str]:
     """Return the table of one mode; ``state`` is that of its small motions."""
     from statistics import median
 
     from microslip.mode_lines import counted
 
-    hertz = mode.linear.frequency / math.tau
+    natural = mode.linear.frequency / math.tau
     rows = [
-        f"mode at {hertz:.4f} Hz, damping ratio {100.0 * mode.linear.damping:.4f} %, "
-        f"{state}",
+        f"mode at {hertz(natural, [natural])} Hz, damping ratio "
+        f"{100.0 * mode.linear.damping:.4f} %, {state}",
     ]
     if not mode.points:
         return [*rows, f"it has no first point: {mode.ending}"]
     rows += [HEADER, *_point_rows(mode)]
     errors = [point.damping_error for point in mode.points]
-    harmonics = _span(point.harmonics for point in mode.points)
-    samples = _span(point.samples for point in mode.points)
+    harmonics = span((point.harmonics for point in mode.points), "harmonic")
+    samples = span((point.samples for point in mode.points), "sample")
     rows.append(
-        f"{len(mode.points)} points with {harmonics} harmonics and "
-        f"{samples} samples; estimated error of the damping ratio: "
+        f"{len(mode.points)} points with {harmonics} and {samples}; estimated "
+        "error of the damping ratio: "
         f"{100.0 * median(errors):.2g} % in the median, above 5 % at "
         f"{sum(error > 0.05 for error in errors)} points"
     )
@@ -65,18 +69,23 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
 
 
 def _point_rows(mode: FollowedMode) -> list[str]:
-    """Return points as lines; of a broken mode the last is not called most damped."""
+    """Return points as lines; the most damped is named if it is sure to be that."""
     from microslip.studies.modes import shown_points
 
     most_damped: NonlinearMode | None = mode.most_damped
+    damping = [point.damping for point in mode.points]
     if broken(mode) and most_damped is mode.points[-1]:
         most_damped = None  # it may be damped more where it does not reach
+    if max(damping) - min(damping) <= ROUNDING * max(damping):
+        most_damped = None
+    seen = [point.frequency / math.tau for point in mode.points]
     rows = []
     for point in shown_points(mode):
         most = point is most_damped
         amplitude = 1e3 * point.amplitude
         rows.append(
-            f"{decimal(amplitude, amplitude, 5, 9)} {point.frequency / math.tau:10.4f} "
+            f"{decimal(amplitude, amplitude, 5, 9)} "
+            f"{hertz(point.frequency / math.tau, seen):>10} "
             f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
             f"{point.damping_error:10.1e}{'  most damped' if most else ''}"
         )
@@ -90,7 +99,8 @@ def ending_of(modes: Sequence[FollowedMode]) -> str:
         return "complete"
     if len(modes) == 1:
         return short[0].ending
-    places = ", ".join(f"{mode.linear.frequency / math.tau:.4f}" for mode in short)
+    found = [mode.linear.frequency / math.tau for mode in short]
+    places = ", ".join(hertz(each, found) for each in found)
     return (
         f"{len(short)} of {len(modes)} modes cannot be followed to the end, at "
         f"{places} Hz: their tables say why"
@@ -100,9 +110,3 @@ def ending_of(modes: Sequence[FollowedMode]) -> str:
 def broken(mode: FollowedMode) -> bool:
     """Return whether something else than the user ended a mode early."""
     return mode.ending not in ("complete", "interrupted")
-
-
-def _span(counts: Iterable[int]) -> str:
-    """Return the least and the largest of numbers."""
-    known = sorted(set(counts))
-    return f"{known[0]} to {known[-1]}" if len(known) > 1 else str(known[0])

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import KEY, keyed
+from microslip.commands.columns import KEY, hertz, keyed
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -110,14 +110,15 @@ def _line(question: Question, each: Linearised) -> str:
     values = poles(linear.structure).values
     values = values[within(values, limits_of(question.at(each.value)))]
     shown = [
-        f"{hertz:.4f} ({100.0 * ratio:.3f})"
-        for hertz, ratio in zip(
+        f"{hertz(natural, [natural])} ({100.0 * ratio:.3f})"
+        for natural, ratio in zip(
             frequencies(values), damping_ratios(values), strict=True
         )
     ]
     beyond = "  (the peak lies outside the range)" if linear.outside else ""
+    place = linear.response.frequency / math.tau
     return (
-        f"{each.value:<10} {linear.response.frequency / math.tau:9.4f} "
+        f"{each.value:<10} {hertz(place, [place]):>9} "
         f"{_off(linear.error.frequency)} {1e3 * linear.amplitude:14.6f} "
         f"{_off(linear.error.amplitude)}   {'  '.join(shown) or 'none'}{beyond}"
     )

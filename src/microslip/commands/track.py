@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import KEY, about, decimal, keyed
+from microslip.commands.columns import KEY, about, decimal, hertz, keyed
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -94,12 +94,13 @@ def _check(options: argparse.Namespace) -> None:
 
 
 def _lines(each: Tracked) -> str:
+    places = [event.frequency / math.tau for event in each.events]
     rows = [
-        f"{each.value:<15} {event.name:<16} {event.frequency / math.tau:15.6f} "
+        f"{each.value:<15} {event.name:<16} {hertz(place, [place], 6):>15} "
         f"{about(event.frequency_error / math.tau):<10}"
         f"{decimal(1e3 * event.amplitude, 1e3 * event.amplitude, 6, 15)} "
         f"{'' if math.isnan(event.error) else f'{event.error:8.1e}'}".rstrip()
-        for event in each.events
+        for event, place in zip(each.events, places, strict=True)
     ]
     if not rows:
         rows = [f"{each.value:<15} nothing located"]

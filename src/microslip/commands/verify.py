@@ -57,7 +57,7 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
             0,
             "also march so many periods from each orbit",
         ),
-        ("--tolerance", arguments.positive, 0.01, "relative deviation of amplitudes"),
+        ("--tolerance", arguments.share, 0.01, "relative deviation of amplitudes"),
     ):
         parser.add_argument(
             name, type=kind, default=default, help=f"{meaning} (default: {default})"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.names import readable
@@ -13,10 +14,14 @@ from microslip.figures.style import (
     framed,
     headline,
     plain_logarithmic,
+    spread,
     widened,
 )
 from microslip_mechanics.results.ring_down import RingDown
 from microslip_mechanics.results.time_history import TimeHistory
+
+ROUNDING = 1e-4
+"""damping ratio [%] that a picture does not enlarge"""
 
 
 def decay_figure(
@@ -42,11 +47,24 @@ def decay_figure(
     framed(damping, x=below, y="damping ratio [%]", title="Damping")
     if (decay.damping > 0.0).all():
         damping.set_ylim(0.0, 108.0 * decay.damping.max(initial=1e-9))
+    else:
+        widened(damping, ROUNDING)
     if (decay.amplitude > 0.0).all() and decay.amplitude.size:
-        for axes in (frequency, damping):
-            axes.set_xscale("log")
-            plain_logarithmic(axes.xaxis)
-        shrinking.set_yscale("log")
-        plain_logarithmic(shrinking.yaxis)
+        _by_decades(shrinking, frequency, damping)
     headline(figure, title)
     return figure
+
+
+def _by_decades(shrinking: Axes, frequency: Axes, damping: Axes) -> None:
+    """Let amplitudes have logarithmic axes, on which rounding is not seen."""
+    low, high = shrinking.dataLim.intervaly
+    limits = spread(low, high)
+    shrinking.set_yscale("log")
+    if limits is not None:
+        shrinking.set_ylim(*limits)
+    plain_logarithmic(shrinking.yaxis)
+    for axes in (frequency, damping):
+        axes.set_xscale("log")
+        if limits is not None:
+            axes.set_xlim(*limits)
+        plain_logarithmic(axes.xaxis)

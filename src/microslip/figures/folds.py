@@ -60,6 +60,8 @@ def folds_figure(folds: Sequence[FoldLine], label: str, title: str) -> Figure:
             axes.set_xscale("log")
             plain_logarithmic(axes.xaxis)
     _legend(left, folds)
+    if len(folds) > 1:
+        _names(right, len(folds))
     headline(figure, title)
     return figure
 
@@ -89,6 +91,16 @@ def _drawn(axes: Axes, fold: FoldLine, values: Sequence[float], colour: str) -> 
             color="0.15",
             fillstyle="none",
         )
+
+
+def _names(axes: Axes, count: int) -> None:
+    """Name the folds by their colours, by the numbers that the table has."""
+    handles = []
+    for place, colour in enumerate(COLOURS[:count]):
+        numbers = [str(each) for each in range(place + 1, count + 1, len(COLOURS))]
+        name = f"fold{'s' if len(numbers) > 1 else ''} {', '.join(numbers)}"
+        handles += axes.plot([], [], color=colour, linewidth=WIDTH, label=name)
+    axes.legend(handles=handles, frameon=False)
 
 
 def _legend(axes: Axes, folds: Sequence[FoldLine]) -> None:

@@ -37,7 +37,7 @@ TITLES = {
 }
 EXPLAINED = (
     "A mark is one motion found with one setting; the lines join the best of each "
-    "method, whose error falls like time to the power of the slope.\n"
+    "method, whose error falls like one over time to the power of the slope.\n"
     "Down and to the left is better. Within the grey the reference itself is not known."
 )
 LOWEST = 1e-12

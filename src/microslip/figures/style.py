@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Iterable, Sequence
 
@@ -77,12 +78,20 @@ def widened(axes: Axes, error: float = 0.0) -> None:
     """
     whole_numbers(axes.yaxis)
     low, high = axes.dataLim.intervaly
+    limits = spread(low, high, error)
+    if limits is not None:
+        axes.set_ylim(*limits)
+
+
+def spread(low: float, high: float, error: float = 0.0) -> tuple[float, float] | None:
+    """Return limits about data that hardly change; None if they are not needed."""
     if not np.isfinite([low, high]).all():
-        return
+        return None
     least = max(2.0 * error, FLAT * max(abs(low), abs(high)))
-    if high - low < least:
-        middle = 0.5 * (low + high)
-        axes.set_ylim(middle - 0.55 * least, middle + 0.55 * least)
+    if high - low >= least:
+        return None
+    middle = 0.5 * (low + high)
+    return middle - 0.55 * least, middle + 0.55 * least
 
 
 def from_nothing(axes: Axes) -> None:
@@ -94,17 +103,20 @@ def from_nothing(axes: Axes) -> None:
 def plain_logarithmic(axis: Axis) -> None:
     """Label a logarithmic axis with plain numbers: 0.1, 0.2, 0.5 and so on.
 
-    With powers of ten where it is long, and evenly where it is short.
+    With powers of ten where it is long, and evenly where it is short; where it is
+    narrow, with as many digits as tell numbers apart.
     """
     low, high = axis.get_view_interval()
     if high > LONG * low > 0.0:
         axis.set_major_locator(LogLocator(numticks=8))
         axis.set_major_formatter(LogFormatterSciNotation())
     else:
-        even = MaxNLocator(nbins=5)
+        narrow = 0.0 < high - low < NARROW * high
+        digits = 3 - math.floor(math.log10((high - low) / high)) if narrow else 6
+        even = MaxNLocator(nbins=3 if narrow else 5)
         short = high <= SHORT * low
         axis.set_major_locator(even if short else LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.{digits}g}"))
     axis.set_minor_locator(NullLocator())
 
 

@@ -115,7 +115,12 @@ def _told(path: Path) -> Iterator[None]:
         raise WrongFileError(
             f"{path} cannot be read: {error.strerror or error}"
         ) from None
-    except (TypeError, ValueError, KeyError, AttributeError, IndexError):
+    except KeyError as error:
+        lacks = f"it has no {error.args[0]}" if error.args else "something is missing"
+        raise WrongFileError(
+            f"{path} is not a result file, {lacks}: {REMEDY}"
+        ) from None
+    except (TypeError, ValueError, AttributeError, IndexError):
         raise WrongFileError(f"{path} is not a result file: {REMEDY}") from None
 
 

@@ -16,7 +16,13 @@ LATER = ("parameter_error",)
 
 
 def stored_curve(file: netcdf_file) -> ResponseCurve:
-    """Return the curve that a file holds."""
+    """Return the curve that a file holds.
+
+    Raises
+    ------
+    KeyError, ValueError, AttributeError
+        If something is missing, or places and amplitudes are no finite numbers.
+    """
     made: dict[str, Any] = {}
     for field in dataclasses.fields(ResponseCurve):
         if field.name in CURVE:
@@ -27,6 +33,9 @@ def stored_curve(file: netcdf_file) -> ResponseCurve:
             made[field.name] = (
                 value.decode() if isinstance(value, bytes) else value.item()
             )
+    for name in ("frequency", "parameter", "amplitude"):
+        if not np.isfinite(made[name]).all():
+            raise ValueError(f"{name} is not finite")
     return ResponseCurve(**made)
 
 

@@ -20,7 +20,7 @@ def read_table(
 ) -> typing.Any:  # noqa: ANN401  (an instance of ``table``)
     """Make a dataclass from a TOML table; ``known`` are more names to suggest."""
     if not isinstance(values, dict):
-        raise SceneError(f"{source}: {place}must be a table, not {values!r}")
+        raise SceneError(f"{source}: {place}must be a table, not {written(values)}")
     hints = typing.get_type_hints(table)
     fields = {field.name: field for field in dataclasses.fields(table)}
     for key in values:
@@ -168,7 +168,7 @@ def read_numbers(
 ) -> dict[str, float]:
     """Return a table of numbers of one kind."""
     if not isinstance(values, dict):
-        raise SceneError(f"{source}: [{table}] must be a table, not {values!r}")
+        raise SceneError(f"{source}: [{table}] must be a table, not {written(values)}")
     found = {}
     for name, value in values.items():
         try:
@@ -184,8 +184,17 @@ def shown(value: object) -> str:
     """Return `` = value`` for a message; a table has too much to show."""
     if isinstance(value, dict):
         return ""
-    text = f'"{value}"' if isinstance(value, str) else str(value)
+    text = written(value)
     return f" = {text if len(text) <= 60 else text[:60] + '…'}"
+
+
+def written(value: object) -> str:
+    """Return a value as a scene file has it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        return f"[{', '.join(written(each) for each in value)}]"
+    return f'"{value}"' if isinstance(value, str) else str(value)
 
 
 def _optional(hint: typing.Any) -> bool:  # noqa: ANN401  (a type annotation)

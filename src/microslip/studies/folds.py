@@ -18,6 +18,7 @@ from microslip.scenes.experiments import Curve
 from microslip.studies.curve import trace_curve
 from microslip.studies.parameter import Parameter, told_along
 from microslip_mechanics.errors import MicroslipError
+from microslip_mechanics.quantity import apart
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 
@@ -89,9 +90,10 @@ def _located(parameter: Parameter) -> list[PeriodicResponse]:
     found = [response for response in traced.responses if response.event == "fold"]
     if not found:
         reached = "" if ending == "complete" else f" up to where it ends ({ending})"
+        low, high = apart(wanted.lowest, wanted.highest)
         raise (NoFoldsError if ending == "complete" else FoldError)(
             f"the curve at {parameter.name} = {parameter.first:g} has no folds between "
-            f"{wanted.lowest:g} and {wanted.highest:g} Hz{reached}: begin at a value "
+            f"{low} and {high} Hz{reached}: begin at a value "
             "where it has, which microslip track finds"
         )
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from hbm.curves.parameter_curves import parameter_response
 from hbm.options import CurveOptions
@@ -14,7 +15,11 @@ from microslip.studies.gathered import gathered
 from microslip.studies.parameter import Parameter, told_along
 from microslip.studies.prominent import prominent
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
+
+ROUNDING = 1e-15
+"""of the way between two values, by which a parameter may miss one"""
 
 
 def follow(
@@ -80,5 +85,17 @@ def along(
     traced = told_along(parameter_response(problem_at, frequency, options), label)
     found, ending = gathered(watch(traced))
     problem = problem_at(ends[1])
-    responses = prominent(problem, found)
+    responses = prominent(problem, [_ended(each, ends) for each in found])
     return told(response_curve(problem, responses, ending, label))
+
+
+def _ended(response: PeriodicResponse, ends: tuple[float, float]) -> PeriodicResponse:
+    """Return a response whose parameter is that of an end, if rounding keeps it off.
+
+    Zero would be 1e-28, which axes and tables of decades show.
+    """
+    near = ROUNDING * abs(ends[1] - ends[0])
+    for end in ends:
+        if abs(response.parameter - end) <= near:
+            return replace(response, parameter=end)
+    return response

@@ -32,7 +32,9 @@ def prominent(
     parameter from a fold at which it is largest, and upside down. Where no point is
     higher, or the error of an event is not known, it stays. A fold may lie aside by as
     much as a point beside it is beyond; a branch point that may be the fold next to it
-    is no other event. What does not hang together is looked at piece by piece.
+    is no other event. Where more harmonics take a curve up a step back, without a fold,
+    it goes on from where it passes the peak again. What does not hang together is
+    looked at piece by piece.
     """
     begins = [at for at, each in enumerate(points) if each.event in BEGINNINGS]
     bounds = sorted({0, *begins, len(points)})
@@ -83,14 +85,28 @@ def _standing_out(
     folds = np.array([each.event == "fold" for each in piece], dtype=bool)
     aside = np.where(folds, [each.parameter_error for each in piece], np.nan)
     for at, each in enumerate(piece):
-        if each.event == "peak" and not _descends(at, amplitude, doubt):
-            continue
+        if each.event == "peak":
+            on = [*range(at + 1), *range(_passed(at, place, folds), len(piece))]
+            if not _descends(at, amplitude[on], doubt[on]):
+                continue
         if each.event == "fold":
             outwards = _outwards(at, place) * place
             outwards[at] = max(outwards[at], _beside(at, outwards).max(initial=-np.inf))
             if not _descends(at, outwards, aside):
                 continue
         yield each
+
+
+def _passed(at: int, place: Array, folds: Array) -> int:
+    """Return the next point that is not a step back from one, without a fold."""
+    before = place[:at][place[:at] != place[at]]
+    onwards = math.copysign(1.0, place[at] - before[-1]) if before.size else 0.0
+    for after in range(at + 1, len(place)):
+        if folds[after]:
+            break
+        if onwards * (place[after] - place[at]) > 0.0:
+            return after
+    return at + 1
 
 
 def _beside(at: int, place: Array) -> Array:

@@ -47,15 +47,27 @@ def engine_order(
     if order != int(order):
         raise ValueError(f"engine order {order:g}: give a whole number of maxima")
     for place, blade in enumerate(blades):
-        (dof, *more) = selected(names, [blade])
-        if more:
-            raise ValueError(
-                f"blade {blade!r} is {1 + len(more)} degrees of freedom: give one"
-            )
+        dof = _of_blade(names, blade)
         if load[dof] != 0.0:
-            raise ValueError(f"blade {blade!r} stands there twice: give each one once")
+            raise ValueError(
+                f"engine order: blade {blade!r} stands there twice: give each one once"
+            )
         load[dof] = amplitude * phasor(int(order) * place, len(blades))
     return load
+
+
+def _of_blade(names: Sequence[str], blade: str) -> int:
+    """Return the place of a blade's degree of freedom."""
+    try:
+        dof, *more = (int(each) for each in selected(names, [blade]))
+    except ValueError as error:
+        raise ValueError(f"engine order: blades: {error}") from None
+    if more:
+        raise ValueError(
+            f"engine order: blade {blade!r} is {1 + len(more)} degrees of freedom: "
+            "give one"
+        )
+    return dof
 
 
 def phasor(part: int, count: int) -> complex:

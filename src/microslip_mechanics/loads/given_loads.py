@@ -163,7 +163,7 @@ def _wave(name: str, given: object) -> tuple[float, float]:
     several = isinstance(given, tuple | list) or getattr(given, "ndim", 0) > 0
     pair: Any = given if several else (given, 0.0)
     try:
-        amplitude, phase = (float(each) for each in pair)
+        amplitude, phase = (_number(each) for each in pair)
     except (TypeError, ValueError):
         amplitude = phase = math.nan
     if not math.isfinite(phase) or not math.isfinite(amplitude):
@@ -172,6 +172,11 @@ def _wave(name: str, given: object) -> tuple[float, float]:
             "that and a phase [rad]"
         )
     return amplitude, phase
+
+
+def _number(given: Any) -> float:  # noqa: ANN401  (whatever a user gives)
+    """Return a number; a switch is none."""
+    return math.nan if isinstance(given, bool) else float(given)
 
 
 def loads(
@@ -183,7 +188,8 @@ def loads(
     """Return loads over the degrees of freedom; ``set.direction`` is all of a set."""
     total = np.zeros(len(names), dtype=complex)
     for name, force in given.items():
-        if not isinstance(force, numbers.Number) or not cmath.isfinite(force):
+        number = isinstance(force, numbers.Number) and not isinstance(force, bool)
+        if not number or not cmath.isfinite(force):
             raise ValueError(f"{what} of {name} is {force}: give a finite number")
         for each in members(name, names, sets, what):
             total[place_of(each, names, what)] += force

@@ -8,17 +8,22 @@ from typing import TypeAlias
 
 import numpy as np
 
+from microslip_mechanics.structures.selection import selected
+
 Sets: TypeAlias = Mapping[str, Sequence[str]]
 """nodes, by the name of their set"""
 
 
-def given_sets(given: Sets | None) -> Sets:
+def given_sets(given: Sets | None, names: tuple[str, ...]) -> Sets:
     """Return sets of nodes as they are given, none if they are left out.
+
+    ``names`` are those of the degrees of freedom.
 
     Raises
     ------
     ValueError
-        If they are no table of lists of texts.
+        If they are no table of lists of texts, if a node is unknown, or if a set has
+        the name of a node.
     """
     if given is None:
         return {}
@@ -33,7 +38,22 @@ def given_sets(given: Sets | None) -> Sets:
                 f"sets: {name} = {nodes!r}: give a list of nodes as texts, such as "
                 '["12", "13"]'
             )
+    _check_nodes(given, names)
     return given
+
+
+def _check_nodes(sets: Sets, names: tuple[str, ...]) -> None:
+    """Check that a set has nodes that there are, and no node's name."""
+    known = {name.rpartition(".")[0] for name in names}.union(names)
+    for group, nodes in sets.items():
+        if group in known and list(nodes) != [group]:
+            raise ValueError(
+                f"sets: {group} is the name of a node, too: name the set differently"
+            )
+        try:
+            selected(names, [node for node in nodes if node not in known])
+        except ValueError as error:
+            raise ValueError(f"sets: {group}: {error}") from None
 
 
 def members(name: str, names: tuple[str, ...], sets: Sets, what: str) -> list[str]:

@@ -95,7 +95,8 @@ def reduced_problem(
             'nodes, patterns or sets, such as ["tip.*"]'
         )
     limit = 2.0 * math.pi * _hertz(highest, "reduced_problem: highest")
-    kept = _kept(problem, selected(problem.structure.names, keep, given_sets(sets)))
+    names = problem.structure.names
+    kept = _kept(problem, selected(names, keep, given_sets(sets, names)))
     made = METHODS[method](problem.structure, kept, limit)
     rows = made.rows(problem.interface.displacement)
     return ReducedProblem(

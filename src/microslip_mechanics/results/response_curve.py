@@ -11,6 +11,7 @@ import numpy as np
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.by_value import ByValue
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.quantity import apart
 from microslip_mechanics.results.response import PeriodicResponse
 
 PULL = 0.1
@@ -82,7 +83,8 @@ class ResponseCurve(ByValue):
         """Return what kind of curve it is, in a line."""
         values = self.parameter if self.along else self.frequency / (2.0 * np.pi)
         name = self.along or "Hz"
-        span = f", {values[0]:g} to {values[-1]:g} {name}" if values.size else ""
+        ends = apart(values[0], values[-1]) if values.size else ()
+        span = f", {' to '.join(ends)} {name}" if ends else ""
         counts = Counter(event for event in self.event if event)
         events = "".join(f"; {event}: {number}" for event, number in counts.items())
         return (

@@ -85,12 +85,16 @@ def dof_names(given: Sequence[str] | None, count: int) -> tuple[str, ...]:
     """Return the names of the degrees of freedom."""
     if given is None:
         return tuple(f"x{place}" for place in range(1, count + 1))
-    names = tuple(given) if isinstance(given, Iterable) else (given,)
-    wrong = [name for name in names if not isinstance(name, str) or not name]
-    if wrong:
+    listed = isinstance(given, Iterable) and not isinstance(given, str)
+    names = tuple(given) if listed else ()
+    wrong: list[object] = [
+        name for name in names if not isinstance(name, str) or not name
+    ]
+    if wrong or not listed:
+        told = wrong[0] if wrong else given
         raise ValueError(
-            f"names of degrees of freedom: {wrong[0]!r} is no name: give a list of "
-            "texts, such as ['x1', 'x2']"
+            f"names of degrees of freedom: {told!r} is no name: give a list of texts, "
+            "such as ['x1', 'x2']"
         )
     if len(names) != count:
         raise ValueError(

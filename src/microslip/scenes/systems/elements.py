@@ -6,7 +6,7 @@ from typing import Any
 
 from microslip.scenes.quantity import SceneError
 from microslip.scenes.systems.expand import expanded
-from microslip.scenes.table import meant, read_table
+from microslip.scenes.table import meant, read_table, shown, written
 from microslip_mechanics.element import KEYS
 from microslip_mechanics.laws.catalogue import LAWS
 
@@ -29,7 +29,9 @@ def read_elements(
     ends: dict[str, dict[str, dict[str, Any]]] = {}
     for number, values in enumerate(given, start=1):
         if not isinstance(values, dict):
-            raise SceneError(f"{source}: [[element]] must be a table, not {values!r}")
+            raise SceneError(
+                f"{source}: [[element]] must be a table, not {written(values)}"
+            )
         left = dict(values)
         named = left.pop("each", None)
         name, law, directions = _element(source, number, left)
@@ -50,19 +52,19 @@ def _element(
     name = left.pop("name", f"element-{number}")
     law = left.pop("law", None)
     if not isinstance(name, str) or not name:
-        raise SceneError(f"{source}: [[element]] name = {name!r}: give a text")
+        raise SceneError(f"{source}: [[element]] name{shown(name)}: give a text")
     if law is None:
         raise SceneError(
             f"{source}: element {name}: law is missing: give one of {', '.join(LAWS)}"
         )
     if not isinstance(law, str) or law not in LAWS:
         hint = meant(str(law), list(LAWS))
-        raise SceneError(f"{source}: element {name}: law = {law!r} is unknown{hint}")
+        raise SceneError(f"{source}: element {name}: law{shown(law)} is unknown{hint}")
     given = {key: left.pop(key) for key in KEYS if key in left}
     for key in KEYS[2:]:
         if key in given and not isinstance(given[key], list):
             raise SceneError(
-                f"{source}: element {name}: {key} = {given[key]!r}: give a list of "
+                f"{source}: element {name}: {key}{shown(given[key])}: give a list of "
                 'pairs, such as [["x1", "ground"]]'
             )
     try:

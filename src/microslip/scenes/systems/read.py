@@ -13,7 +13,7 @@ from microslip.scenes.systems.structure import (
     read_structure_numbers,
 )
 from microslip.scenes.systems.tables import Base, Order, System, Wave
-from microslip.scenes.table import meant, read_numbers, read_table, shown
+from microslip.scenes.table import meant, read_numbers, read_table, shown, written
 
 TABLES = (
     "structure", "element", "drive", "preload", "probes", "base", "engine_order"
@@ -73,7 +73,9 @@ def _table(source: str, document: dict[str, Any], name: str) -> dict[str, Any]:
     if name not in document:
         raise SceneError(f"{source}: table [{name}] is missing: add it")
     if not isinstance(document[name], dict):
-        raise SceneError(f"{source}: [{name}] must be a table, not {document[name]!r}")
+        raise SceneError(
+            f"{source}: [{name}] must be a table, not {written(document[name])}"
+        )
     return dict(document[name])
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from microslip.scenes.quantity import Quantity, SceneError
 from microslip.scenes.systems.tables import Matrices, Numbers
-from microslip.scenes.table import meant, read_numbers, read_table, shown
+from microslip.scenes.table import meant, read_numbers, read_table, shown, written
 
 MATRICES = ("mass", "stiffness", "damping")
 NUMBERS = tuple(each.name for each in fields(Numbers))
@@ -19,7 +19,9 @@ def read_sets(source: str, values: dict[str, Any]) -> dict[str, tuple[str, ...]]
     """Return the nodes of each set."""
     given = values.get("sets", {})
     if not isinstance(given, dict):
-        raise SceneError(f"{source}: [structure.sets] must be a table, not {given!r}")
+        raise SceneError(
+            f"{source}: [structure.sets] must be a table, not {written(given)}"
+        )
     for name, nodes in given.items():
         if not _texts(nodes) or not nodes:
             raise SceneError(

@@ -45,7 +45,10 @@ def balance(
     one, every = (each.mask(harmonics) for each in (path, whole))
     why = "symmetry keeps the others at zero"
     name = f"orders of {harmonics} harmonics and the mean"
-    yield part(name, _orders(one), _orders(every), why)
+    orders = _orders(one), _orders(every)
+    yield part(name, *orders, why)
+    if orders[0] == orders[1] and path.rank < whole.rank:
+        why = "of the coordinates above"
     name = f"unknowns of harmonic balance with {harmonics} harmonics"
     yield part(name, int(one.sum()), int(every.sum()), why)
     fourier = FourierBasis(harmonics, samples)

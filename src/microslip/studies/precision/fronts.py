@@ -12,6 +12,8 @@ from microslip_mechanics.arrays import TINY
 
 LARGE = 0.1
 """error from which on nothing is said of convergence"""
+WIDE = 1.5
+"""cost of the dearest run over that of the cheapest, from which on there is a slope"""
 
 
 def front(runs: Sequence[Run], quantity: int) -> list[Run]:
@@ -47,13 +49,14 @@ def cost_at(runs: Sequence[Run], quantity: int, asked: float, doubt: float) -> f
 def slope(runs: Sequence[Run], quantity: int, doubt: float) -> float:
     """Return the exponent by which the error falls with cost, along the front.
 
-    NaN where fewer than three runs are above the reference's doubt and below 10 %.
+    NaN where fewer than three runs are above the reference's doubt and below 10 %, or
+    where they all cost about the same.
     """
     lowest = SURE * doubt
     seen = [
         run for run in front(runs, quantity) if lowest < run.errors[quantity] < LARGE
     ]
-    if len(seen) < 3:
+    if len(seen) < 3 or seen[-1].seconds < WIDE * seen[0].seconds:
         return math.nan
     costs = np.log([run.seconds for run in seen])
     errors = np.log([run.errors[quantity] for run in seen])

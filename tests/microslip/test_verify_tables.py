@@ -87,6 +87,7 @@ def test_sweeps_without_friction_have_no_columns_of_its_energy() -> None:
         ([0, 0, -1, 0], "3 of 4 points are stable, of the others the stability is not"),
         ([-1, -1, -1, -1], "stability is not known: there are no Floquet mult"),
         ([0, -1, 1, 2], "unstable at 2 of 4 points, between 133.0000 and 134.0000 Hz"),
+        ([0, -1, 1, 2], "; not known of 1"),
     ],
 )
 def test_what_is_known_of_stability_is_said(

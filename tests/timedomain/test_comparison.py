@@ -5,8 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from small_problems import prescribed
-from timedomain.shooting.comparison import FLOOR, MULTIPLIER_FLOOR, Comparison
+from small_problems import prescribed, sliding_block
+from timedomain.shooting.closed_march import ShootingError
+from timedomain.shooting.comparison import (
+    FLOOR,
+    MULTIPLIER_FLOOR,
+    Comparison,
+    compared,
+)
+from timedomain.shooting.shooting import ShootingOptions
 
 
 def comparison(
@@ -84,3 +91,34 @@ def test_the_worst_orders_are_those_that_differ_most() -> None:
 
     assert more.worst() == [3, 1, 4]
     assert few.worst() == [1]  # the others do not differ
+
+
+@pytest.mark.parametrize(
+    ("enough", "lost", "tried"),
+    [
+        (1024, 0, [512]),
+        (4096, 0, [512, 1024, 2048]),
+        (8192, 0, [512, 1024, 2048]),  # that is the most
+        (4096, 1024, [512, 1024]),
+    ],
+)
+def test_shorter_steps_are_tried_while_both_differ_on_stability(
+    enough: int, lost: int, tried: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+
+    def made(_: object, __: object, options: ShootingOptions) -> Comparison:
+        asked.append(options.steps)
+        if options.steps == lost:
+            raise ShootingError("no orbit")
+        finer = 2 * options.steps
+        by_shooting = 0.6 if finer >= enough else 1.5
+        return replace(comparison(multipliers=(0.5, by_shooting)), steps=finer)
+
+    monkeypatch.setattr("timedomain.shooting.comparison._compared", made)
+    problem, options = sliding_block(), ShootingOptions(steps=512, most=4096)
+
+    found = compared(problem, prescribed(1.0), options)
+
+    assert asked == tried
+    assert found.as_stable == (enough <= 4096 and not lost)

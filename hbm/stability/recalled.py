@@ -109,8 +109,9 @@ def _of_steps(
     middle = 0.5 * (slid.phase[1:] + slid.phase[:-1])
     elastic, viscous = contact_tangents(points, basis, *orbit.at(middle))
     share = np.diff(slid.phase) / TURN
-    share[vibration(points, orbit, middle, *brief) > 0.0] = 0.0  # far from any mean
-    share /= share.sum()
+    apart = vibration(points, orbit, middle, *brief) == 0.0
+    if apart.any():  # tangents of touches are far from any mean
+        share = np.where(apart, share, 0.0) / share[apart].sum()
     held = np.tensordot(share, elastic, axes=1) + _springs(sliders, slid, share)
     drag = np.tensordot(share, viscous, axes=1)
     motions = mean_motions(matrices, held, drag, frequency)

@@ -22,14 +22,14 @@ TURN = 2.0 * np.pi
 SPRING, DAMPING, GAP = 1e3, 1.9, 5e-4
 
 
-def struck(stop: float, *, both: bool, slider: bool) -> Problem:
+def struck(stop: float, *, both: bool, slider: bool, gap: float = GAP) -> Problem:
     """Return a mass of 1 kg at a stop, or between two that are alike.
 
     Beside it may be another on a slider, which makes the contacts remember.
     """
-    elements = [Element(UnilateralSpring(stop, GAP), between=("x", "ground"))]
+    elements = [Element(UnilateralSpring(stop, gap), between=("x", "ground"))]
     if both:
-        elements.append(Element(UnilateralSpring(stop, GAP), between=("ground", "x")))
+        elements.append(Element(UnilateralSpring(stop, gap), between=("ground", "x")))
     if slider:
         elements.append(Element(Jenkins(300.0, 0.5), between=("s", "ground")))
     names = ["x", "s"] if slider else ["x"]
@@ -91,3 +91,19 @@ def test_what_touches_briefly_leaves_as_it_vibrates_on_its_contact(
     away = np.abs(response.multipliers[:, None] - expected).min(axis=0)
     # with sliders the contacts are carried by steps of second order
     assert away.max() < (1e-3 if slider else 1e-4)
+
+
+def test_a_mass_that_always_touches_one_of_two_stops_is_on_a_spring() -> None:
+    # a touch lasts half a period: no time is left for mean tangents without one
+    stop, turn = 500.0, TURN * 4.3
+    problem = struck(stop, both=True, slider=True, gap=0.0)
+    options = CurveOptions(
+        turn, 1.001 * turn, harmonics=7, samples=512, errors=False, events=False
+    )
+    response = next(frequency_response(problem, static_equilibrium(problem), options))
+
+    rates = np.array([[0.0, 1.0], [-(SPRING + stop), -DAMPING]])
+    expected = np.exp(np.linalg.eigvals(rates) * TURN / turn)
+
+    away = np.abs(response.multipliers[:, None] - expected).min(axis=0)
+    assert away.max() < 1e-3

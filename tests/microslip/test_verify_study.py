@@ -235,7 +235,7 @@ def test_verification_of_a_curve_of_another_problem_names_where_it_is_wrong(
         str(quick_scene),
         *band,
         "--frequencies=3",
-        "--tolerance=1",
+        "--tolerance=0.5",
         "--slower",
     )
 

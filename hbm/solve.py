@@ -10,7 +10,8 @@ import numpy as np
 from hbm.checks import check_positive
 from hbm.curves.branches import Branching
 from hbm.curves.dense_problem import dense_problem, resolved_up_to
-from hbm.curves.detached import Search, Sought
+from hbm.curves.detached import Search
+from hbm.curves.drive_search import Sought
 from hbm.curves.tracer import Tracer
 from hbm.errors import PLACE, ContinuationError, hertz, placed
 from hbm.one_thread import one_thread

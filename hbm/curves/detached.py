@@ -1,9 +1,9 @@
 """Curves that do not hang together with a known one, sought by the drive (theory §6.2).
 
 At a few frequencies the drive grows from little to a multiple of its value, through
-folds. A response that is passed at the wanted drive and does not lie on a known curve
-is a point of another one, which is followed to both sides until it closes. What that
-may cost is bounded.
+folds; and the known folds are followed as it grows and falls. A response that is passed
+at the wanted drive and does not lie on a known curve is a point of another one, which
+is followed to both sides until it closes. What that may cost is bounded.
 """
 
 from __future__ import annotations
@@ -14,42 +14,21 @@ from itertools import pairwise
 
 import numpy as np
 
-from hbm.continuation.corrected import correct_at
-from hbm.curves.curve import response
+from hbm.curves.drive_search import LEAST, MOST, DriveSearch, Sought
 from hbm.curves.tracer import Tracer
 from hbm.errors import ContinuationError
-from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
-from hbm.paths.along_parameter import AlongParameter
 from hbm.paths.path import AlongFrequency
 from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import BEGINNINGS, PeriodicResponse
 
-LEAST, MOST = 0.05, 4.0
-"""drives between which is sought, over the wanted one"""
-COARSE = 1e-2
-"""relative error of amplitude while seeking"""
-HARMONICS = 31
-"""most while seeking"""
 ALIKE = 0.03
 """relative difference up to which two responses are one"""
-SEEKING, FOLLOWING = 2e3, 1e5
-"""evaluations for a curve of drives, and for a detached curve"""
-
-
-@dataclass(frozen=True, slots=True)
-class Sought:
-    """What the search at one frequency has come to."""
-
-    frequency: float
-    """[rad/s]"""
-    share: float
-    """largest drive up to which responses were followed, over the wanted one"""
-    cause: str
-    """why no larger one was reached; empty if all were"""
-    lost: str
-    """why a detached curve was not followed to its end; empty if none was lost"""
+FOLLOWING = 1e5
+"""evaluations for a detached curve"""
+FOLDS = 15
+"""that are followed along the drive at most"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +48,8 @@ class Search:
     ) -> Iterator[PeriodicResponse | Sought]:
         """Yield the responses on detached curves, the first of each side marked so.
 
-        After those that are found at a frequency comes what the search there was.
+        After those that are found at a frequency, or from a fold, comes what the search
+        there was.
 
         Parameters
         ----------
@@ -78,19 +58,40 @@ class Search:
         frequencies
             At which the drive is varied [rad/s].
         """
-        found = list(known)
-        for frequency in frequencies:
-            candidates, sought = self._at_frequency(frequency)
-            for candidate in candidates:
-                if self._lies_on(found, candidate):
-                    continue
-                try:
-                    for each in self._followed(candidate):
-                        found.append(each)
-                        yield each
-                except ContinuationError as cause:
-                    sought = replace(sought, lost=str(cause))
-            yield sought
+        search = DriveSearch(self.problem, self.path, self.options, self.effort)
+        found, places = list(known), list(frequencies)
+        for number, frequency in enumerate(places):
+            candidates, sought = search.at_frequency(frequency)
+            done = (number + 1) / (len(places) + len(_folds(found)))
+            yield from self._unknown(candidates, replace(sought, done=done), found)
+        number = 0
+        while number < len(_folds(found)):  # those of what is found here as well
+            fold, number = _folds(found)[number], number + 1
+            done = (len(places) + number) / (len(places) + len(_folds(found)))
+            for end in (MOST, LEAST):
+                candidates, sought = search.from_fold(fold, end)
+                yield from self._unknown(candidates, replace(sought, done=done), found)
+
+    def _unknown(
+        self,
+        candidates: Sequence[PeriodicResponse],
+        sought: Sought,
+        found: list[PeriodicResponse],
+    ) -> Iterator[PeriodicResponse | Sought]:
+        """Yield the curves of candidates that do not lie on what was found, added to.
+
+        At last comes what the search was.
+        """
+        for candidate in candidates:
+            if self._lies_on(found, candidate):
+                continue
+            try:
+                for each in self._followed(candidate):
+                    found.append(each)
+                    yield each
+            except ContinuationError as cause:
+                sought = replace(sought, lost=str(cause))
+        yield sought
 
     def _followed(self, candidate: PeriodicResponse) -> Iterator[PeriodicResponse]:
         """Yield the responses to both sides of one.
@@ -104,63 +105,6 @@ class Search:
         tracer = Tracer(self.problem, self.path, options)
         selection = self.path.problem.selection
         yield from tracer.from_response(candidate, selection, "detached")
-
-    def _at_frequency(self, frequency: float) -> tuple[list[PeriodicResponse], Sought]:
-        """Return the responses at the wanted drive that lie on one curve of drives.
-
-        And how far that curve was followed.
-        """
-        options = replace(
-            self.options,
-            start=LEAST,
-            end=MOST,
-            error=COARSE,
-            stability=False,
-            events=False,
-            residual_range=False,
-            most_harmonics=HARMONICS,
-            effort=SEEKING * self.effort,
-        )
-        path = AlongParameter(self._driven, frequency, LEAST, MOST)
-        tracer = Tracer(self.problem, path, options)
-        passed: list[PeriodicResponse] = []
-        before: PeriodicResponse | None = None
-        share, cause, stopped = 0.0, "", False
-        try:
-            for each in tracer.responses():
-                stopped |= each.event in BEGINNINGS and each.parameter == MOST
-                if before is not None and _between(before, each):
-                    passed += self._wanted(before, each)
-                # a curve that stops is followed from the other end too
-                before, share = each, share if stopped else max(share, each.parameter)
-        except ContinuationError as error:
-            cause = str(error)
-        return passed, Sought(frequency, share, cause, "")
-
-    def _wanted(
-        self, before: PeriodicResponse, after: PeriodicResponse
-    ) -> list[PeriodicResponse]:
-        """Return the response at the wanted drive between two, if it converges."""
-        finer = max(before, after, key=lambda each: each.harmonics)
-        fourier = FourierBasis(finer.harmonics, finer.samples)
-        balance = self.path.balance(fourier)
-        share = (1.0 - before.parameter) / (after.parameter - before.parameter)
-        motion = np.zeros((fourier.coefficients, self.problem.structure.dofs))
-        for part, each in ((1.0 - share, before), (share, after)):
-            count = min(len(each.coefficients), len(motion))
-            motion[:count] += part * each.coefficients[:count]
-        relative = motion @ self.path.problem.selection.T
-        guess = balance.point(relative, before.frequency)
-        try:
-            correction = correct_at(
-                balance, guess, self.options.control(self.problem.force_scale)
-            )
-            return [response(self.problem, balance, correction)]
-        except ContinuationError:
-            return []
-
-    def _driven(self, share: float) -> Problem:
-        return replace(self.problem, drive=share * self.problem.drive)
 
     def _lies_on(
         self, curve: Sequence[PeriodicResponse], candidate: PeriodicResponse
@@ -185,7 +129,6 @@ class Search:
         return amplitudes
 
 
-def _between(before: PeriodicResponse, after: PeriodicResponse) -> bool:
-    """Return whether the wanted drive lies between two responses, or is the second."""
-    first, last = before.parameter - 1.0, after.parameter - 1.0
-    return first * last < 0.0 or (last == 0.0 and first != 0.0)
+def _folds(curve: Sequence[PeriodicResponse]) -> list[PeriodicResponse]:
+    """Return the folds that are followed."""
+    return [each for each in curve if each.event == "fold"][:FOLDS]

@@ -13,6 +13,7 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.balance.rigid import pushed
 from hbm.continuation.continuation import trace
 from hbm.continuation.correction import Correction
+from hbm.continuation.effort import Effort
 from hbm.continuation.segment import Segment, folds
 from hbm.curves.curve import response
 from hbm.events.finer_fold import FinerFold
@@ -79,11 +80,13 @@ class FoldCurve:
         Raises
         ------
         ContinuationError
-            If a fold is lost; what was yielded before stays valid.
+            If a fold is lost, or the effort is spent; what was yielded before stays
+            valid.
         """
         before: Correction | None = None
+        effort = Effort(self._options.effort)
         for correction in trace(
-            self._system,
+            effort.counted(self._system, self._fourier.harmonics),
             self._start,
             self._options.end,
             metric=self._metric,

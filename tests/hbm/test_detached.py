@@ -5,7 +5,7 @@ import functools
 import numpy as np
 import pytest
 
-from hbm.curves.detached import MOST, Sought
+from hbm.curves.drive_search import MOST, Sought
 from hbm.options import CurveOptions
 from hbm.solve import detached, frequency_response
 from microslip_mechanics.problem import Problem

@@ -281,7 +281,7 @@ def test_branches_of_detached_curves_are_followed(
     assert len(places) == 2
     # as if all but the first points were found by the search for what is detached
     monkeypatch.setattr(curve, "frequency_response", lambda *_: iter(whole[:2]))
-    found = Searched(whole[2:], (), interrupted=False)
+    found = Searched(whole[2:], (), 0, interrupted=False)
     monkeypatch.setattr(curve, "search", lambda *_, **__: found)
 
     traced = trace_curve(problem, scene.curve, wanted=Wanted(True, True))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.io import netcdf_file
 
-from hbm.curves.detached import Sought
+from hbm.curves.drive_search import Sought
 from hbm.errors import PLACE, ContinuationError
 from microslip.cli import main
 from microslip.files.result_file import load

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from microslip.commands import arguments, frc_tables
 from microslip.commands.residual_range import residual_range
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
     from microslip.progress import Watch
     from microslip.scenes.experiments import Curve
     from microslip.scenes.scene import Scene
@@ -46,15 +48,17 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--detached",
         action="store_true",
         help="also seek curves that do not hang together with the first one, by "
-        "varying the drive at 15 frequencies; what was searched and what not is said",
+        "varying the drive at 15 frequencies and at the folds; what was searched and "
+        "what not is said",
     )
     parser.add_argument(
         "--effort",
         type=arguments.positive,
         metavar="TIMES",
         help="work that the search for detached curves may take, over the usual: at "
-        "each frequency 2000 evaluations with 31 harmonics, and fifty times that to "
-        "follow a curve that is found (default: 1)",
+        "each frequency 2000 evaluations with 31 harmonics, a quarter of that from "
+        "each fold to either side, and fifty times that to follow a curve that is "
+        "found (default: 1)",
     )
     parser.add_argument(
         "--unpruned",
@@ -128,7 +132,7 @@ def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
         options.effort or 1.0,
         residual_range=True,
     )
-    watch, searching = watched(scene.curve), search_watched(scene.curve)
+    watch, searching = watched(scene.curve), search_watched
     sector = None if options.unpruned else sector_of(scene)
     if sector is not None:
         return trace_sector(sector, scene.curve, watch, wanted)
@@ -150,20 +154,12 @@ def watched(curve: Curve) -> Watch:
     )
 
 
-def search_watched(curve: Curve) -> Watch:
-    """Return what shows the progress of a search for detached curves."""
-    from hbm.curves.detached import Sought
+def search_watched(found: Iterable[Any]) -> Iterator[Any]:
+    """Show the progress of a search for detached curves."""
+    from hbm.curves.drive_search import Sought
     from microslip.progress import shown
-    from microslip.studies.detached import FREQUENCIES
-
-    width = math.tau * (curve.highest - curve.lowest)
 
     def done(each: object) -> float:
-        if not isinstance(each, Sought):
-            return 0.0
-        share = (each.frequency - math.tau * curve.lowest) / width
-        return math.ceil(FREQUENCIES * share)
+        return 100.0 * each.done if isinstance(each, Sought) else 0.0
 
-    return lambda found: shown(
-        found, total=FREQUENCIES, done=done, unit="frequencies", name="detached"
-    )
+    return shown(found, total=100.0, done=done, unit="%", name="detached")

@@ -179,7 +179,7 @@ def _traced(options: argparse.Namespace, problem: Problem, curve: Curve) -> Trac
     from microslip.studies.curve import Wanted, trace_curve
 
     wanted = Wanted(options.branches, options.detached, residual_range=True)
-    bars = frc.watched(curve), frc.search_watched(curve)
+    bars = frc.watched(curve), frc.search_watched
     traced = trace_curve(problem, curve, bars[0], wanted, bars[1])
     searched = [] if traced.searched is None else traced.searched.lines()
     for line in (*searched, *residual_range(traced.curve)):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from hbm.curves.detached import LEAST, MOST, Sought
+from hbm.curves.drive_search import LEAST, MOST, Sought
 from hbm.options import CurveOptions
 from hbm.solve import detached
 from microslip.interruption import unmasked
@@ -26,7 +26,9 @@ class Searched:
     responses: tuple[PeriodicResponse, ...]
     """on detached curves"""
     sought: tuple[Sought, ...]
-    """for each frequency that was searched"""
+    """for each frequency that was searched, and for each fold to either side"""
+    folds: int
+    """of all curves"""
     interrupted: bool
 
     @property
@@ -39,7 +41,7 @@ class Searched:
 
     def lines(self) -> list[str]:
         """Return in words what was searched, what was not, and what was found."""
-        hertz = [each.frequency / math.tau for each in self.sought]
+        hertz = [each.frequency / math.tau for each in self.sought if not each.fold]
         if not hertz:
             return ["no detached curve was sought: the search was interrupted before"]
         found = sum(each.event == "detached" for each in self.responses)
@@ -47,16 +49,25 @@ class Searched:
             f"detached curves sought at {len(hertz)} of {FREQUENCIES} frequencies, "
             f"{min(hertz):.3f} to {max(hertz):.3f} Hz, by {LEAST:g} to {MOST:g} times "
             "the drive",
-            *(
-                f"at {each.frequency / math.tau:.3f} Hz only up to {each.share:.3g} "
-                f"times the drive: {each.cause}"
-                for each in self.sought
-                if each.cause
-            ),
         ]
+        if self.folds:
+            followed = sum(each.fold for each in self.sought) // 2
+            lines.append(
+                f"and from {followed} of {self.folds} folds, followed to {MOST:g} and "
+                f"{LEAST:g} times the drive or until they come back"
+            )
+        lines += [_unfinished(each) for each in self.sought if each.cause]
         if found == 0:
             lines.append("no detached curve was found")
         return lines
+
+
+def _unfinished(sought: Sought) -> str:
+    """Return how far one search came, and why no further."""
+    hertz, share = sought.frequency / math.tau, f"{sought.share:.3g} times the drive"
+    if sought.fold:
+        return f"the fold at {hertz:.3f} Hz only to {share}: {sought.cause}"
+    return f"at {hertz:.3f} Hz only up to {share}: {sought.cause}"
 
 
 def search(
@@ -79,7 +90,7 @@ def search(
     effort
         What the search may cost, over the usual.
     watch
-        Sees the responses and the frequencies that are done.
+        Sees the responses, and what each step of the search has come to.
     """
     responses: list[PeriodicResponse] = []
     sought: list[Sought] = []
@@ -96,4 +107,5 @@ def search(
                     responses.append(each)
     except KeyboardInterrupt:
         interrupted = True
-    return Searched(tuple(responses), tuple(sought), interrupted)
+    folds = sum(each.event == "fold" for each in (*known, *responses))
+    return Searched(tuple(responses), tuple(sought), folds, interrupted)

@@ -97,7 +97,14 @@ class DriveSearch:
 
         And how far it was followed towards the drive ``end``, over the wanted one.
         """
-        options = replace(self.options, start=1.0, end=end, effort=MOVING * self.effort)
+        harmonics = self.options.harmonics or min(fold.harmonics, HARMONICS)
+        options = replace(
+            self.options,
+            start=1.0,
+            end=end,
+            harmonics=harmonics,
+            effort=MOVING * self.effort,
+        )
         moved = moved_fold(self._driven, fold, options)
         sought = Sought(fold.frequency, moved.parameter, moved.cause, "", fold=True)
         lowest, highest = sorted((self.options.start, self.options.end))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections import deque
 from collections.abc import Iterator
@@ -33,7 +34,9 @@ class Pieces:
 
     A curve that folds back and returns to ``start``, that stops, or that does not
     begin, is followed from ``end`` as well; in the last case if Newton's iteration
-    from rest begins it there. If both return, what lies between is sought.
+    from rest begins it there. If both return, what lies between is sought. Where a
+    curve arrives at ``end`` and rest leads to another response there, a fold beyond
+    joins the two: that one is followed into the range too.
     """
 
     path: Path
@@ -49,12 +52,9 @@ class Pieces:
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
         there: list[float] = []
-        rest = self.restart.still
         stopped: ContinuationError | None = None
         try:
-            yield from self._noted(
-                self._from(rest(self.start), self.end, iter(FIRST)), there
-            )
+            yield from self._first(there)
         except ContinuationError as error:
             stopped = error
         if stopped is None and _arrived(there, 1.0):
@@ -64,7 +64,7 @@ class Pieces:
         again = FIRST if there else ()
         try:
             yield from self._noted(
-                self._from(rest(self.end), self.start, iter(again)), back
+                self._from(self.restart.still(self.end), self.start, iter(again)), back
             )
         except ContinuationError as error:
             raise stopped or error from None
@@ -110,6 +110,22 @@ class Pieces:
                 (float(each.point[-1]) - self.start) / (self.end - self.start)
             )
             yield each
+
+    def _first(self, shares: list[float]) -> Iterator[Correction]:
+        """Yield corrections from the start, and from the end what rest has besides.
+
+        The latter are more than was asked: where they cannot go on, they end.
+        """
+        last: Correction | None = None
+        begun = self._from(self.restart.still(self.start), self.end, iter(FIRST))
+        for last in self._noted(begun, shares):
+            yield last
+        if last is None or last.point[-1] != self.end:
+            return
+        other = self.restart.besides(last.point)
+        if other is not None:
+            with contextlib.suppress(ContinuationError):
+                yield from self._from(other, self.start, iter(()))
 
     def _between(self, reached: float) -> Iterator[Correction]:
         """Yield corrections from beyond where curves from both ends turn back.

@@ -31,6 +31,8 @@ FOLDED = (0.0, LEAPS[0], LEAPS[-1])
 takes thousands of evaluations where there is none"""
 BACK = (1, 3, 6, 9, 12, 16, 24, 32)
 """points of the way at which more harmonics are tried, counted from the last one"""
+ALIKE = 0.03
+"""relative difference up to which two points at one place are one"""
 TENTHS = 10
 """units of a parameter in its range, or in the logarithm of that"""
 
@@ -143,6 +145,22 @@ class Restart:
         except ContinuationError:
             return None
         return found.point
+
+    def besides(self, known: Array) -> Array | None:
+        """Return the point to which rest leads at the place of a known one.
+
+        None if that is about the same, or none.
+        """
+        self.system.restart(self.system.fourier.harmonics)
+        guess = self.still(float(known[-1]))
+        try:
+            found = correct_at(
+                self.system, guess, self.control, self.system, self.metric
+            )
+        except ContinuationError:
+            return None
+        alike = distance(found.point, known, self.metric(known)) <= ALIKE
+        return None if alike else found.point
 
     def _grown(self, parameter: float) -> Array | None:
         """Return a point to which the drive has grown; None if it does not."""

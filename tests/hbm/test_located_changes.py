@@ -1,6 +1,8 @@
 """Changes of stability: where few harmonics mislead, and how far aside they may lie."""
 
+import itertools
 import math
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 import pytest
@@ -26,7 +28,7 @@ def test_a_mass_between_stops_has_a_branch_point_where_its_stability_changes(
     rest = static_equilibrium(problem)
     options = CurveOptions(lowest * HERTZ, highest * HERTZ)
 
-    curve = list(frequency_response(problem, rest, options))
+    curve = list(until_restart(frequency_response(problem, rest, options)))
     (told,) = (each for each in curve if each.event)
     others = [each for each in curve if each is not told]
     below, above = (
@@ -37,6 +39,11 @@ def test_a_mass_between_stops_has_a_branch_point_where_its_stability_changes(
     assert told.event == "branch point"
     assert np.abs(told.multipliers - 1.0).min() < 1e-3
     assert sorted([*below, *above]) == [0, 1]
+
+
+def until_restart(curve: Iterable[PeriodicResponse]) -> Iterator[PeriodicResponse]:
+    """Yield the first piece of a curve; another may come in from beyond the range."""
+    return itertools.takewhile(lambda each: each.event != "restart", curve)
 
 
 def changes(problem: Problem, options: CurveOptions) -> list[PeriodicResponse]:

@@ -85,6 +85,7 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
 
     monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
     monkeypatch.setattr("hbm.continuation.cornered.round_corner", lambda *_: None)
+    monkeypatch.setattr("hbm.curves.pieces.path_metric", lambda *_: np.ones(2))
     monkeypatch.setattr(
         "hbm.curves.restart.approaches",
         lambda *_, **__: (np.array([[y]]) for y in (0.0, 0.9)),
@@ -207,6 +208,34 @@ def test_folds_of_the_drive_are_followed_at_the_nearest_and_the_farthest_place(
     assert begun[0][1] == 0.0
     assert places == pytest.approx([0.3001, 0.301, 0.305, 0.32, 0.35])
     assert folded == (True, False, False, False, True)
+
+
+def test_where_the_response_that_the_end_has_besides_is_lost_the_curve_is_whole(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    begun: list[float] = []
+
+    def trace(
+        system: Square, start: Array, end: float, **_: Any
+    ) -> Iterator[Correction]:
+        begun.append(float(start[0]))
+        if start[0] < 0.0:
+            raise ContinuationError("the curve does not go on")
+        point, along = np.array([1.0, end]), np.array([0.0, 1.0])
+        residual, linearised = system(point)
+        yield Correction(point, residual, linearised, Outcome.CONVERGED, (0.0,), along)
+
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
+    monkeypatch.setattr("hbm.continuation.cornered.round_corner", lambda *_: None)
+    monkeypatch.setattr("hbm.curves.pieces.path_metric", lambda *_: np.ones(2))
+    monkeypatch.setattr(
+        "hbm.curves.restart.Restart.besides", lambda *_: np.array([-1.0, 1.0])
+    )
+
+    points = [each.point.tolist() for each in pieces(0.0, 1.0)]
+
+    assert points == [[1.0, 1.0]]
+    assert begun == [0.9, -1.0]
 
 
 def test_a_curve_that_stops_is_followed_from_the_other_end(

@@ -1,0 +1,56 @@
+"""The response to which rest leads, where a curve arrives with another one."""
+
+import numpy as np
+import pytest
+
+from hbm.options import CurveOptions
+from hbm.solve import frequency_response
+from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.static import static_equilibrium
+from small_problems import cubic_oscillator
+
+DAMPING, DRIVE, WITHIN = 0.2, 1.0, 2.0
+"""the last between both folds [rad/s]"""
+PROBLEM = cubic_oscillator(damping=DAMPING, drive=DRIVE)
+
+
+def curve(start: float, end: float) -> list[PeriodicResponse]:
+    options = CurveOptions(start, end, harmonics=1, samples=1024)
+    rest = static_equilibrium(PROBLEM)
+    return list(frequency_response(PROBLEM, rest, options))
+
+
+def amplitudes(frequency: float) -> list[float]:
+    """Return those that balance the drive with one harmonic, in rising order.
+
+    Their squares A are the roots of A ((1 − ω² + ¾A)² + d²ω²) = F².
+    """
+    linear, damped = 1.0 - frequency**2, (DAMPING * frequency) ** 2
+    roots = np.roots([9.0 / 16.0, 1.5 * linear, linear**2 + damped, -(DRIVE**2)])
+    return [float(np.sqrt(each)) for each in sorted(roots.real)]
+
+
+def amplitude(response: PeriodicResponse) -> float:
+    return float(np.hypot(*response.coefficients[1:3, 0]))
+
+
+def test_a_curve_that_arrives_loud_has_the_quiet_response_of_the_end_as_well() -> None:
+    found = curve(0.5, WITHIN)
+
+    ends = sorted(amplitude(each) for each in found if each.frequency == WITHIN)
+    assert ends == pytest.approx(amplitudes(WITHIN), rel=1e-6)
+    assert [each.event for each in found].count("restart") == 1
+    quiet = next(each for each in found if each.event == "restart")
+    assert amplitude(quiet) == min(ends, key=lambda each: abs(each - amplitude(quiet)))
+    # it comes in from the end, folds, and leaves there as the unstable one
+    behind = found[found.index(quiet) :]
+    assert [each.event for each in behind].count("fold") == 1
+    assert behind[-1].frequency == WITHIN
+    assert behind[-1].unstable == 1
+
+
+def test_where_both_meet_within_the_range_nothing_is_added() -> None:
+    found = curve(0.5, 3.0)
+
+    assert [each.event for each in found].count("fold") == 2
+    assert "restart" not in [each.event for each in found]

@@ -104,16 +104,30 @@ def events(curve: ResponseCurve, *, sector: bool = False) -> str:
                 f"{about(100.0 * curve.error[place], ' %')}"
             )
     lines += gap_lines(curve)
-    lines += [
-        f"what begins at {curve.frequency[place] / math.tau:.6f} Hz is a curve of its "
-        f"own: the one before came back to {curve.frequency[0] / math.tau:.6f} Hz"
-        for place, name in enumerate(curve.event)
-        if name == "restart" and curve.frequency[place - 1] == curve.frequency[0]
-    ]
+    lines += _beginnings(curve)
     if not curve.peak.any():
         lines.append("nothing moves at any frequency: the scene has no drive")
     lines.append(SECTOR if sector else _stability(curve))
     return "\n".join(lines)
+
+
+def _beginnings(curve: ResponseCurve) -> list[str]:
+    """Return why pieces begin that do not go on where the one before ended."""
+    first, lines = curve.frequency[0] / math.tau, []
+    for place, name in enumerate(curve.event):
+        before, here = curve.frequency[max(place - 1, 0) : place + 1][[0, -1]]
+        begins = f"what begins at {here / math.tau:.6f} Hz"
+        if name == "restart" and before == curve.frequency[0]:
+            lines.append(
+                f"{begins} is a curve of its own: the one before came back to "
+                f"{first:.6f} Hz"
+            )
+        elif name == "restart" and before == here:
+            lines.append(
+                f"{begins} comes in from beyond the range: rest leads to it there, not "
+                "to the response before"
+            )
+    return lines
 
 
 def _stability(curve: ResponseCurve) -> str:

@@ -15,34 +15,24 @@ from scipy.integrate import solve_ivp
 from hbm.curves.drive_search import MOST, Sought
 from hbm.options import CurveOptions
 from hbm.solve import detached, frequency_response
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.element import Element
-from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.system import system
 from timedomain.shooting.comparison import compared
 
 CUBIC, ABSORBER, STIFFNESS, DAMPING = 1.0, 0.0042, 0.0454, 0.0128
 MASS, RATIO = 1.0, 0.05
+"""of the scene, once more for SciPy's equations"""
 OPTIONS = CurveOptions(math.tau * 0.11, math.tau * 0.45)
 PERIODS, ASIDE, LEFT = 300, 1.02, 0.05
 """of a march that begins aside of a motion, of which at most that part may be left"""
 
 
 def absorber(drive: float) -> Problem:
-    return system(
-        names=["host", "absorber"],
-        mass=[MASS, RATIO],
-        stiffness=[[1.0 + STIFFNESS, -STIFFNESS], [-STIFFNESS, STIFFNESS]],
-        damping=[[0.002 + DAMPING, -DAMPING], [-DAMPING, DAMPING]],
-        elements=[
-            Element(CubicSpring(cubic=CUBIC), between=("host", "ground")),
-            Element(CubicSpring(cubic=ABSORBER), between=("host", "absorber")),
-        ],
-        drive={"host": drive},
-    )
+    return problem_of(load_scene("nonlinear-absorber", [f"drive.host={drive}"]))
 
 
 @functools.cache

@@ -28,6 +28,7 @@ BANDS = {
     "duffing": ("5.2", "5.3"),
     "jenkins": ("17", "17.2"),
     "gap": ("4.85", "4.9"),
+    "nonlinear-absorber": ("0.16", "0.17"),
     "chain": ("0.2", "0.201"),
     "friction-beam": ("80", "81"),
     "tip-damper": ("420", "422"),

@@ -22,6 +22,8 @@ systems of any matrices and elements (scene = "system"):
   duffing          a mass on a linear and a cubic spring
   jenkins          a mass on a spring and an elastic dry-friction slider
   gap              a mass that meets a stop behind a gap
+  nonlinear-absorber
+                   Duffing's oscillator with a tuned absorber and a detached curve
   chain            three masses, sliders, cubic springs and a stop (NLvib, example 07)
   friction-beam    a cantilever with dry friction at its tip
   tip-damper       a blade with a pin pressed to its tip, contact in three dimensions

@@ -23,6 +23,7 @@ SYSTEMS = (
     "duffing",
     "jenkins",
     "gap",
+    "nonlinear-absorber",
     "chain",
     "friction-beam",
     "tip-damper",

@@ -37,7 +37,7 @@ class Summits:
 
         A peak is no lower than either point beside it. Where the last point is above
         all beside it, and none of these is a peak, it is one itself, somewhere between
-        the points beside it.
+        the points beside it, and as much higher as the parabola through all three.
         """
         last, before = self._last, self._before
         if last is None:
@@ -49,8 +49,7 @@ class Summits:
             if each.event != "peak" or self._size(each) >= (1.0 - EQUAL) * beside
         ]
         if before and self._stands_out(last, [*before, *found, made]):
-            ways = (abs(each.parameter - last.parameter) for each in (before[0], made))
-            yield replace(last, event="peak", parameter_error=max(ways))
+            yield self._summit(before[0], last, made)
         yield from found
         self._last, self._before = made, [last, *found]
 
@@ -63,6 +62,30 @@ class Summits:
         nearest = max(self._size(each) for each in beside)
         return self._size(last) > (1.0 + EQUAL) * nearest
 
+    def _summit(
+        self, before: PeriodicResponse, last: PeriodicResponse, after: PeriodicResponse
+    ) -> PeriodicResponse:
+        """Return a point as a peak, with what it may be aside and lower than that."""
+        size = self._size(last)
+        ways = [abs(each.parameter - last.parameter) for each in (before, after)]
+        falls = [size - self._size(each) for each in (before, after)]
+        error = last.error + _lacking(*ways, *falls) / size
+        return replace(last, event="peak", error=error, parameter_error=max(ways))
+
     def _size(self, made: PeriodicResponse) -> float:
         """Return the largest first harmonic of a probe [m]."""
         return float(made.amplitudes(self._probes).max(initial=0.0))
+
+
+def _lacking(back: float, on: float, before: float, after: float) -> float:
+    """Return what a point is below the top of the parabola through those beside it.
+
+    These are as far away as ``back`` and ``on``, and lower by ``before`` and ``after``,
+    by more than which the top is not told to be higher.
+    """
+    most = max(before, after)
+    if back * on == 0.0:
+        return most
+    slope = before * on / back - after * back / on
+    bend = 4.0 * (back + on) * (before / back + after / on)
+    return min(slope**2 / bend, most)

@@ -61,7 +61,9 @@ class LinearCurve:
         points = points[(apart > UNDAMPED * points[:, None]).all(axis=1)]
         found = [Place(float(each), None) for each in points]
         found += self._peaks(points)
-        yield from sorted(found, key=lambda each: each.frequency, reverse=start > end)
+        yield from sorted(
+            found, key=lambda each: each.frequency, reverse=bool(start > end)
+        )
 
     def unbounded(self, start: float, end: float) -> Array:
         """Return the resonances between two frequencies that nothing damps [rad/s]."""

@@ -338,3 +338,16 @@ def test_a_resonance_without_damping_has_no_peak_and_no_point(lowest: float) -> 
     assert not any(response.event for response in curve)
     beside = [abs(response.frequency / natural - 1.0) for response in curve]
     assert 1e-9 < min(beside) < 1e-6
+
+
+def test_a_range_may_be_in_numbers_of_numpy() -> None:
+    problem = oscillator()
+    ends = TURN * np.array([1.0, 2.0])
+
+    up, down = (
+        frequency_response(problem, static_equilibrium(problem), CurveOptions(*span))
+        for span in (ends, ends[::-1])
+    )
+
+    found = [each.frequency for each in up]
+    assert found == [each.frequency for each in down][::-1]

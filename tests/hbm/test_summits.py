@@ -60,6 +60,27 @@ def test_a_point_above_its_neighbours_is_a_peak_between_them() -> None:
     assert order == sorted(order)
 
 
+def test_such_a_point_is_known_as_a_parabola_through_its_neighbours_is() -> None:
+    places = (1.0, 2.0, 2.5)
+    points = [
+        replace(at(place, 1.2 - 0.3 * (place - 1.9) ** 2), error=1e-3)
+        for place in places
+    ]
+
+    (peak,) = (each for each in told(*([each] for each in points)) if each.event)
+
+    assert peak.parameter == 2.0
+    assert peak.error == pytest.approx(1e-3 + 0.003 / 1.197)
+
+
+def test_what_is_told_of_steep_neighbours_is_no_more_than_these_are_lower() -> None:
+    points = [replace(at(*each), error=0.0) for each in ((1, 0.9), (1, 1), (2, 0.5))]
+
+    (peak,) = (each for each in told(*([each] for each in points)) if each.event)
+
+    assert peak.error == pytest.approx(0.5)
+
+
 def test_a_point_beside_a_peak_is_none() -> None:
     before = [at(1, 1.0)], [at(1.8, 1.3, "peak"), at(2, 1.2)], [at(3, 1.0)]
     after = [at(1, 1.0)], [at(2, 1.2)], [at(2.2, 1.3, "peak"), at(3, 1.0)]

@@ -130,6 +130,22 @@ def test_a_fold_lies_where_a_point_beside_it_is_farther(side: float) -> None:
     }
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_fold_lies_where_both_points_beside_it_are_farther(side: float) -> None:
+    places = [side * place for place in (1.0, 2.1, 2.0, 2.05, 1.0)]
+
+    sizes = curve([1.0, 1.2, 1.0, 1.0, 1.0], [])
+    points = [
+        replace(each, error=ERROR, coefficients=size.coefficients)
+        for each, size in zip(folded(places, [2]), sizes, strict=True)
+    ]
+
+    (fold,) = (each for each in prominent(oscillator(), points) if each.event)
+
+    assert fold.parameter_error == pytest.approx(0.1)
+    assert fold.error == pytest.approx(0.2)
+
+
 @pytest.mark.parametrize(("aside", "told"), [(0.5, False), (2.0, True)])
 def test_a_branch_point_that_may_be_a_fold_is_none(aside: float, told: bool) -> None:
     points = folded([1.0, 2.0 - aside * ERROR, 1.999, 2.0, 1.0], [3])

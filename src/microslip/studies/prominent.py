@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import BEGINNINGS, PeriodicResponse
 
@@ -31,30 +31,39 @@ def prominent(
     more than its error and that of the lowest point on that way together; so does the
     parameter from a fold at which it is largest, and upside down. Where no point is
     higher, or the error of an event is not known, it stays. A fold may lie aside by as
-    much as a point beside it is beyond; a branch point that may be the fold next to it
-    is no other event. Where more harmonics take a curve up a step back, without a fold,
-    it goes on from where it passes the peak again. What does not hang together is
-    looked at piece by piece.
+    much as a point beside it is beyond, with the amplitude of that; a branch point that
+    may be the fold next to it is no other event. Where more harmonics take a curve up a
+    step back, without a fold, it goes on from where it passes the peak again. What does
+    not hang together is looked at piece by piece.
     """
     begins = [at for at, each in enumerate(points) if each.event in BEGINNINGS]
     bounds = sorted({0, *begins, len(points)})
     return [
         each
         for first, last in itertools.pairwise(bounds)
-        for each in _standing_out(problem, _apart(_wide(points[first:last])))
+        for each in _standing_out(problem, _apart(_wide(problem, points[first:last])))
     ]
 
 
-def _wide(piece: Sequence[PeriodicResponse]) -> list[PeriodicResponse]:
+def _wide(
+    problem: Problem, piece: Sequence[PeriodicResponse]
+) -> list[PeriodicResponse]:
     """Return a piece whose folds may lie where points beside them are."""
+    rows = problem.probes.rows
     place = np.array([each.parameter for each in piece])
     wide = list(piece)
     for at, each in enumerate(piece):
         if each.event == "fold":
-            outwards = _outwards(at, place)
-            beyond = (outwards * (_beside(at, place) - place[at])).max(initial=0.0)
-            error = np.maximum(each.parameter_error, beyond)  # unknown, it stays so
-            wide[at] = replace(each, parameter_error=float(error))
+            outwards = _outwards(at, place) * place
+            farthest = max(_beside(at, place), key=outwards.item, default=at)
+            beyond = float(outwards[farthest] - outwards[at])
+            if beyond > each.parameter_error:  # unknown, it stays so
+                size, other = (
+                    float(made.amplitudes(rows).max(initial=0.0))
+                    for made in (each, piece[farthest])
+                )
+                error = max(each.error, abs(other - size) / max(size, TINY))
+                wide[at] = replace(each, parameter_error=beyond, error=error)
     return wide
 
 
@@ -91,7 +100,7 @@ def _standing_out(
                 continue
         if each.event == "fold":
             outwards = _outwards(at, place) * place
-            outwards[at] = max(outwards[at], _beside(at, outwards).max(initial=-np.inf))
+            outwards[at] = outwards[[at, *_beside(at, place)]].max()
             if not _descends(at, outwards, aside):
                 continue
         yield each
@@ -109,20 +118,24 @@ def _passed(at: int, place: Array, folds: Array) -> int:
     return at + 1
 
 
-def _beside(at: int, place: Array) -> Array:
-    """Return the values at the points before and behind one."""
-    return place[[near for near in (at - 1, at + 1) if 0 <= near < place.size]]
+def _beside(at: int, place: Array) -> list[int]:
+    """Return the points before and behind one."""
+    return [near for near in (at - 1, at + 1) if 0 <= near < place.size]
 
 
 def _outwards(at: int, place: Array) -> float:
     """Return the sign with which a parameter has a maximum at a point.
 
-    Where it lies between the points beside it, those before and behind these tell.
+    Where it lies between the points beside it, or these turn back without it, those
+    before and behind them tell.
     """
     before, after = place[max(at - 1, 0)], place[min(at + 1, len(place) - 1)]
     bend = 2.0 * place[at] - before - after
-    if (place[at] - before) * (after - place[at]) > 0.0 and 2 <= at < len(place) - 2:
-        bend = (before - place[at - 2]) - (place[at + 2] - after)
+    if 2 <= at < len(place) - 2:
+        arriving, leaving = before - place[at - 2], place[at + 2] - after
+        between = (place[at] - before) * (after - place[at]) > 0.0
+        if between or arriving * leaving < 0.0:
+            bend = arriving - leaving
     return 1.0 if bend >= 0.0 else -1.0
 
 

@@ -9,7 +9,7 @@ import pytest
 from microslip.commands.frc_tables import events, resolution, table
 from microslip.commands.verify_findings import Findings, verdict
 from microslip.commands.verify_marches import march_rows, marches_said
-from microslip.commands.verify_orbits import orbit_rows
+from microslip.commands.verify_orbits import orbit_rows, orbits_said
 from microslip.commands.verify_sweeps import HELD, sweep_rows, sweeps_said
 from microslip.studies.curve import Traced
 from microslip.studies.verify.orbits import Verdict
@@ -176,6 +176,29 @@ def test_the_amplitude_is_that_of_a_probe_that_moves(size: float, shown: str) ->
 
     assert f"   4.0000 {shown} {shown}  " in orbits
     assert f"   4.0000 {shown}  " in marches
+
+
+def test_orbits_and_marches_tell_near_and_slow_frequencies_apart() -> None:
+    hertz = (2e-4, 2.002e-4)
+    near = [dataclasses.replace(UNMOVED, frequency=math.tau * each) for each in hertz]
+    orbits = [
+        Verdict(each, "stable", compared(each, np.array([1e-3])), "") for each in near
+    ]
+    marches = [
+        dataclasses.replace(left(0.0, 0), frequency=f)
+        for f in math.tau * np.array(hertz)
+    ]
+
+    texts = ["0.0002000000", "0.0002002000"]
+    for rows in (orbit_rows(orbits), march_rows(marches, ["x"])):
+        assert [line.split()[0] for line in rows.splitlines()[-2:]] == texts
+    assert f"at {texts[0]} Hz" in orbits_said(orbits)
+    apart = [dataclasses.replace(each, cause="so") for each in orbits]
+    said = orbits_said(apart).splitlines()
+    assert [line.split(" Hz")[0] for line in said[:2]] == [
+        f"DISAGREE at {each}" for each in texts
+    ]
+    assert f"at {texts[0]} Hz" in marches_said(marches, ["x"], 1e-3)[0]
 
 
 @pytest.mark.parametrize(

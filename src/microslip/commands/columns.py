@@ -80,6 +80,17 @@ def decimal(
     return f"{value:z{width}.{decimals}f}"
 
 
+def even(values: Sequence[float], decimals: int, width: int) -> list[str]:
+    """Return the numbers of a column that may span decades, in one notation.
+
+    All have powers of ten if one of them needs it; see :func:`decimal`.
+    """
+    texts = [decimal(each, each, decimals, width) for each in values]
+    if any("e" in text for text in texts):
+        return [f"{each:{width}.{DIGITS}e}" for each in values]
+    return texts
+
+
 def hertz(
     value: float | np.floating[Any], seen: Sequence[float] | Array, decimals: int = 4
 ) -> str:

@@ -39,6 +39,18 @@ TEXTS = [
     ),
     (
         "a.mtx",
+        HEADER + "2 2 4\n1 1 4.0\n2 1 -1.0\n1 2 -1.0\n2 2 4.0\n",
+        ", line 5: this entry or its mirror image stands in the file before: export "
+        "the assembled matrix, not element by element, and once",
+    ),
+    (
+        "a.mtx",
+        HEADER.replace("symmetric", "general") + "1 1 2\n1 1 4.0\n1 1 4.0\n",
+        ", line 4: this entry stands in the file before: export the assembled matrix, "
+        "not element by element, and once",
+    ),
+    (
+        "a.mtx",
         "1,1,1,1,2.0\n** more\n1,1,2,2\n",
         ", line 3: '1,1,2,2' is not node, direction, node, direction, value: "
         "export the matrix again as text",

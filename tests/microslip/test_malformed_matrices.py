@@ -85,6 +85,11 @@ TEXTS = [
         "not element by element, and once",
     ),
     (
+        "a.pch",
+        "DMIG,KAAX,0,6,2,0\nDMIG,KAAX,1,1,,1,1,3.0E4\n",
+        ": has no DMIG header in fields of 8 characters: punch the matrix",
+    ),
+    (
         "a.txt",
         "** nothing\n",
         ": no entries: each line must give node, direction, node, direction, value",

@@ -11,6 +11,7 @@ from microslip.commands import arguments
 from microslip.commands.places import demand_apart, demand_place
 from microslip.commands.sweep_tables import (
     energy_table,
+    equal_steps,
     estimates,
     extreme_lines,
     parting,
@@ -178,13 +179,12 @@ def _show(
     pairs = zip(problem.interface.names, normals, strict=True)
     pressed = [name for name, normal in pairs if normal.any()]
     found = of_all([extremes(each) for each in stretches(data)])
-    errors = [*estimates(result, found), *parting(result, options.tolerance)]
+    equal = beyond_motion(problem.interface.points)
+    errors = estimates(result, found)
+    errors += parting(result, 0.0 if equal else options.tolerance)
     print("\n".join([*errors, *extreme_lines(result, found, pressed)]))
-    if options.tolerance and beyond_motion(problem.interface.points):
-        print(
-            "contacts that remember or are rigid are marched with the scene's steps, "
-            f"{scene.march.time_step:g} s, and no tolerance"
-        )
+    if options.tolerance and equal:
+        print(equal_steps(scene.march.time_step))
     save_figure(picture, result_figure(result, arguments.title(options)))
     return closes(result)
 

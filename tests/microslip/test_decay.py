@@ -365,6 +365,14 @@ def test_small_damping_keeps_its_digits() -> None:
     assert lines[-1].endswith(" 8.153e-05")
 
 
+def test_times_of_a_fast_decay_keep_their_digits() -> None:
+    still = np.ones(2)
+
+    lines = cycles(RingDown(1e-6 * np.arange(1.0, 3.0), still, still, still), "x")
+
+    assert [line.split()[0] for line in lines[2:4]] == ["1.000e-06", "2.000e-06"]
+
+
 @pytest.mark.long
 def test_motions_that_beat_are_told(run: Run) -> None:
     words = ("--frequency", "0.16", "--tolerance", "0.5", "--periods", "60")

@@ -31,7 +31,8 @@ def cycles(decay: RingDown, probe: str, too_fast: int = 0) -> list[str]:
     # about zero digits say nothing
     largest = percent.max() if (percent > 0.0).all() else 1.0
     rows += [
-        f"{decay.time[place]:8.4f} {1e3 * decay.amplitude[place]:15.6g} "
+        f"{decimal(decay.time[place], decay.time[-1], 4, 8)} "
+        f"{1e3 * decay.amplitude[place]:15.6g} "
         f"{hertz(frequencies[place], frequencies):>15} "
         f"{decimal(percent[place], largest, 4, 18)}"
         for place in chosen

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from microslip.commands.frc_tables import events, resolution, table
+from microslip.commands.frc_tables import events, resolution, rest, table
 from microslip.commands.verify_findings import Findings, verdict
 from microslip.commands.verify_marches import march_rows, marches_said
 from microslip.commands.verify_orbits import orbit_rows, orbits_said
@@ -142,6 +142,21 @@ def test_the_table_of_a_curve_is_in_the_units_of_its_head(
     forces = small_curve.normal_smallest[0].min(), small_curve.normal_largest[0].max()
     energy = 1e3 * small_curve.friction_energy[0]
     assert shown == pytest.approx([130.0, *probes, energy, *forces], rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("force", "said"), [(2.9237, "2.924"), (1e-6, "1.000e-06"), (0.0, "0.000")]
+)
+def test_forces_at_rest_keep_their_digits(
+    force: float, said: str, small_curve: ResponseCurve
+) -> None:
+    state = StaticState(np.zeros(1), np.array([force, 0.0, 0.0]), 0.0, 1)
+
+    told = rest(small_curve, state)
+
+    assert told.startswith(
+        f"normal force at rest [N]: {small_curve.contacts[0]} {said}"
+    )
 
 
 def test_a_curve_that_came_back_is_told_from_the_one_that_follows(

@@ -136,6 +136,47 @@ cubic = 10
     assert problem.drive.tolist() == [2, 0, 2, 0, 1, 0]
 
 
+PAIRED = """
+[[element]]
+name = "pair"
+law = "cubic-spring"
+each = ["left", "right"]
+between = ["left.z", "right.z"]
+cubic = 10
+[drive]
+"1.x" = 1
+"""
+
+
+def test_a_node_that_faces_two_others_has_an_element_for_each(tmp_path: Path) -> None:
+    text = NODES.replace('left = ["1", "2"]', 'left = ["1", "1"]') + PAIRED
+
+    first, second = made(tmp_path, text).interface.names
+
+    assert first != second
+    assert {first[:7], second[:7]} == {"pair-1-"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            '"right.z"]',
+            '"ground"]',
+            "no direction has an end of the set right, such as",
+        ),
+        ('["left", "right"]', '["twice", "twice"]', "1, 1 stand together twice: name"),
+    ],
+)
+def test_sets_that_make_no_elements_of_their_own_are_refused(
+    old: str, new: str, said: str, tmp_path: Path
+) -> None:
+    nodes = NODES.replace("[structure.sets]", '[structure.sets]\ntwice = ["1", "1"]')
+
+    with pytest.raises(SceneError, match=re.escape(said)):
+        made(tmp_path, nodes + PAIRED.replace(old, new))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [

@@ -207,6 +207,18 @@ def test_moving_ground_loads_each_mass_along_its_direction(tmp_path: Path) -> No
     assert problem.drive == pytest.approx(-0.5 * np.array([0, 1, 0, 2, 0, 3]))
 
 
+@pytest.mark.parametrize("beam", [False, True])
+def test_ground_along_which_nothing_moves_is_refused(
+    beam: bool, tmp_path: Path
+) -> None:
+    plane = BEAM.replace("elements = 3", "elements = 3\nplane = true")
+    text = plane if beam else NODES
+    base = "[base]\ndirection = [0, 1, 0]\nacceleration = 1\n"
+
+    with pytest.raises(SceneError, match=r"base: nothing .* moves along \[0, 1, 0\]"):
+        made(tmp_path, text + base)
+
+
 def test_moving_ground_loads_a_beam_by_all_of_its_mass(tmp_path: Path) -> None:
     problem = made(tmp_path, BEAM + "[base]\ndirection = [0, 0, 1]\nacceleration = 2\n")
 

@@ -235,6 +235,16 @@ def test_modes_of_a_slider_go_from_sticking_to_slipping(run: Run) -> None:
     assert "most damped" in output
 
 
+def test_a_march_of_equal_steps_that_is_wrong_asks_for_shorter_ones(run: Run) -> None:
+    short = ("sweep.end=2", "sweep.duration=2", "march.time_step=0.01")
+    sets = [word for each in short for word in ("--set", each)]
+
+    status, _, error = run("sweep", "jenkins", *sets)
+
+    assert status == 1
+    assert "does not close, so the march is wrong: give a shorter march.time" in error
+
+
 def test_explain_lists_each_element_with_its_equation(run: Run) -> None:
     status, output, _ = run("explain", "chain")
 

@@ -67,7 +67,6 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scenes.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
-    from timedomain.record.closure import OPEN
 
     data, picture = _places(options)
     scene = load_scene(options.scene, options.overrides)
@@ -88,11 +87,21 @@ def _run(options: argparse.Namespace) -> int:
     with written(f"{recording.rows} {unit} in {data}", picture):
         closed = _show(options, scene, problem, (data, picture))
     if ending == "complete" and not closed:
-        ending = (
-            f"{OPEN}: give a smaller --tolerance, or a shorter march.time_step with "
-            "--tolerance 0"
-        )
+        ending = _open(options, problem)
     return arguments.ended(ending)
+
+
+def _open(options: argparse.Namespace, problem: Problem) -> str:
+    """Return what is said of a march whose energies do not balance."""
+    from microslip_mechanics.contact.memory import beyond_motion
+    from timedomain.record.closure import OPEN
+
+    if not options.tolerance or beyond_motion(problem.interface.points):
+        return f"{OPEN}: give a shorter march.time_step"
+    return (
+        f"{OPEN}: give a smaller --tolerance, or a shorter march.time_step with "
+        "--tolerance 0"
+    )
 
 
 def _tolerance(text: str) -> float:

@@ -72,6 +72,19 @@ def test_what_only_rounding_moves_has_no_axis_of_rounding(
     assert axes.yaxis.get_offset_text().get_text() == ""
 
 
+def test_energy_of_contacts_that_stick_throughout_has_no_axis_of_rounding(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    rounding = 1e-22 * np.array([1.0, -1.0, 1.0, 0.0])
+    curve = dataclasses.replace(
+        small_curve, friction_energy=rounding, damping_energy=np.zeros(4)
+    )
+
+    curves.dissipated_energy(axes, curve)
+
+    assert np.ptp(axes.get_ylim()) > 1e3 * np.ptp(1e3 * rounding)
+
+
 def test_normal_forces_show_the_range_of_every_point(
     axes: Axes, small_curve: ResponseCurve
 ) -> None:

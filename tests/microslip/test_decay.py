@@ -23,9 +23,12 @@ from microslip.studies.decay import (
     measured,
     released,
     step_errors,
+    too_fast,
     unmeasured,
 )
 from microslip.studies.dwell import dwelling
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.checkpoint import Checkpoint
@@ -362,6 +365,14 @@ def test_small_damping_keeps_its_digits() -> None:
     assert lines[-1].endswith(" 8.153e-05")
 
 
+def test_times_of_a_fast_decay_keep_their_digits() -> None:
+    still = np.ones(2)
+
+    lines = cycles(RingDown(1e-6 * np.arange(1.0, 3.0), still, still, still), "x")
+
+    assert [line.split()[0] for line in lines[2:4]] == ["1.000e-06", "2.000e-06"]
+
+
 @pytest.mark.long
 def test_motions_that_beat_are_told(run: Run) -> None:
     words = ("--frequency", "0.16", "--tolerance", "0.5", "--periods", "60")
@@ -390,6 +401,25 @@ def test_rows_too_few_to_a_cycle_are_not_measured(
     assert not measured(problem, history, 0).time.size
     told = unmeasured(problem, history, 0)
     assert re.match(r"x1 has [\d.]+ rows to a cycle, where .* need 12: give a ", told)
+
+
+def test_fast_swings_on_a_contact_that_sticks_at_last_are_left_out() -> None:
+    slider = Element(Jenkins(stiffness=1e6, limit=3.0), between=("x1", "ground"))
+    problem = system(mass=[1.0], stiffness=[1e3], elements=[slider])
+    start = Start(np.array([0.05]), np.zeros(1))
+    period = 2.0 * np.pi / np.sqrt(1e3)
+
+    blocks = released(
+        problem, start, March(period / 3000.0, 50), frequency=np.sqrt(1e3), periods=20
+    )
+    history = joined(list(blocks), "complete")
+
+    decay, lost = measured(problem, history, 0), too_fast(problem, history, 0)
+    assert lost > 2
+    assert decay.frequency.max() < 50.0  # 1000 on the contact, two rows to a cycle
+    told = cycles(decay, "x1", lost)[-1]
+    assert told.startswith(f"left out: {lost} swings at the end, whose cycles have few")
+    assert not any("left out" in line for line in cycles(decay, "x1"))
 
 
 @pytest.mark.parametrize(

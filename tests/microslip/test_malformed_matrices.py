@@ -39,6 +39,18 @@ TEXTS = [
     ),
     (
         "a.mtx",
+        HEADER + "2 2 4\n1 1 4.0\n2 1 -1.0\n1 2 -1.0\n2 2 4.0\n",
+        ", line 5: this entry or its mirror image stands in the file before: export "
+        "the assembled matrix, not element by element, and once",
+    ),
+    (
+        "a.mtx",
+        HEADER.replace("symmetric", "general") + "1 1 2\n1 1 4.0\n1 1 4.0\n",
+        ", line 4: this entry stands in the file before: export the assembled matrix, "
+        "not element by element, and once",
+    ),
+    (
+        "a.mtx",
         "1,1,1,1,2.0\n** more\n1,1,2,2\n",
         ", line 3: '1,1,2,2' is not node, direction, node, direction, value: "
         "export the matrix again as text",
@@ -71,6 +83,11 @@ TEXTS = [
         "1 1 4.0\n2 1 1.0\n1 1 4.0\n",
         ", line 3: this entry stands in the file before: export the assembled matrix, "
         "not element by element, and once",
+    ),
+    (
+        "a.pch",
+        "DMIG,KAAX,0,6,2,0\nDMIG,KAAX,1,1,,1,1,3.0E4\n",
+        ": has no DMIG header in fields of 8 characters: punch the matrix",
     ),
     (
         "a.txt",

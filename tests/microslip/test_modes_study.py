@@ -322,6 +322,17 @@ def test_of_constant_damping_no_point_is_most_damped() -> None:
     assert "points with 1 harmonic and 128 samples; " in told
 
 
+def test_numbers_of_a_modes_table_have_one_notation_in_a_column() -> None:
+    mode = grown("complete", [1e-5, 0.3])
+    small = replace(mode.points[0], probes=np.array([1e-7 + 0j]))
+
+    told = mode_table(replace(mode, points=(small, mode.points[1])), "at rest")
+
+    rows = [line.split() for line in told[2:4]]
+    assert [row[0] for row in rows] == ["1.000e-04", "2.000e+03"]
+    assert [row[2] for row in rows] == ["1.000e-05", "3.000e-01"]
+
+
 @pytest.mark.parametrize(("ending", "marks"), [("complete", 1), ("it stops", 0)])
 def test_the_end_of_a_broken_mode_is_not_its_most_damped_point(
     ending: str, marks: int

@@ -211,6 +211,21 @@ def test_values_before_an_interruption_are_kept(
     assert len(table.splitlines()) == 2
 
 
+@pytest.mark.usefixtures("no_picture")
+def test_small_amplitudes_and_damping_keep_their_digits(run: Run) -> None:
+    lightly = "--set=structure.damping_ratio=1e-6"
+
+    status, output, _ = run("poles", "jenkins", "drive.x", "1e-9", lightly)
+
+    assert status == 0
+    # both springs hold: F / (2 ζ k_all), where the ratio is one of k alone
+    *_, amplitude, _, _, _, ratio = output.splitlines()[2].split()
+    assert float(amplitude) == pytest.approx(
+        1e-6 / (2e-6 * 1.5e4) / 1.5**-0.5, rel=1e-3
+    )
+    assert ratio == f"({1e-4 * 1.5**-0.5:.3g})"
+
+
 @pytest.mark.parametrize(
     ("words", "named"),
     [

@@ -136,6 +136,47 @@ cubic = 10
     assert problem.drive.tolist() == [2, 0, 2, 0, 1, 0]
 
 
+PAIRED = """
+[[element]]
+name = "pair"
+law = "cubic-spring"
+each = ["left", "right"]
+between = ["left.z", "right.z"]
+cubic = 10
+[drive]
+"1.x" = 1
+"""
+
+
+def test_a_node_that_faces_two_others_has_an_element_for_each(tmp_path: Path) -> None:
+    text = NODES.replace('left = ["1", "2"]', 'left = ["1", "1"]') + PAIRED
+
+    first, second = made(tmp_path, text).interface.names
+
+    assert first != second
+    assert {first[:7], second[:7]} == {"pair-1-"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            '"right.z"]',
+            '"ground"]',
+            "no direction has an end of the set right, such as",
+        ),
+        ('["left", "right"]', '["twice", "twice"]', "1, 1 stand together twice: name"),
+    ],
+)
+def test_sets_that_make_no_elements_of_their_own_are_refused(
+    old: str, new: str, said: str, tmp_path: Path
+) -> None:
+    nodes = NODES.replace("[structure.sets]", '[structure.sets]\ntwice = ["1", "1"]')
+
+    with pytest.raises(SceneError, match=re.escape(said)):
+        made(tmp_path, nodes + PAIRED.replace(old, new))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
@@ -164,6 +205,18 @@ def test_moving_ground_loads_each_mass_along_its_direction(tmp_path: Path) -> No
     problem = made(tmp_path, text)
 
     assert problem.drive == pytest.approx(-0.5 * np.array([0, 1, 0, 2, 0, 3]))
+
+
+@pytest.mark.parametrize("beam", [False, True])
+def test_ground_along_which_nothing_moves_is_refused(
+    beam: bool, tmp_path: Path
+) -> None:
+    plane = BEAM.replace("elements = 3", "elements = 3\nplane = true")
+    text = plane if beam else NODES
+    base = "[base]\ndirection = [0, 1, 0]\nacceleration = 1\n"
+
+    with pytest.raises(SceneError, match=r"base: nothing .* moves along \[0, 1, 0\]"):
+        made(tmp_path, text + base)
 
 
 def test_moving_ground_loads_a_beam_by_all_of_its_mass(tmp_path: Path) -> None:

@@ -217,10 +217,11 @@ def test_sweep_says_that_what_remembers_or_is_rigid_has_no_estimated_error(
         scene = str(tmp_path / "rigid.toml")
         Path(scene).write_text(text)
 
-    status, output, error = run("sweep", scene, *sets)
+    status, output, error = run("sweep", scene, "--tolerance", "1e-6", *sets)
 
     assert (status, error) == (0, "")
-    assert "0.001 s, and no tolerance" in output
+    assert "0.001 s, and no tolerance: a smaller march.time_step lowers" in output
+    assert "motions that begin alike part" not in output
     assert "estimated error of the peak amplitude" in output
 
 
@@ -232,6 +233,16 @@ def test_modes_of_a_slider_go_from_sticking_to_slipping(run: Run) -> None:
     assert (status, error) == (0, "")
     assert "mode at 19.4924 Hz" in output
     assert "most damped" in output
+
+
+def test_a_march_of_equal_steps_that_is_wrong_asks_for_shorter_ones(run: Run) -> None:
+    short = ("sweep.end=2", "sweep.duration=2", "march.time_step=0.01")
+    sets = [word for each in short for word in ("--set", each)]
+
+    status, _, error = run("sweep", "jenkins", *sets)
+
+    assert status == 1
+    assert "does not close, so the march is wrong: give a shorter march.time" in error
 
 
 def test_explain_lists_each_element_with_its_equation(run: Run) -> None:

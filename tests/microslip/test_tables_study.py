@@ -147,6 +147,7 @@ def test_command_prints_the_paper_beside_our_energy(run: Run) -> None:
         "-",
     ]
     assert "jamming, coulomb, short" in output
+    assert "see the row with V_lim" in output
 
 
 @pytest.mark.usefixtures("few")
@@ -194,6 +195,7 @@ def test_interrupted_tables_keep_their_rows(
     assert error == f"microslip: interrupted; {said}\n"
     assert (COULOMB.name in output) == (done == 1)
     assert OURS.name not in output
+    assert "see the row" not in output
     assert written() == done
 
 

@@ -113,6 +113,17 @@ def test_values_out_of_order_are_drawn_in_order() -> None:
     assert left.get_ylim()[1] > 5.0
 
 
+@pytest.mark.parametrize("step", [1e-4, 1e-9])
+def test_ticks_of_values_that_hardly_differ_are_told_apart(step: float) -> None:
+    peaks = [(1000.0 + step * place, 134.0, 1e-3) for place in range(5)]
+
+    figure = track_figure(peaks, [], "drive.x", "two-blades")
+
+    figure.draw_without_rendering()
+    labels = [label.get_text() for label in figure.axes[0].get_xticklabels()]
+    assert len(set(labels)) == len(labels) > 2
+
+
 @pytest.mark.parametrize(
     ("drives", "scale"), [((0.1, 1.0, 10.0), "log"), ((1.0, 2.0, 3.0), "linear")]
 )

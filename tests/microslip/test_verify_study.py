@@ -361,10 +361,17 @@ def test_a_sweep_of_more_than_a_thousand_times_is_refused(
     assert f"{slower} times as long is too long: give at most 1000" in error
 
 
-def test_a_sweep_beyond_the_curve_is_refused(run: Run, quick_scene: Path) -> None:
-    arguments = sets("curve.highest=131", "sweep.lowest=130", "sweep.highest=132")
+@pytest.mark.parametrize("beyond", ["132", "131.0000002"])
+def test_a_sweep_beyond_the_curve_is_refused(
+    beyond: str, run: Run, quick_scene: Path
+) -> None:
+    ranges = "curve.highest=131", "sweep.lowest=130", f"sweep.highest={beyond}"
 
-    status, output, error = run("verify", str(quick_scene), "--slower=1", *arguments)
+    status, output, error = run(
+        "verify", str(quick_scene), "--slower=1", *sets(*ranges)
+    )
 
     assert (status, output) == (2, "")
-    assert "[curve] 130 to 131 Hz does not cover [sweep] 130 to 132 Hz" in error
+    assert f"[sweep] 130 to {beyond} Hz: give it the sweep's range" in error
+    assert "does not cover" in error
+    assert f"[curve] 130 to {beyond} Hz" not in error

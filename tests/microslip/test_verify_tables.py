@@ -6,10 +6,10 @@ import math
 import numpy as np
 import pytest
 
-from microslip.commands.frc_tables import events, resolution, table
+from microslip.commands.frc_tables import events, resolution, rest, table
 from microslip.commands.verify_findings import Findings, verdict
 from microslip.commands.verify_marches import march_rows, marches_said
-from microslip.commands.verify_orbits import orbit_rows
+from microslip.commands.verify_orbits import orbit_rows, orbits_said
 from microslip.commands.verify_sweeps import HELD, sweep_rows, sweeps_said
 from microslip.studies.curve import Traced
 from microslip.studies.verify.orbits import Verdict
@@ -144,6 +144,21 @@ def test_the_table_of_a_curve_is_in_the_units_of_its_head(
     assert shown == pytest.approx([130.0, *probes, energy, *forces], rel=5e-3)
 
 
+@pytest.mark.parametrize(
+    ("force", "said"), [(2.9237, "2.924"), (1e-6, "1.000e-06"), (0.0, "0.000")]
+)
+def test_forces_at_rest_keep_their_digits(
+    force: float, said: str, small_curve: ResponseCurve
+) -> None:
+    state = StaticState(np.zeros(1), np.array([force, 0.0, 0.0]), 0.0, 1)
+
+    told = rest(small_curve, state)
+
+    assert told.startswith(
+        f"normal force at rest [N]: {small_curve.contacts[0]} {said}"
+    )
+
+
 def test_a_curve_that_came_back_is_told_from_the_one_that_follows(
     small_curve: ResponseCurve,
 ) -> None:
@@ -189,6 +204,29 @@ def test_the_amplitude_is_that_of_a_probe_that_moves(size: float, shown: str) ->
 
     assert f"   4.0000 {shown} {shown}  " in orbits
     assert f"   4.0000 {shown}  " in marches
+
+
+def test_orbits_and_marches_tell_near_and_slow_frequencies_apart() -> None:
+    hertz = (2e-4, 2.002e-4)
+    near = [dataclasses.replace(UNMOVED, frequency=math.tau * each) for each in hertz]
+    orbits = [
+        Verdict(each, "stable", compared(each, np.array([1e-3])), "") for each in near
+    ]
+    marches = [
+        dataclasses.replace(left(0.0, 0), frequency=f)
+        for f in math.tau * np.array(hertz)
+    ]
+
+    texts = ["0.0002000000", "0.0002002000"]
+    for rows in (orbit_rows(orbits), march_rows(marches, ["x"])):
+        assert [line.split()[0] for line in rows.splitlines()[-2:]] == texts
+    assert f"at {texts[0]} Hz" in orbits_said(orbits)
+    apart = [dataclasses.replace(each, cause="so") for each in orbits]
+    said = orbits_said(apart).splitlines()
+    assert [line.split(" Hz")[0] for line in said[:2]] == [
+        f"DISAGREE at {each}" for each in texts
+    ]
+    assert f"at {texts[0]} Hz" in marches_said(marches, ["x"], 1e-3)[0]
 
 
 @pytest.mark.parametrize(

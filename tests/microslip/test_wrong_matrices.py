@@ -86,8 +86,8 @@ def test_an_archive_without_the_matrix_is_refused(
     ("stiffness", "mass", "message"),
     [
         (STIFFNESS, MASS[:3, :3], "mass has 3 rows, but the stiffness 4: give"),
-        (STIFFNESS + np.triu(STIFFNESS, 1), MASS, "stiffness is not symmetric"),
-        (STIFFNESS, 0.0 * MASS, "mass is not positive definite"),
+        (STIFFNESS + np.triu(STIFFNESS, 1), MASS, "stiffness.npz: stiffness is not sy"),
+        (STIFFNESS, 0.0 * MASS, "mass.npz: mass is not positive definite"),
         (1e40 * STIFFNESS, MASS, "all degrees of freedom are held, by 1e"),
         (STIFFNESS, 1e60 * MASS, r"mass holds a value of 5e\+60"),
     ],

@@ -80,17 +80,30 @@ def decimal(
     return f"{value:z{width}.{decimals}f}"
 
 
+def even(values: Sequence[float], decimals: int, width: int) -> list[str]:
+    """Return the numbers of a column that may span decades, in one notation.
+
+    All have powers of ten if one of them needs it; see :func:`decimal`.
+    """
+    texts = [decimal(each, each, decimals, width) for each in values]
+    if any("e" in text for text in texts):
+        return [f"{each:{width}.{DIGITS}e}" for each in values]
+    return texts
+
+
 def hertz(
     value: float | np.floating[Any], seen: Sequence[float] | Array, decimals: int = 4
 ) -> str:
     """Return a frequency [Hz] with decimals that tell apart those that are ``seen``.
 
-    It has so many ``decimals`` at least; what rounding alone parts is not told apart.
+    It has so many ``decimals`` at least, or fewer where they part 100 kHz and more;
+    what rounding alone parts is not told apart.
     """
     most = max((abs(float(each)) for each in seen), default=0.0) or 1.0
     width = float(max(seen) - min(seen)) if len(seen) else 0.0
     finest = most if width <= SAME * most else min(most, width)
-    return f"{value:.{decimals + max(0, -1 - math.floor(math.log10(finest)))}f}"
+    place = math.floor(math.log10(finest))
+    return f"{value:.{max(0, decimals + max(0, -1 - place) - max(0, place - 4))}f}"
 
 
 def span(counts: Iterable[float], what: str) -> str:

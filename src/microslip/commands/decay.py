@@ -70,7 +70,7 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.files.store import save_figure, save_table
     from microslip.scenes.rigs import problem_of
     from microslip.scenes.scene_file import load_scene
-    from microslip.studies.decay import liveliest, measured, unmeasured
+    from microslip.studies.decay import liveliest, measured, too_fast, unmeasured
 
     data, picture = arguments.outputs(options, "decay", ".nc", ".csv", ".png")
     scene = load_scene(options.scene, options.overrides)
@@ -87,14 +87,14 @@ def _run(options: argparse.Namespace) -> int:
         if ending == "complete":
             ending = unmeasured(problem, history, probe)
         return arguments.ended(ending)
-    table = data.with_suffix(".csv")
-    hertz = decay.frequency / math.tau
+    table, hertz = data.with_suffix(".csv"), decay.frequency / math.tau
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
     with named(f"decay in {data}"):
         save_table(table, COLUMNS, zip(*columns, strict=True))
     title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:g} Hz"
     with written(f"decay in {data}, table in {table}", picture):
-        print("\n".join(cycles(decay, history.probes[probe])))
+        lost = too_fast(problem, history, probe)
+        print("\n".join(cycles(decay, history.probes[probe], lost)))
         save_figure(picture, decay_figure(history, decay, probe, title))
     if ending == "complete":
         ending = _tell_step_errors(options, scene, problem, begin, history, probe)

@@ -16,8 +16,11 @@ GROWS = -1e-6
 """damping ratio below which an amplitude grows by more than the table shows"""
 
 
-def cycles(decay: RingDown, probe: str) -> list[str]:
-    """Return the table of the decay, some of its cycles."""
+def cycles(decay: RingDown, probe: str, too_fast: int = 0) -> list[str]:
+    """Return the table of the decay, some of its cycles.
+
+    ``too_fast`` is how many are left out at its end.
+    """
     count = decay.time.size
     rows = [
         f"free decay of {probe}",
@@ -28,7 +31,8 @@ def cycles(decay: RingDown, probe: str) -> list[str]:
     # about zero digits say nothing
     largest = percent.max() if (percent > 0.0).all() else 1.0
     rows += [
-        f"{decay.time[place]:8.4f} {1e3 * decay.amplitude[place]:15.6g} "
+        f"{decimal(decay.time[place], decay.time[-1], 4, 8)} "
+        f"{1e3 * decay.amplitude[place]:15.6g} "
         f"{hertz(frequencies[place], frequencies):>15} "
         f"{decimal(percent[place], largest, 4, 18)}"
         for place in chosen
@@ -38,6 +42,14 @@ def cycles(decay: RingDown, probe: str) -> list[str]:
         rows.append(
             f"the amplitude grows in {grows} of {count} cycles: several motions decay "
             "together and beat, so that no row is of one alone, or something feeds them"
+        )
+    if too_fast:
+        from microslip_mechanics.results.ring_down import FEWEST_ROWS
+
+        rows.append(
+            f"left out: {too_fast} swings at the end, whose cycles have fewer than "
+            f"{FEWEST_ROWS} rows: a smaller march.store_every or march.time_step tells "
+            "of them"
         )
     return rows
 

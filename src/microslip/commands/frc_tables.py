@@ -78,8 +78,10 @@ def rest(curve: ResponseCurve, state: StaticState) -> str:
     pressed = state.normal_force != 0.0
     pressed |= (curve.normal_smallest != 0.0).any(axis=0)
     pressed |= (curve.normal_largest != 0.0).any(axis=0)
+    hardest = abs(state.normal_force).max(initial=0.0)
     forces = ", ".join(
-        f"{curve.contacts[place]} {state.normal_force[place]:z.3f}"
+        f"{curve.contacts[place]} "
+        f"{decimal(state.normal_force[place], hardest, 3).strip()}"
         for place in pressed.nonzero()[0]
     )
     return f"{force(pulls=curve.pulls)} at rest [N]: {forces}"

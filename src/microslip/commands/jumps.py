@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments, frc
+from microslip.commands.columns import hertz
 from microslip.commands.verify_sweeps import HELD
 from microslip_mechanics.errors import MicroslipError
 
@@ -114,16 +115,17 @@ def _collected(swept: Iterator[Jump], count: int) -> tuple[list[Jump], str]:
 
 def _lines(jump: Jump) -> str:
     """Return the jumps at one fold, and what follows, as lines."""
-    fold, way = jump.fold.hertz, "up" if jump.fold.upward else "down"
+    way, seen = "up" if jump.fold.upward else "down", [jump.fold.hertz]
+    fold = f"{hertz(jump.fold.hertz, seen):>9}  {way:5s}"
     rows = [
-        f"{fold:9.4f}  {way:5s} {rate:8.3g} {place:8.4f} {_late(jump, place):16.2e}"
+        f"{fold} {rate:8.3g} {hertz(place, seen):>8} {_late(jump, place):16.2e}"
         for rate, place in zip(jump.rates, jump.frequency, strict=True)
     ]
     if not jump.whole:
         return "\n".join(rows)
     word = "agree" if _agrees(jump) else "DISAGREE"
     rows.append(
-        f"{fold:9.4f}  {way:5s}        0 {jump.extrapolated:8.4f} "
+        f"{fold}        0 {hertz(jump.extrapolated, seen):>8} "
         f"{_late(jump, jump.extrapolated):16.2e} ± {jump.error:.1e}  {word}"
     )
     return "\n".join(rows)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import decimal, hertz, span
+from microslip.commands.columns import decimal, even, hertz, span
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,10 +29,10 @@ def mode_table(mode: FollowedMode, state: str) -> list[str]:
 
     from microslip.mode_lines import counted
 
-    natural = mode.linear.frequency / math.tau
+    natural, percent = mode.linear.frequency / math.tau, 100.0 * mode.linear.damping
     rows = [
         f"mode at {hertz(natural, [natural])} Hz, damping ratio "
-        f"{100.0 * mode.linear.damping:.4f} %, {state}",
+        f"{decimal(percent, percent, 4, 8).strip()} %, {state}",
     ]
     if not mode.points:
         return [*rows, f"it has no first point: {mode.ending}"]
@@ -79,17 +79,15 @@ def _point_rows(mode: FollowedMode) -> list[str]:
     if max(damping) - min(damping) <= ROUNDING * max(damping):
         most_damped = None
     seen = [point.frequency / math.tau for point in mode.points]
-    rows = []
-    for point in shown_points(mode):
-        most = point is most_damped
-        amplitude = 1e3 * point.amplitude
-        rows.append(
-            f"{decimal(amplitude, amplitude, 5, 9)} "
-            f"{hertz(point.frequency / math.tau, seen):>10} "
-            f"{100.0 * point.damping:8.4f} {point.frequency_error:10.1e} "
-            f"{point.damping_error:10.1e}{'  most damped' if most else ''}"
-        )
-    return rows
+    shown = shown_points(mode)
+    amplitudes = even([1e3 * point.amplitude for point in shown], 5, 9)
+    percents = even([100.0 * point.damping for point in shown], 4, 8)
+    return [
+        f"{amplitude} {hertz(point.frequency / math.tau, seen):>10} {percent} "
+        f"{point.frequency_error:10.1e} {point.damping_error:10.1e}"
+        f"{'  most damped' if point is most_damped else ''}"
+        for amplitude, percent, point in zip(amplitudes, percents, shown, strict=True)
+    ]
 
 
 def ending_of(modes: Sequence[FollowedMode]) -> str:

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import KEY, hertz, keyed
+from microslip.commands.columns import KEY, decimal, hertz, keyed
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -110,18 +110,23 @@ def _line(question: Question, each: Linearised) -> str:
     values = poles(linear.structure).values
     values = values[within(values, limits_of(question.at(each.value)))]
     shown = [
-        f"{hertz(natural, [natural])} ({100.0 * ratio:.3f})"
+        f"{hertz(natural, [natural])} ({_percent(100.0 * ratio)})"
         for natural, ratio in zip(
             frequencies(values), damping_ratios(values), strict=True
         )
     ]
     beyond = "  (the peak lies outside the range)" if linear.outside else ""
-    place = linear.response.frequency / math.tau
+    place, size = linear.response.frequency / math.tau, 1e3 * linear.amplitude
     return (
         f"{each.value:<10} {hertz(place, [place]):>9} "
-        f"{_off(linear.error.frequency)} {1e3 * linear.amplitude:14.6f} "
+        f"{_off(linear.error.frequency)} {decimal(size, size, 6, 14)} "
         f"{_off(linear.error.amplitude)}   {'  '.join(shown) or 'none'}{beyond}"
     )
+
+
+def _percent(ratio: float) -> str:
+    """Return a damping ratio [%] with three decimals, or digits if it is small."""
+    return f"{ratio:.3f}" if abs(ratio) >= 0.1 else f"{ratio:.3g}"
 
 
 def _off(error: float) -> str:

@@ -37,7 +37,7 @@ class Part:
     scene: bool = True
     """whether it is told the scene"""
     tells: Sequence[str] = ()
-    """how the lines begin, or end, that say its result; the last such line counts"""
+    """how the lines begin, or end, that say its result; the last of each counts"""
     excuse: Excuse = lambda _: ""
     """why it does not apply to a scene; empty if it does"""
 
@@ -54,7 +54,7 @@ PARTS = (
         "The curve, with its stability",
         "Frequency response by harmonic balance, to the scene's tolerance, with its "
         "peaks, folds and changes of stability.",
-        tells=("estimated error of amplitude", "largest amplitude that was found"),
+        tells=("largest amplitude that was found", "estimated error of amplitude"),
         excuse=lacks("curve"),
     ),
     Part(
@@ -63,7 +63,7 @@ PARTS = (
         "The sine test of the scene by time integration, with its energies.",
         ("--envelope",),
         ("--envelope",),
-        tells=("  closing error", "  friction, error"),
+        tells=("  friction, error", "  closing error"),
         excuse=first_of(one_sector, lacks("sweep", "march")),
     ),
     Part(

@@ -67,10 +67,8 @@ def _ran(words: list[str], run: Callable[[list[str]], int]) -> tuple[int, str, s
 
 
 def _telling(part: Part, said: str) -> str:
-    """Return the last line that says a part's result."""
-    lines = [
-        line.strip()
-        for line in said.splitlines()
-        if any(words in line for words in part.tells)
+    """Return the lines that say a part's result, the last of each kind."""
+    found = [
+        [line for line in said.splitlines() if words in line] for words in part.tells
     ]
-    return " ".join(lines[-1].split()) if lines else ""
+    return "; ".join(" ".join(lines[-1].split()) for lines in found if lines)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from microslip.commands.columns import hertz
+
 if TYPE_CHECKING:
     from microslip_mechanics.results.response_curve import ResponseCurve
 
@@ -65,4 +67,5 @@ def _place(curve: ResponseCurve, point: int) -> str:
     """Return where a point is."""
     if curve.along:
         return f"{curve.parameter[point]:.6g}"
-    return f"{curve.frequency[point] / math.tau:.4f} Hz"
+    seen = curve.frequency / math.tau
+    return f"{hertz(seen[point], seen)} Hz"

@@ -11,6 +11,7 @@ from microslip.commands import arguments
 from microslip.commands.places import demand_apart, demand_place
 from microslip.commands.sweep_tables import (
     energy_table,
+    equal_steps,
     estimates,
     extreme_lines,
     parting,
@@ -66,7 +67,6 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.scenes.scene_file import load_scene
     from microslip.studies.loads import load_history
     from microslip.studies.sweep import kept, marched
-    from timedomain.record.closure import OPEN
 
     data, picture = _places(options)
     scene = load_scene(options.scene, options.overrides)
@@ -87,11 +87,21 @@ def _run(options: argparse.Namespace) -> int:
     with written(f"{recording.rows} {unit} in {data}", picture):
         closed = _show(options, scene, problem, (data, picture))
     if ending == "complete" and not closed:
-        ending = (
-            f"{OPEN}: give a smaller --tolerance, or a shorter march.time_step with "
-            "--tolerance 0"
-        )
+        ending = _open(options, problem)
     return arguments.ended(ending)
+
+
+def _open(options: argparse.Namespace, problem: Problem) -> str:
+    """Return what is said of a march whose energies do not balance."""
+    from microslip_mechanics.contact.memory import beyond_motion
+    from timedomain.record.closure import OPEN
+
+    if not options.tolerance or beyond_motion(problem.interface.points):
+        return f"{OPEN}: give a shorter march.time_step"
+    return (
+        f"{OPEN}: give a smaller --tolerance, or a shorter march.time_step with "
+        "--tolerance 0"
+    )
 
 
 def _tolerance(text: str) -> float:
@@ -178,13 +188,12 @@ def _show(
     pairs = zip(problem.interface.names, normals, strict=True)
     pressed = [name for name, normal in pairs if normal.any()]
     found = of_all([extremes(each) for each in stretches(data)])
-    errors = [*estimates(result, found), *parting(result, options.tolerance)]
+    equal = beyond_motion(problem.interface.points)
+    errors = estimates(result, found)
+    errors += parting(result, 0.0 if equal else options.tolerance)
     print("\n".join([*errors, *extreme_lines(result, found, pressed)]))
-    if options.tolerance and beyond_motion(problem.interface.points):
-        print(
-            "contacts that remember or are rigid are marched with the scene's steps, "
-            f"{scene.march.time_step:g} s, and no tolerance"
-        )
+    if options.tolerance and equal:
+        print(equal_steps(scene.march.time_step))
     save_figure(picture, result_figure(result, arguments.title(options)))
     return closes(result)
 

@@ -72,6 +72,14 @@ def parting(result: TimeHistory | Envelope, tolerance: float) -> list[str]:
     ]
 
 
+def equal_steps(step: float) -> str:
+    """Return a line where the steps of a march are the scene's [s]."""
+    return (
+        "contacts that remember or are rigid are marched with the scene's steps, "
+        f"{step:g} s, and no tolerance: a smaller march.time_step lowers these errors"
+    )
+
+
 def extreme_lines(
     result: TimeHistory | Envelope, found: Extremes, pressed: Sequence[str]
 ) -> list[str]:

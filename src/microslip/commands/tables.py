@@ -30,11 +30,13 @@ half step: excess at the scene's time step over the value, which is that of half
 step. error: of the value, the most that half the step changes at any time, or twice
 the step if none is halved. closing error: of the energy balance, over the input. time:
 of the march at the scene's time step. The geometry is one fit for all rows; none is
-tuned by itself.
+tuned by itself."""
+CREEP = """\
 Stiff contact: the energy is largely the viscous creep of the regularised friction in a
 jammed contact (see the row with V_lim 0.1 mm/s), not sliding. Hence GKF, whose friction
 coefficient is twice as high near rest, creeps half as fast and gives about half of
 Coulomb's energy, where the paper has more."""
+"""said of all rows together: it refers to the last one"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -81,6 +83,8 @@ def _run(options: argparse.Namespace) -> int:
         if found:
             print(_jamming(found[0]))
             print(NOTES)
+        if len(found) == len(variants):
+            print(CREEP)
     return 0
 
 

@@ -165,12 +165,17 @@ def _check_covered(options: argparse.Namespace, curve: Curve, swept: Sweep) -> N
         If it is not.
     """
     from microslip.scenes.quantity import SceneError
+    from microslip_mechanics.quantity import apart
 
     if not (curve.lowest <= swept.lowest and swept.highest <= curve.highest):
+        (first, begin), (last, end) = (
+            apart(curve.lowest, swept.lowest),
+            apart(curve.highest, swept.highest),
+        )
         raise SceneError(
-            f"{options.scene}: [curve] {curve.lowest:g} to {curve.highest:g} Hz does "
-            f"not cover [sweep] {swept.lowest:g} to {swept.highest:g} Hz: give it the "
-            "sweep's range, or leave the sweeps out by --slower without a value"
+            f"{options.scene}: [curve] {first} to {last} Hz does not cover [sweep] "
+            f"{begin} to {end} Hz: give it the sweep's range, or leave the sweeps out "
+            "by --slower without a value"
         )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import SHOWN, decimal, headed, titled
+from microslip.commands.columns import SHOWN, decimal, headed, hertz, titled
 from microslip.commands.verify_probe import moving
 
 if TYPE_CHECKING:
@@ -25,9 +25,10 @@ def march_rows(marches: Sequence[Agreement], probes: Sequence[str]) -> str:
     places = _watched(probes)
     names = [probes[place] for place in places[:SHOWN]]
     deviation = titled("off by [%]", names, len(places))
+    seen = [march.frequency / math.tau for march in marches]
     lines = [MARCHES.format(deviation=deviation, heads=headed(names))]
     lines += [
-        f"{march.frequency / math.tau:9.4f} "
+        f"{hertz(march.frequency / math.tau, seen):>9} "
         f"{decimal(1e3 * march.predicted[probe], 1e3 * largest, 6)}  "
         + " ".join(f"{100.0 * march.deviation[each]:10.4f}" for each in places[:SHOWN])
         + f"  {march.first_distance:10.1e}{march.last_distance:10.1e}"
@@ -52,10 +53,12 @@ def marches_said(
         return "every orbit is unstable: no march needs to stay near one", True
     worst = max(held, key=deviation)
     stays = deviation(worst) <= tolerance
+    seen = [march.frequency / math.tau for march in marches]
     among = "" if len(held) == len(marches) else f" of {len(held)} stable orbits"
     said = (
         f"{'agree' if stays else 'DISAGREE'}: largest deviation of an amplitude{among} "
-        f"{100.0 * deviation(worst):.3g} % at {worst.frequency / math.tau:.4f} Hz, "
+        f"{100.0 * deviation(worst):.3g} % at "
+        f"{hertz(worst.frequency / math.tau, seen)} Hz, "
         f"tolerance {100.0 * tolerance:g} %"
     )
     return said, stays

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from microslip.commands.columns import hertz
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -36,10 +38,10 @@ def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
             f" {100.0 * sweep.envelope_error:7.1f} % {sweep.closing_error:14.1e}"
         )
     lines += [
-        f"beyond {hertz:.4f} Hz more than one branch is stable: the curve's is the one "
-        f"that the sweep {sweep.slower:g} times as long takes"
+        f"beyond {hertz(place, sweep.chosen)} Hz more than one branch is stable: the "
+        f"curve's is the one that the sweep {sweep.slower:g} times as long takes"
         for sweep in sweeps[-1:]
-        for hertz in sweep.chosen
+        for place in sweep.chosen
     ]
     rate = rate_of(list(sweeps))
     if rate is not None:

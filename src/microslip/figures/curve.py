@@ -49,6 +49,8 @@ SMALL = 1e-6
 """of the largest error, or velocity, below which they are not worth a look"""
 STEADY = 1e-3
 """of the largest force, by which normal forces vary at least, if they are drawn"""
+NOTHING = 1e-15
+"""energy [mJ] that rounding makes of zero, as in the table of a curve"""
 
 
 def curve_figure(curve: ResponseCurve, title: str) -> Figure:
@@ -157,7 +159,7 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
             label=name,
         )
     framed(axes, x=abscissa_name(curve), y="energy [mJ]", title="Dissipated per period")
-    widened(axes)
+    widened(axes, NOTHING)
     legend_above(axes)
 
 

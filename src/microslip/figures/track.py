@@ -138,19 +138,28 @@ def _abscissa(axes: Axes, values: Sequence[float], names: Sequence[str]) -> None
 
 def _ticks(axes: Axes, values: Sequence[float]) -> None:
     """Set a tick at each value, or usual ones where their labels would not fit."""
-    logarithmic = axes.get_xscale() == "log"
-    if len(values) <= MANY and _fit(values, logarithmic=logarithmic):
-        axes.set_xticks(list(values), [f"{value:g}" for value in values])
+    logarithmic, labels = axes.get_xscale() == "log", _labels(values)
+    if len(values) <= MANY and _fit(values, labels, logarithmic=logarithmic):
+        axes.set_xticks(list(values), labels)
         axes.set_xticks([], minor=True)
     elif logarithmic:
         plain_logarithmic(axes.xaxis)
 
 
-def _fit(values: Sequence[float], *, logarithmic: bool) -> bool:
+def _labels(values: Sequence[float]) -> list[str]:
+    """Return the labels of values, with as many digits as tell them apart."""
+    for digits in range(6, 17):
+        labels = [f"{value:.{digits}g}" for value in values]
+        if len(set(labels)) == len(set(values)):
+            break
+    return labels
+
+
+def _fit(values: Sequence[float], labels: Sequence[str], *, logarithmic: bool) -> bool:
     """Return whether a label fits at each of the values, which increase."""
     places = [math.log(value) if logarithmic else value for value in values]
     length = (places[-1] - places[0]) or 1.0
-    halves = [0.5 * LETTER * len(f"{value:g}") for value in values]
+    halves = [0.5 * LETTER * len(label) for label in labels]
     return all(
         (after - before) / length >= left + right + LETTER
         for (before, after), (left, right) in zip(

@@ -6,14 +6,17 @@ import io
 import re
 from pathlib import Path
 
+import numpy as np
 import scipy.io
 import scipy.sparse
 
 from microslip.errors import one_line
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
+from microslip.matrices.repeated import refuse_repeated
 from microslip.matrices.sparse_kind import either_kind
 from microslip.matrices.text_table import text_of
+from microslip_mechanics.arrays import Matrix
 
 BANNER = "%%MatrixMarket"
 """with which they begin, in any case"""
@@ -31,7 +34,8 @@ def read_matrix_market(path: Path) -> LabelledMatrix:
     Raises
     ------
     MatrixFileError
-        If the file is malformed, or not real.
+        If the file is malformed or not real, or an entry is there twice: once in each
+        half where the file says that it is symmetric.
     """
     # Fortran writes 1.5D+06, of which scipy's reader takes 1.5 without a word
     text = re.sub(r"(?<=[\d.])[dD](?=[-+]?\d)", "E", text_of(path))
@@ -44,20 +48,26 @@ def read_matrix_market(path: Path) -> LabelledMatrix:
         raise MatrixFileError(
             path, f"is {field} and {symmetry}: give a real symmetric matrix", 1
         )
-    _check_entries(path, text, *ENTRIES[layout])
+    lines = _entries(path, text, *ENTRIES[layout])
     try:
         with either_kind():
-            matrix = scipy.io.mmread(io.BytesIO(text.encode()))
+            matrix: Matrix = scipy.io.mmread(io.BytesIO(text.encode()))
     except (ValueError, OverflowError, OSError) as error:
         raise _malformed(path, error) from None
-    return LabelledMatrix(scipy.sparse.csc_array(matrix), ())
+    whole = scipy.sparse.csc_array(matrix)
+    if layout == "coordinate" and whole.nnz < matrix.nnz:
+        _refuse_repeated(path, lines, symmetry)
+    return LabelledMatrix(whole, ())
 
 
-def _check_entries(
+def _entries(
     path: Path, text: str, expected: str, pattern: re.Pattern[str]
-) -> None:
-    """Raise an error that names the first line of which something would be left out."""
-    sizes = True
+) -> dict[int, str]:
+    """Return the entries by the number of their line.
+
+    Raise an error that names the first of which something would be left out.
+    """
+    sizes, found = True, {}
     for number, line in enumerate(text.splitlines(), start=1):
         words = line.strip()
         if not words or words.startswith("%"):
@@ -65,7 +75,19 @@ def _check_entries(
         if not sizes and not pattern.fullmatch(words):
             cause = f"{words!r} is not {expected}: write the Matrix Market file again"
             raise MatrixFileError(path, cause, number)
+        if not sizes:
+            found[number] = words
         sizes = False
+    return found
+
+
+def _refuse_repeated(path: Path, lines: dict[int, str], symmetry: str) -> None:
+    """Refuse an entry that stands twice, which scipy's reader has added up."""
+    places = np.array([words.split()[:2] for words in lines.values()]).astype(np.int64)
+    entry = "entry"
+    if symmetry == "symmetric":
+        places, entry = np.sort(places, axis=1), "entry or its mirror image"
+    refuse_repeated(path, places, np.array(list(lines)), entry)
 
 
 def _malformed(path: Path, error: Exception) -> MatrixFileError:

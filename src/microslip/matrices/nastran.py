@@ -66,6 +66,10 @@ def _headers(path: Path, lines: list[str]) -> list[str]:
             )
         usable = int(words[3]) in SYMMETRIC and int(words[4]) in REAL
         (found if usable else other).append(words[1])
+    if not found and not other:
+        raise MatrixFileError(
+            path, "has no DMIG header in fields of 8 characters: punch the matrix"
+        )
     if other and not found:
         raise MatrixFileError(
             path, f"{other[0]} is complex or not square: give a real square matrix"

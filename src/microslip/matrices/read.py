@@ -67,7 +67,10 @@ def read_structure(files: MatrixFiles) -> Structure:
     try:
         return Structure(mass, damping, spring, tuple(names[dof] for dof in free))
     except ValueError as error:
-        raise MatrixFileError(files.stiffness.path, str(error)) from None
+        role = str(error).split()[0]  # it begins with the matrix that is wrong
+        wrong = {"mass": files.mass, "damping": files.damping}.get(role)
+        path = (wrong or files.stiffness).path
+        raise MatrixFileError(path, str(error)) from None
 
 
 def _beside(

@@ -11,7 +11,10 @@ from microslip.matrices.error import MatrixFileError
 
 
 def refuse_repeated(
-    path: Path, places: NDArray[np.int64], lines: NDArray[np.int64]
+    path: Path,
+    places: NDArray[np.int64],
+    lines: NDArray[np.int64],
+    entry: str = "entry",
 ) -> None:
     """Check that no entry stands twice; those of both halves are different ones.
 
@@ -23,6 +26,8 @@ def refuse_repeated(
         Row and column of each entry, shape (entries, 2).
     lines
         Of the file at which they stand, from 1, shape (entries,).
+    entry
+        What one is called.
 
     Raises
     ------
@@ -34,7 +39,7 @@ def refuse_repeated(
         again = int(np.setdiff1d(np.arange(len(places)), first)[0])
         raise MatrixFileError(
             path,
-            "this entry stands in the file before: export the assembled matrix, "
+            f"this {entry} stands in the file before: export the assembled matrix, "
             "not element by element, and once",
             int(lines[again]),
         )

@@ -111,11 +111,20 @@ def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:
 
     That is the static equilibrium or, where friction depends on the past and may hold
     it anywhere, the middle of the last cycle of the march. Too few rows, or swings,
-    give none.
+    give none; nor do swings at the end that have too few, as they are faster.
     """
     if _cycle_rows(problem, history, probe) < FEWEST_ROWS:
         return no_swings()
-    return _swings(problem, history, probe)
+    found = _swings(problem, history, probe)
+    return found.until(found.time.size - too_fast(problem, history, probe))
+
+
+def too_fast(problem: Problem, history: TimeHistory, probe: int) -> int:
+    """Return how many swings at the end have too few rows, as where contacts stick."""
+    step = float(np.diff(history.time[:2])[0])
+    turning = _swings(problem, history, probe).frequency * step
+    told = np.flatnonzero(FEWEST_ROWS * turning <= 2.0 * math.pi)
+    return int(turning.size - 1 - told[-1]) if told.size else turning.size
 
 
 def _swings(

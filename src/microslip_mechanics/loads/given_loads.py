@@ -87,7 +87,23 @@ class BaseMotion:
         )
 
         carried = translation(structure.names, self.unit)
-        return -float(self.acceleration) * carried_inertia(structure, carried)
+        return self.load_of(carried_inertia(structure, carried))
+
+    def load_of(self, inertia: Array) -> Array:
+        """Return the load of what the ground carries, given as M r [kg].
+
+        Raises
+        ------
+        ValueError
+            If it carries nothing.
+        """
+        if not inertia.any():
+            told = ", ".join(f"{each:g}" for each in self.direction)
+            raise ValueError(
+                f"base: nothing of the structure moves along [{told}]: give a "
+                "direction in which it does"
+            )
+        return -float(self.acceleration) * inertia
 
 
 def driven(

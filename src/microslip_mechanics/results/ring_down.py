@@ -30,6 +30,11 @@ class RingDown:
     damping: Array
     """ratio, from the logarithmic decrement of a cycle, shape (swings,)"""
 
+    def until(self, count: int) -> RingDown:
+        """Return so many swings of it, the first ones."""
+        columns = self.time, self.amplitude, self.frequency, self.damping
+        return RingDown(*(each[:count] for each in columns))
+
 
 def ring_down(
     time: Array, displacement: Array, velocity: Array, *, rest: float = 0.0

@@ -9,7 +9,7 @@ import scipy.sparse
 from scipy.sparse.linalg import LinearOperator
 
 from microslip_mechanics.arrays import Array, Matrix
-from microslip_mechanics.quantity import LARGEST
+from microslip_mechanics.quantity import LARGEST, apart
 from microslip_mechanics.structures.factors import factors
 
 MATRICES = ("mass", "damping", "stiffness")
@@ -55,10 +55,7 @@ class Structure:
             _check_sizes(matrix.data if self.sparse else matrix, name)
             if self.gyroscopic and name == "damping":
                 continue
-            if abs(matrix - matrix.T).max() > 1e-9 * abs(matrix).max():
-                raise ValueError(
-                    f"{name} is not symmetric: only symmetric is supported"
-                )
+            _check_symmetric(matrix, name, self.names)
         self._check_light()
         if not self._heavy():
             raise ValueError(
@@ -140,6 +137,18 @@ class Structure:
         if self.sparse:
             return factors(self.mass) is not None
         return bool(np.linalg.eigvalsh(self.mass)[0] > 0.0)
+
+
+def _check_symmetric(matrix: Matrix, name: str, names: tuple[str, ...]) -> None:
+    """Check that a matrix is symmetric; the worst entry is named."""
+    away = abs(matrix - matrix.T)
+    if away.max() > 1e-9 * abs(matrix).max():
+        row, column = np.unravel_index(int(away.argmax()), away.shape)
+        there, back = apart(matrix[row, column], matrix[column, row])
+        raise ValueError(
+            f"{name} is not symmetric: {there} of {names[row]} by {names[column]} but "
+            f"{back} of {names[column]} by {names[row]}: only symmetric is supported"
+        )
 
 
 def _check_sizes(entries: Array, name: str) -> None:

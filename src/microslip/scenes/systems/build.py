@@ -94,7 +94,7 @@ def _moved(made: Problem, frame: Frame, motion: BaseMotion) -> Problem:
     """Return a problem whose ground moves."""
     from microslip_mechanics.loads.base_excitation import frame_carried_inertia
 
-    load = -motion.acceleration * frame_carried_inertia(frame, motion.unit)
+    load = motion.load_of(frame_carried_inertia(frame, motion.unit))
     return replace(made, drive=made.drive + load)
 
 

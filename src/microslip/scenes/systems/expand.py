@@ -19,12 +19,14 @@ def expanded(
     """Return the directions of an element, once for each node of the sets in ``each``.
 
     In its ends ``set.direction`` stands for the node of the set whose turn it is; the
-    name gets the node of the first set behind it.
+    name gets the node of the first set behind it, and those of the others too where
+    that one stands there more than once.
 
     Raises
     ------
     SceneError
-        If a set is unknown, or if sets that go together differ in length.
+        If a set is unknown or not used, or if sets that go together differ in length
+        or have the same nodes twice.
     """
     if each is None:
         return {name: directions}
@@ -38,12 +40,30 @@ def expanded(
     if len({len(sets[group]) for group in each}) > 1:
         sizes = ", ".join(f"{group} has {len(sets[group])}" for group in each)
         raise SceneError(f"{place}: {sizes} nodes: give sets of as many nodes")
-    made = {}
-    for nodes in zip(*(sets[group] for group in each), strict=True):
+    rows = list(zip(*(sets[group] for group in each), strict=True))
+    once = len(set(sets[each[0]])) == len(rows)
+    made: dict[str, dict[str, Any]] = {}
+    for nodes in rows:
         turn = dict(zip(each, nodes, strict=True))
         put = {key: _put(ends, turn) for key, ends in directions.items()}
-        made[f"{name}-{nodes[0]}"] = put
+        called = "-".join((name, *nodes[: 1 if once else None]))
+        if called in made:
+            raise SceneError(
+                f"{place}: {', '.join(nodes)} stand together twice: name them once"
+            )
+        made[called] = put
+    _check_used(place, each, directions)
     return made
+
+
+def _check_used(place: str, each: list[str], directions: dict[str, Any]) -> None:
+    """Check that each set stands in a direction."""
+    for group in each if directions else ():
+        if all(_put(ends, {group: ""}) == ends for ends in directions.values()):
+            raise SceneError(
+                f"{place}: no direction has an end of the set {group}, such as "
+                f'"{group}.x": write one, or leave the set out'
+            )
 
 
 def _put(ends: object, turn: Mapping[str, str]) -> object:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hbm.checks import check_positive
-from hbm.curves.branches import Branching
 from hbm.curves.dense_problem import dense_problem, resolved_up_to
-from hbm.curves.detached import Search
-from hbm.curves.drive_search import Sought
 from hbm.curves.tracer import Tracer
 from hbm.errors import PLACE, ContinuationError, hertz, placed
 from hbm.one_thread import one_thread
@@ -23,6 +21,9 @@ from microslip_mechanics.potential import potential
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
+
+if TYPE_CHECKING:
+    from hbm.curves.drive_search import Sought
 
 PARTED = (
     "at rest faces have parted that an element presses together: its preload is what "
@@ -119,6 +120,8 @@ def branches(
     ContinuationError
         If a branch cannot go on; what was yielded before stays valid.
     """
+    from hbm.curves.branches import Branching  # what hardly a scene needs
+
     small, still, shapes = dense_problem(problem, rest, resolved_up_to(options))
     path = along_frequency(small, still, options.start, options.end, symmetry=False)
     with one_thread(), placed(hertz):
@@ -157,6 +160,9 @@ def detached(
     ValueError
         If the effort is not positive.
     """
+    from hbm.curves.detached import Search  # with folds along a parameter
+    from hbm.curves.drive_search import Sought
+
     check_positive("effort", effort)
     small, still, shapes = dense_problem(problem, rest, resolved_up_to(options))
     path = along_frequency(small, still, options.start, options.end)

@@ -27,6 +27,9 @@ RATTLING = 0.5
 """share of the contact points that lift off, from which more harmonics are tried"""
 HARMONICS = 63
 """most that are taken for multipliers alone where friction falls"""
+NEARLY = 0.75
+"""share of the speed beyond which friction falls, from which more harmonics may slide
+where few still stick"""
 FINEST, UNKNOWNS = 1023, 2100
 """most that are taken where contacts rattle, and most unknowns beyond those above: a
 stiff stop turns a small motion within a small part of a period"""
@@ -123,7 +126,7 @@ class Multipliers:
         return min(harmonics, FINEST)
 
     def _falls(self, point: Array, fourier: FourierBasis) -> bool:
-        """Return whether friction falls with the speed on an orbit just looked at."""
+        """Return whether friction falls, or nearly, on an orbit just looked at."""
         balance, _ = self.resolution.at(fourier).at_frequency(point)
         points, (_, velocity) = balance.contact.points, balance.contact.moved
         speeds = np.hypot(velocity[1::3], velocity[2::3]).max(axis=1, initial=0.0)
@@ -131,7 +134,7 @@ class Multipliers:
             points.static > points.dynamic
         )
         peak = np.minimum(points.threshold, points.stribeck)
-        return bool((falling & (speeds > peak)).any())
+        return bool((falling & (speeds > NEARLY * peak)).any())
 
     def finer(self, point: Array, fourier: FourierBasis) -> Array | None:
         """Return the orbit at the same parameter with another resolution, if found."""

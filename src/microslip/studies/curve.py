@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.scenes.experiments import Curve
 from microslip.scenes.quantity import SceneError
-from microslip.studies.detached import Searched, search
 from microslip.studies.gaps import BROKEN, MISSING, told
 from microslip.studies.gathered import gathered
 from microslip.studies.prominent import prominent
@@ -24,6 +24,9 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.results.response_curve import ResponseCurve, response_curve
 from microslip_mechanics.static import StaticState, static_equilibrium
+
+if TYPE_CHECKING:
+    from microslip.studies.detached import Searched
 
 SHOWN = 11
 """points in a table, beside that of the largest amplitude"""
@@ -87,6 +90,8 @@ def trace_curve(
     ended = ending == "complete" or ending.startswith((LOST, MISSING, BROKEN))
     if not wanted.detached or not ended:
         return traced
+    from microslip.studies.detached import search
+
     known = traced.responses
     found = search(problem, rest, options, known, effort=wanted.effort, watch=searching)
     ending = found.ending if ending == "complete" else ending

@@ -11,7 +11,7 @@ from microslip.commands.frc_tables import barren
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
 from microslip.scenes.scene_file import load_scene
-from microslip.studies import curve
+from microslip.studies import curve, detached
 from microslip.studies.curve import Wanted, shown_points, trace_curve
 from microslip.studies.detached import Searched
 from microslip.studies.verify.quasi_static import (
@@ -282,7 +282,7 @@ def test_branches_of_detached_curves_are_followed(
     # as if all but the first points were found by the search for what is detached
     monkeypatch.setattr(curve, "frequency_response", lambda *_: iter(whole[:2]))
     found = Searched(whole[2:], (), 0, interrupted=False)
-    monkeypatch.setattr(curve, "search", lambda *_, **__: found)
+    monkeypatch.setattr(detached, "search", lambda *_, **__: found)
 
     traced = trace_curve(problem, scene.curve, wanted=Wanted(True, True))
 

@@ -127,11 +127,10 @@ def _served(sizes: list[float]) -> bool:
 def _left(sizes: list[float]) -> float:
     """Return what steps to come change, over the last, from the residuals.
 
-    Infinite where the steps lead to no point. A step that takes back what the one
-    before has raised does not tell what the next leaves.
+    Infinite where the steps lead to no point.
     """
     between, after = sizes[-2:]
-    if after <= SURE * min(sizes[:-1]):
+    if after <= SURE * between:
         return after / (between - after) if between > 0.0 else 0.0
     return math.inf if after > LOST * sizes[0] else 1.0
 

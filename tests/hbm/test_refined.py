@@ -65,18 +65,6 @@ class Bending(Root):
         return np.arctan(point[:1])
 
 
-class Given(Root):
-    """Residuals that are given, whatever the steps."""
-
-    def __init__(self, *residuals: float) -> None:
-        super().__init__(1.0, 0.1)
-        self._residuals = list(residuals)
-
-    def __call__(self, point: Array) -> tuple[Array, Linearised]:
-        del point
-        return np.array([self._residuals.pop(0)]), Slope(1.0)
-
-
 def steps(start: float, system: Root, harmonics: int = MANY) -> Refined:
     return refined(system, np.array([start, 5.0]), harmonics, UPRIGHT)
 
@@ -94,16 +82,6 @@ def test_the_steps_leave_what_the_next_ones_change(start: float) -> None:
 
 def test_steps_that_lead_away_leave_everything() -> None:
     assert steps(3.0, Root(1.0, 0.1, away=True)).left == math.inf
-
-
-@pytest.mark.parametrize(("last", "left"), [(0.04, 1.0), (0.01, 0.01 / 0.49)])
-def test_a_step_that_takes_back_a_rise_says_nothing_of_the_next(
-    last: float, left: float
-) -> None:
-    found = steps(1.0, Given(1.0, 0.05, 0.5, last))
-
-    assert found.rest == last
-    assert found.left == pytest.approx(left)
 
 
 def test_with_the_most_harmonics_steps_that_would_lead_away_are_halved() -> None:

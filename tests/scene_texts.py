@@ -2,8 +2,20 @@
 
 from pathlib import Path
 
-from microslip.scenes.scene_file import built_in_text
+from microslip.scenes.rigs import problem_of
+from microslip.scenes.scene_file import built_in_text, load_scene
+from microslip_mechanics.problem import Problem
 
+NODES = """
+scene = "system"
+[structure]
+names = ["1.x", "1.z", "2.x", "2.z", "3.x", "3.z"]
+mass = [1, 1, 2, 2, 3, 3]
+stiffness = [3e3, 1e3, 3e3, 1e3, 3e3, 1e3]
+[structure.sets]
+left = ["1", "2"]
+right = ["3", "2"]
+"""
 EXPERIMENTS = """
 [sweep]
 ramp = 0
@@ -71,3 +83,10 @@ def unswept(folder: Path) -> Path:
     path = folder / "unswept.toml"
     path.write_text(text[:begin] + text[end:], encoding="utf-8")
     return path
+
+
+def made(folder: Path, text: str) -> Problem:
+    """Return the problem of a scene."""
+    path = folder / "mine.toml"
+    path.write_text(text + EXPERIMENTS, encoding="utf-8")
+    return problem_of(load_scene(str(path)))

@@ -36,8 +36,8 @@ class Sought:
     frequency: float
     """[rad/s]"""
     share: float
-    """drive up to which responses were followed, the largest, or down to which folds
-    were, over the wanted one"""
+    """largest drive up to which responses were followed, or that at which a fold was
+    seen last, over the wanted one"""
     cause: str
     """why no more was reached; empty if all was"""
     lost: str

@@ -35,8 +35,8 @@ class Pieces:
     A curve that folds back and returns to ``start``, that stops, or that does not
     begin, is followed from ``end`` as well; in the last case if Newton's iteration
     from rest begins it there. If both return, what lies between is sought. Where a
-    curve arrives at ``end`` and rest leads to another response there, a fold beyond
-    joins the two: that one is followed into the range too.
+    curve arrives at ``end`` and rest leads to another response there, as between two
+    folds, that one is followed into the range too.
     """
 
     path: Path

@@ -59,11 +59,14 @@ def test_help_and_scenes_load_no_numbers(
     assert not {"hbm", "timedomain"} & modules
 
 
-def test_frc_does_not_load_the_time_domain(quick_scene: Path, tmp_path: Path) -> None:
+def test_frc_loads_neither_the_time_domain_nor_searches(
+    quick_scene: Path, tmp_path: Path
+) -> None:
     modules = loaded_by("frc", str(quick_scene), folder=tmp_path)
 
     assert {"hbm", "pyfftw"} <= modules
     assert not {"timedomain", *SCREEN} & modules
+    assert not {"hbm.curves.branches", "hbm.curves.drive_search"} & modules
     assert (tmp_path / "quick-frc.nc").is_file()
 
 

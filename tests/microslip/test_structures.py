@@ -1,4 +1,4 @@
-"""Damping, sets, reduction, rotation, moving ground and engine orders of scenes."""
+"""Damping, reduction, rotation, moving ground and engine orders of scenes."""
 
 import re
 from pathlib import Path
@@ -23,18 +23,8 @@ from microslip_mechanics.reduction.reduced_problem import (
     reduced_problem,
 )
 from microslip_mechanics.static import static_equilibrium
-from scene_texts import EXPERIMENTS
+from scene_texts import EXPERIMENTS, NODES, made
 
-NODES = """
-scene = "system"
-[structure]
-names = ["1.x", "1.z", "2.x", "2.z", "3.x", "3.z"]
-mass = [1, 1, 2, 2, 3, 3]
-stiffness = [3e3, 1e3, 3e3, 1e3, 3e3, 1e3]
-[structure.sets]
-left = ["1", "2"]
-right = ["3", "2"]
-"""
 BEAM = """
 scene = "system"
 [structure.beam]
@@ -61,13 +51,6 @@ between = ["node5.uz", "ground"]
 cubic = 1e9
 {PULL}
 """
-
-
-def made(folder: Path, text: str) -> Problem:
-    """Return the problem of a scene."""
-    path = folder / "mine.toml"
-    path.write_text(text + EXPERIMENTS, encoding="utf-8")
-    return problem_of(load_scene(str(path)))
 
 
 def ratios(problem: Problem) -> np.ndarray:
@@ -110,93 +93,6 @@ def test_two_ratios_make_rayleighs_damping(tmp_path: Path) -> None:
     for hertz, ratio in ((100.0, 0.02), (2000.0, 0.01)):
         speed = 2.0 * np.pi * hertz
         assert alpha + beta * speed**2 == pytest.approx(2.0 * ratio * speed, rel=1e-9)
-
-
-def test_sets_make_an_element_and_a_load_for_each_node(tmp_path: Path) -> None:
-    text = (
-        NODES
-        + """
-[[element]]
-name = "pair"
-law = "cubic-spring"
-each = ["left", "right"]
-between = ["left.z", {"right.z" = 0.5}]
-cubic = 10
-[drive]
-"left.x" = "2 N"
-"3.x" = "1 N"
-"""
-    )
-
-    problem = made(tmp_path, text)
-
-    rows = problem.interface.displacement[[0, 3]]
-    assert problem.interface.names == ("pair-1", "pair-2")
-    assert rows.tolist() == [[0, 1, 0, 0, 0, -0.5], [0, 0, 0, 0.5, 0, 0]]
-    assert problem.drive.tolist() == [2, 0, 2, 0, 1, 0]
-
-
-PAIRED = """
-[[element]]
-name = "pair"
-law = "cubic-spring"
-each = ["left", "right"]
-between = ["left.z", "right.z"]
-cubic = 10
-[drive]
-"1.x" = 1
-"""
-
-
-def test_a_node_that_faces_two_others_has_an_element_for_each(tmp_path: Path) -> None:
-    text = NODES.replace('left = ["1", "2"]', 'left = ["1", "1"]') + PAIRED
-
-    first, second = made(tmp_path, text).interface.names
-
-    assert first != second
-    assert {first[:7], second[:7]} == {"pair-1-"}
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        (
-            '"right.z"]',
-            '"ground"]',
-            "no direction has an end of the set right, such as",
-        ),
-        ('["left", "right"]', '["twice", "twice"]', "1, 1 stand together twice: name"),
-    ],
-)
-def test_sets_that_make_no_elements_of_their_own_are_refused(
-    old: str, new: str, said: str, tmp_path: Path
-) -> None:
-    nodes = NODES.replace("[structure.sets]", '[structure.sets]\ntwice = ["1", "1"]')
-
-    with pytest.raises(SceneError, match=re.escape(said)):
-        made(tmp_path, nodes + PAIRED.replace(old, new))
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        ('"1", "2"', '"1", "4"', "sets: left: no degree of freedom is called '4'"),
-        ("left", "3", "sets: 3 is the name of a node, too: name the set differently"),
-    ],
-)
-def test_sets_of_unknown_nodes_or_called_like_one_are_refused(
-    old: str, new: str, said: str, tmp_path: Path
-) -> None:
-    text = NODES.replace(old, new) + '[drive]\n"1.x" = 1\n'
-
-    with pytest.raises(SceneError, match=re.escape(said)):
-        made(tmp_path, text)
-
-
-def test_a_set_of_one_node_may_have_its_name(tmp_path: Path) -> None:
-    text = NODES.replace('left = ["1", "2"]', '1 = ["1"]')
-
-    assert made(tmp_path, text + '[drive]\n"1.x" = 1\n').drive.tolist()[0] == 1.0
 
 
 def test_moving_ground_loads_each_mass_along_its_direction(tmp_path: Path) -> None:

@@ -13,13 +13,13 @@ from hbm.forces.last_call import LastCall
 from hbm.forces.memory import FrictionMemory, marched
 from hbm.forces.remembered import Remembered
 from hbm.forces.sampled_tangents import SampledTangents
-from hbm.forces.sampling import sample
+from hbm.forces.sampling import sample, sample_smooth
 from hbm.forces.symmetry import still_holds, symmetry
 from hbm.forces.tangent_entries import kinds, tangent_entries
 from hbm.forces.traces import Traces
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.floating import Floating
-from microslip_mechanics.contact.points import RIGID, ContactPoints
+from microslip_mechanics.contact.points import RIGID, ContactPoints, smooth
 from microslip_mechanics.errors import MicroslipError
 
 
@@ -56,7 +56,7 @@ class AlternatingFrequencyTime:
             Which coordinates have odd harmonics only, the others even ones only,
             shape ``(rank,)``: half a period then says all. None without that symmetry.
         pruned
-            Whether tangents that the laws do not have are left out.
+            Whether tangents and transitions that the laws do not have are left out.
         floating
             Mean motions that only what remembers holds; none if left out.
 
@@ -70,6 +70,8 @@ class AlternatingFrequencyTime:
         self.points, self.basis, self._fourier = points, basis, fourier
         self._offset = np.zeros(len(basis)) if offset is None else offset
         self._odd, self._pruned = odd, pruned
+        self.smooth = pruned and smooth(points)
+        """whether no contact changes its state between samples"""
         recalls = bool(marched(points).any())
         self._memory = FrictionMemory(basis, fourier, floating) if recalls else None
         entries = tangent_entries(points, pruned)
@@ -209,16 +211,19 @@ class AlternatingFrequencyTime:
         displacement, velocity = traces.motion(coefficients, frequency, decay)
         displacement += self._offset[:, None]
         self.moved, self.frequency = (displacement, velocity), frequency
-        sample(
+        given = (
             self.points,
             *self.moved,
             self.tangents.entries,
             self.tangents.bounds,
             self.symmetry,
             traces.regular,
-            traces.extra,
             self.tangents.samples,
         )
+        if self.smooth:
+            sample_smooth(*given)
+        else:
+            sample(*given, traces.extra)
         if self._memory is not None:
             self._memory.add(self.points, self.moved, frequency, *traces.regular)
         return traces.forces()

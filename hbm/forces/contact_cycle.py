@@ -16,8 +16,8 @@ from microslip_mechanics.contact.law import (
     damping_power,
     edge,
 )
-from microslip_mechanics.contact.points import PUSHED, ContactPoints
-from microslip_mechanics.jit import kernel
+from microslip_mechanics.contact.points import ONE_SIDED, PUSHED, ContactPoints
+from microslip_mechanics.jit import inner_kernel, kernel
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,10 @@ def contact_cycle(
         [s].
     """
     smallest, largest, powers = _seen(points, *moved, forces, seen)
-    return ContactCycle(smallest, largest, *(float(p) * period for p in powers))
+    slid, damped = (float(power) for power in powers)
+    if ((points.normal == ONE_SIDED) & (points.damping != 0.0)).any():
+        damped += _unseen(points, *moved, seen)
+    return ContactCycle(smallest, largest, slid * period, damped * period)
 
 
 @kernel
@@ -97,20 +100,30 @@ def _seen(
             slid, damped = contact_power(points, point, moved, moving, force)
             powers[0] += slid / seen
             powers[1] += damped / seen
-        if points.damping[point] != 0.0:
-            powers[1] += _unseen(points, point, displacement, velocity, seen) / seen
     return smallest, largest, powers
 
 
 @kernel
 def _unseen(
+    points: ContactPoints, displacement: Array, velocity: Array, seen: int
+) -> float:
+    """Return the mean power of normal damping besides what samples see of it."""
+    missed = 0.0
+    for point in range(points.load.size):
+        if points.damping[point] != 0.0:
+            missed += _missed(points, point, displacement, velocity, seen) / seen
+    return missed
+
+
+@inner_kernel
+def _missed(
     points: ContactPoints,
     point: int,
     displacement: Array,
     velocity: Array,
     seen: int,
 ) -> float:
-    """Return what normal damping takes out besides what samples see of its power.
+    """Return the sum of what samples do not see of a point's power, per sample.
 
     The power may jump as faces touch: between the two samples beside that the
     trapezoidal rule gives way to Gauss rules on both sides, as it does for forces.

@@ -43,8 +43,8 @@ def sample(
     bounds: NDArray[np.int64],
     symmetry: Symmetry,
     regular: Forces,
-    extra: Forces,
     tangents: Array,
+    extra: Forces,
 ) -> None:
     """Write forces, (∂force/∂velocity) velocity, and chosen tangents at the samples.
 
@@ -65,21 +65,18 @@ def sample(
         Of half a period.
     regular
         Written: what the samples see; the last axis has all samples.
-    extra
-        Written: what cells with events add to it, for :func:`hat`.
     tangents
         Written, both together.
+    extra
+        Written: what cells with events add to ``regular``, for :func:`hat`.
     """
-    samples = tangents.shape[1]
-    seen = samples // 2 if symmetry.signs.size else samples
     work = Work(
         np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
     )
-    for point in range(points.load.size):
-        _regular(
-            points, point, displacement, velocity, work, entries, bounds[point],
-            bounds[point + 1], seen, regular.force, regular.change, tangents,
-        )  # fmt: skip
+    seen = _at_samples(
+        points, displacement, velocity, entries, bounds, symmetry, regular, tangents,
+        work,
+    )  # fmt: skip
     made = Samples(extra.force, extra.change, tangents, entries)
     extra.force[:, :seen] = 0.0
     extra.change[:, :seen] = 0.0
@@ -113,6 +110,30 @@ def sample(
                 )  # fmt: skip
 
 
+@kernel
+def sample_smooth(
+    points: ContactPoints,
+    displacement: Array,
+    velocity: Array,
+    entries: NDArray[np.int64],
+    bounds: NDArray[np.int64],
+    symmetry: Symmetry,
+    regular: Forces,
+    tangents: Array,
+) -> None:
+    """Write what :func:`sample` does for points without transitions.
+
+    A scene without any does not compile what resolves them: a sixth of its first run.
+    """
+    work = Work(
+        np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
+    )
+    _at_samples(
+        points, displacement, velocity, entries, bounds, symmetry, regular, tangents,
+        work,
+    )  # fmt: skip
+
+
 def hat(harmonics: int, samples: int) -> Array:
     """Return what linear sharing between samples makes of each order, (2 H + 1,).
 
@@ -123,6 +144,29 @@ def hat(harmonics: int, samples: int) -> Array:
     orders = (np.arange(2 * harmonics + 1) + 1) // 2
     factor: Array = (2.0 + np.cos(2.0 * np.pi * orders / samples)) / 3.0
     return factor
+
+
+@inner_kernel
+def _at_samples(
+    points: ContactPoints,
+    displacement: Array,
+    velocity: Array,
+    entries: NDArray[np.int64],
+    bounds: NDArray[np.int64],
+    symmetry: Symmetry,
+    regular: Forces,
+    tangents: Array,
+    work: Work,
+) -> int:
+    """Write what the samples see; return how many do, from the first on."""
+    samples = tangents.shape[1]
+    seen: int = samples // 2 if symmetry.signs.size else samples
+    for point in range(points.load.size):
+        _regular(
+            points, point, displacement, velocity, work, entries, bounds[point],
+            bounds[point + 1], seen, regular.force, regular.change, tangents,
+        )  # fmt: skip
+    return seen
 
 
 @inner_kernel

@@ -87,7 +87,8 @@ def step_tangents(
     cells = path.displacement.shape[1] - 1
     # half a period has the steps that it has in a whole one
     ends = [0.0, contact.samples // 2, cells]
-    cuts = np.concatenate([ends, events(contact.points, path)])
+    changes = np.empty(0) if contact.smooth else events(contact.points, path)
+    cuts = np.concatenate([ends, changes])
     fewest = COARSE if contact.samples <= FEW else FINE
     edges = _edges(np.unique(cuts), contact.samples / fewest)
     shortest = contact.samples * SHORTEST

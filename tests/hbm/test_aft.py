@@ -8,7 +8,12 @@ from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.contact_cycle import ContactCycle
 from hbm.forces.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.points import ContactPoints
+from microslip_mechanics.contact.points import (
+    COULOMB,
+    FRICTIONLESS,
+    TWO_SIDED,
+    ContactPoints,
+)
 
 pytestmark = pytest.mark.kernels
 
@@ -52,6 +57,29 @@ def test_sliding_friction_has_the_harmonics_of_a_square_wave(order: int) -> None
     expected = FRICTION * LOAD * 4.0 / (np.pi * order) * (1.0 if order == 1 else -1.0)
     assert force[2 * order - 1, 1] == pytest.approx(expected, rel=3e-5)
     assert force[2 * order, 1] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("friction", "smooth"), [(FRICTIONLESS, True), (COULOMB, False)]
+)
+def test_what_a_law_has_no_transitions_for_is_left_out_and_does_not_matter(
+    friction: int, smooth: bool
+) -> None:
+    points = contact_points(
+        normal=TWO_SIDED, friction=friction, damping=0.0, exponent=3.0
+    )
+    motion = moved(normal=(COSINE, AMPLITUDE), first=(SINE, AMPLITUDE))
+
+    every, pruned = (
+        AlternatingFrequencyTime(points, np.eye(3), FourierBasis(3, 64), pruned=pruned)
+        for pruned in (False, True)
+    )
+
+    assert (every.smooth, pruned.smooth) == (False, smooth)
+    np.testing.assert_array_equal(
+        pruned(motion, FREQUENCY), every(motion, FREQUENCY), strict=True
+    )
+    assert pruned.cycle(motion, FREQUENCY) == every.cycle(motion, FREQUENCY)
 
 
 def test_impulses_beyond_an_order_are_those_of_the_square_wave() -> None:

@@ -98,6 +98,12 @@ def rubs(points: ContactPoints) -> bool:
     return bool((points.friction != FRICTIONLESS).any())
 
 
+def smooth(points: ContactPoints) -> bool:
+    """Return whether there are no transitions: no point can part, stick or slide."""
+    held = (points.normal == TWO_SIDED) & (points.friction == FRICTIONLESS)
+    return bool(held.all())
+
+
 def repeated_points(points: ContactPoints, times: int) -> ContactPoints:
     """Return the table with all its points so many times, one after the other."""
     return ContactPoints(*(np.tile(column, times) for column in tuple(points)))

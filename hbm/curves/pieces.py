@@ -15,6 +15,7 @@ from hbm.continuation.step_control import StepControl
 from hbm.continuation.tracing import Tracing
 from hbm.curves.bounded import bounded
 from hbm.curves.grown_drive import Resolved
+from hbm.curves.incoming import Incoming
 from hbm.curves.restart import FIRST, LEAPS, Beginning, Restart
 from hbm.errors import PLACE, ContinuationError, UnboundedError
 from hbm.paths.path import AlongFrequency, Path
@@ -35,8 +36,7 @@ class Pieces:
     A curve that folds back and returns to ``start``, that stops, or that does not
     begin, is followed from ``end`` as well; in the last case if Newton's iteration
     from rest begins it there. If both return, what lies between is sought. Where a
-    curve arrives at ``end`` and rest leads to another response there, as between two
-    folds, that one is followed into the range too.
+    curve arrives at ``end``, what comes in from beyond the range is followed too.
     """
 
     path: Path
@@ -112,20 +112,25 @@ class Pieces:
             yield each
 
     def _first(self, shares: list[float]) -> Iterator[Correction]:
-        """Yield corrections from the start, and from the end what rest has besides.
+        """Yield corrections from the start, then what comes in from beyond the range.
 
-        The latter are more than was asked: where they cannot go on, they end.
+        The latter is more than was asked: where it cannot go on, it ends.
         """
-        last: Correction | None = None
+        first: Correction | None = None
         begun = self._from(self.restart.still(self.start), self.end, iter(FIRST))
         for last in self._noted(begun, shares):
+            first = first or last
             yield last
-        if last is None or last.point[-1] != self.end:
+        if first is None or last.point[-1] != self.end:
             return
-        other = self.restart.besides(last.point)
-        if other is not None:
+        incoming = Incoming(self.restart, self.start, self.end)
+        incoming.leave(last.point)
+        incoming.leave(first.point)
+        for point, heading in incoming:
             with contextlib.suppress(ContinuationError):
-                yield from self._from(other, self.start, iter(()))
+                for last in self._from(point, heading, iter(())):
+                    yield last
+                incoming.leave(last.point)
 
     def _between(self, reached: float) -> Iterator[Correction]:
         """Yield corrections from beyond where curves from both ends turn back.

@@ -146,21 +146,21 @@ class Restart:
             return None
         return found.point
 
-    def besides(self, known: Array) -> Array | None:
-        """Return the point to which rest leads at the place of a known one.
+    def besides(self, guess: Array, known: Sequence[Array]) -> Array | None:
+        """Return the point to which a guess leads, besides those known at its place.
 
-        None if that is about the same, or none.
+        None if it is about one of them, or none.
         """
         self.system.restart(self.system.fourier.harmonics)
-        guess = self.still(float(known[-1]))
         try:
             found = correct_at(
                 self.system, guess, self.control, self.system, self.metric
-            )
+            ).point
         except ContinuationError:
             return None
-        alike = distance(found.point, known, self.metric(known)) <= ALIKE
-        return None if alike else found.point
+        scale = self.metric(found)
+        alike = any(distance(found, each, scale) <= ALIKE for each in known)
+        return None if alike else found
 
     def _grown(self, parameter: float) -> Array | None:
         """Return a point to which the drive has grown; None if it does not."""

@@ -172,17 +172,19 @@ def test_a_curve_that_came_back_is_told_from_the_one_that_follows(
     assert said not in events(curve)
 
 
-def test_what_rest_has_besides_at_the_end_is_told_from_the_curve_before(
+def test_what_comes_in_from_beyond_the_end_is_told_from_the_curve_before(
     small_curve: ResponseCurve,
 ) -> None:
     hertz = 2.0 * np.pi * np.array([130.0, 134.0, 134.0, 133.0])
     events_there = ("", "", "restart", "fold")
     curve = dataclasses.replace(small_curve, frequency=hertz, event=events_there)
-    said = "what begins at 134.000000 Hz comes in from beyond the range: rest leads"
+    said = "what begins at 134.000000 Hz comes in from beyond the range: a response"
 
     assert said in events(curve)
-    hertz[1] = 2.0 * np.pi * 133.5
-    assert said not in events(curve)
+    hertz[2] = 2.0 * np.pi * 130.0
+    assert said.replace("134", "130") in events(curve)
+    hertz[2] = 2.0 * np.pi * 133.5
+    assert "begins" not in events(curve)
 
 
 def compared(response: PeriodicResponse, size: Array) -> Comparison:

@@ -115,19 +115,21 @@ def events(curve: ResponseCurve, *, sector: bool = False) -> str:
 
 def _beginnings(curve: ResponseCurve) -> list[str]:
     """Return why pieces begin that do not go on where the one before ended."""
-    first, lines = curve.frequency[0] / math.tau, []
-    for place, name in enumerate(curve.event):
-        before, here = curve.frequency[max(place - 1, 0) : place + 1][[0, -1]]
+    first, lines = curve.frequency[0], []
+    places = [place for place, name in enumerate(curve.event) if name == "restart"]
+    reached = curve.frequency[places[0] - 1] if places else first
+    for place in places:
+        here = curve.frequency[place]
         begins = f"what begins at {here / math.tau:.6f} Hz"
-        if name == "restart" and before == curve.frequency[0]:
+        if reached == first != here:
             lines.append(
                 f"{begins} is a curve of its own: the one before came back to "
-                f"{first:.6f} Hz"
+                f"{first / math.tau:.6f} Hz"
             )
-        elif name == "restart" and before == here:
+        elif here in (first, reached):
             lines.append(
-                f"{begins} comes in from beyond the range: rest leads to it there, not "
-                "to the response before"
+                f"{begins} comes in from beyond the range: a response there besides "
+                "the one before"
             )
     return lines
 

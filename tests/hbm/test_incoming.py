@@ -1,4 +1,4 @@
-"""The response to which rest leads, where a curve arrives with another one."""
+"""What comes in from beyond a range that begins or ends between two folds."""
 
 import numpy as np
 import pytest
@@ -53,4 +53,34 @@ def test_where_both_meet_within_the_range_nothing_is_added() -> None:
     found = curve(0.5, 3.0)
 
     assert [each.event for each in found].count("fold") == 2
+    assert "restart" not in [each.event for each in found]
+
+
+def test_a_curve_that_begins_quiet_has_the_loud_response_of_the_start_as_well() -> None:
+    found = curve(WITHIN, 4.0)
+
+    starts = sorted(amplitude(each) for each in found if each.frequency == WITHIN)
+    assert starts == pytest.approx(amplitudes(WITHIN), rel=1e-6)
+    assert amplitude(found[0]) == min(starts)
+    # what folds below the start comes in unstable, folds within, and leaves loud
+    behind = found[[each.event for each in found].index("restart") :]
+    assert [each.event for each in behind if each.event == "fold"] == ["fold"]
+    assert behind[0].unstable == 1
+    assert behind[-1].unstable == 0
+    assert amplitude(behind[-1]) == max(starts)
+
+
+def test_a_curve_that_leaves_unstable_is_looked_for_beyond_that_end_too() -> None:
+    start, end = 1.65, 2.1  # folds are at 1.634 and 2.206
+
+    found = curve(start, end)
+
+    for place in start, end:
+        ends = sorted(amplitude(each) for each in found if each.frequency == place)
+        assert ends == pytest.approx(amplitudes(place), rel=1e-6)
+
+
+def test_what_folds_farther_beyond_the_start_is_left_alone() -> None:
+    found = curve(2.15, 2.6)
+
     assert "restart" not in [each.event for each in found]

@@ -1,6 +1,7 @@
 """Curves of problems that are linear: without contact, pressed together, glued."""
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Callable
 
@@ -106,10 +107,11 @@ def test_a_mass_pressed_on_a_linear_contact_responds_in_closed_form() -> None:
     )
     highest = np.sqrt(stiffness / mass) / TURN
 
-    # Up to a fifth below the resonance the contact stays closed.
+    # Up to a fifth below the resonance the contact stays closed, but for the motion
+    # that lifts off, from beyond that.
     curve = linear_curve(problem, lowest=0.2 * highest, highest=0.8 * highest)
 
-    for response in curve:
+    for response in itertools.takewhile(lambda each: each.event != "restart", curve):
         s = 1j * response.frequency
         exact = -1j * force / (stiffness + s * damping + s**2 * mass)
         assert abs(first_harmonic(response)[0] - exact) < 1e-8 * abs(exact)

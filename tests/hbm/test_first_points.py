@@ -14,7 +14,6 @@ from hbm.solve import frequency_response
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.element import Element
-from microslip_mechanics.laws.polynomial_spring import CubicSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
@@ -101,10 +100,10 @@ def test_a_rig_whose_coarse_responses_differ_has_a_first_point() -> None:
 
 
 @pytest.mark.parametrize(
-    ("mass", "stiffness", "damping", "drive", "stop", "preload", "cubic", "hertz"),
+    ("mass", "stiffness", "damping", "drive", "stop", "preload", "hertz"),
     [
-        (1.4, 2.54e6, 249.0, 1560.0, 4.88e7, 2665.0, 0.0, 125.7),
-        (1.57, 1.53e5, 29.0, 925.0, 5.62e6, 18018.0, 2.4e7, 21.1),
+        (1.4, 2.54e6, 249.0, 1560.0, 4.88e7, 2665.0, 125.7),
+        pytest.param(1.0, 1e4, 4.0, 4.0, 3e5, 31.0, 4.77, marks=pytest.mark.slow),
     ],
 )
 def test_a_mass_that_is_lifted_off_a_pressed_spring_has_a_first_point(
@@ -114,7 +113,6 @@ def test_a_mass_that_is_lifted_off_a_pressed_spring_has_a_first_point(
     drive: float,
     stop: float,
     preload: float,
-    cubic: float,
     hertz: float,
 ) -> None:
     # A drive that grows leads to the corner where the mass first lifts off, far below
@@ -123,10 +121,7 @@ def test_a_mass_that_is_lifted_off_a_pressed_spring_has_a_first_point(
         mass=[mass],
         stiffness=[stiffness],
         damping=[damping],
-        elements=[
-            Element(UnilateralSpring(stop, preload=preload), ("x1", "ground")),
-            Element(CubicSpring(cubic), ("x1", "ground")),
-        ],
+        elements=[Element(UnilateralSpring(stop, preload=preload), ("x1", "ground"))],
         drive={"x1": drive},
     )
     options = CurveOptions(TURN * hertz, TURN * 2.0 * hertz, events=False)

@@ -16,7 +16,7 @@ import numpy as np
 from hbm.continuation.continuation import trace
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
-from hbm.paths.along_drive import LEAST, AlongDrive, whole_drive
+from hbm.paths.along_share import LEAST, AlongShare, whole
 from hbm.paths.path import Path
 from hbm.paths.path_metric import path_metric
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -42,7 +42,7 @@ def grown(
     ContinuationError
         If the drive does not come to be whole, or not with the effort granted.
     """
-    drives, part = AlongDrive(path, parameter), effort.part(PATIENCE)
+    drives, part = AlongShare(path, parameter), effort.part(PATIENCE)
     system = resolved(drives, part)
     still, _ = drives.at(LEAST)
     start = np.zeros(system.size)
@@ -57,7 +57,7 @@ def grown(
         begin=-1.0,
     )
     try:
-        point = whole_drive(corrections, parameter)
+        point = whole(corrections, parameter)
     finally:
         effort.spent += part.spent
     count = system.settled.coefficients

@@ -2,42 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hbm.balance.relative import RelativeProblem
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
-from hbm.continuation.continuation import trace
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
+from hbm.curves.share_arc import along_an_arc
+from hbm.curves.stiffened import soft, stiffer
 from hbm.errors import ContinuationError
 from hbm.forces.fourier import FourierBasis
-from hbm.paths.along_drive import LEAST, UNIT, AlongDrive, driven, whole_drive
+from hbm.paths.along_share import LEAST, AlongShare, Easier, driven
 from hbm.paths.path import Path
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.points import ONE_SIDED
 
 SMALLEST_STEP = 1e-3
 PATIENCE = 1000
-"""evaluations after which an arc is given up; those that arrive take some 300"""
+"""evaluations after which an arc of drives is given up; those that arrive take some
+300"""
 FOURIERS = (FourierBasis(3, 128), FourierBasis(7, 128), FourierBasis(15, 256))
 """coarse resolutions that are tried in turn"""
 SMOOTH = 1e4
 """times the threshold velocity with which a homotopy begins"""
 PRESSED = 1e4
 """depth to which faces are pressed as one begins, over the motion without contacts"""
-SOFT = 1e-6
-"""stiffness of stops with which one begins, over what they have"""
 TOUCHING = 1e-3
 """depth at rest up to which faces just touch, over that motion"""
-Easier: TypeAlias = Callable[[RelativeProblem, float], RelativeProblem]
-"""problem, share of the way to it ↦ an easier one"""
 
 
 def approaches(
@@ -69,7 +65,10 @@ def approaches(
                 continue
     for fourier in FOURIERS if folded else ():
         try:
-            yield _along_an_arc(path, parameter, fourier, control, effort, metric)
+            drives = AlongShare(path, parameter)
+            yield along_an_arc(
+                drives, LEAST, fourier, PATIENCE, control, effort, metric
+            )
         except ContinuationError:
             continue
 
@@ -111,36 +110,6 @@ def _followed(
     return point[:-1].reshape(fourier.coefficients, problem.rank)
 
 
-def _along_an_arc(
-    path: Path,
-    parameter: float,
-    fourier: FourierBasis,
-    control: StepControl,
-    effort: Effort,
-    metric: Metric,
-) -> Array:
-    """Return the coefficients where a drive that grows through folds is whole.
-
-    Raises
-    ------
-    ContinuationError
-        If it does not arrive.
-    """
-    drives = AlongDrive(path, parameter)
-
-    def scale(point: Array) -> Array:
-        return np.append(metric(point)[:-1], UNIT)
-
-    balance, (still, _) = drives.balance(fourier), drives.at(LEAST)
-    mask = drives.mask(fourier.harmonics)
-    start = HarmonicBalance(still, fourier, mask).point(still.rest[None, :], LEAST)
-    counted = effort.counted(balance, fourier.harmonics)
-    system = Effort(PATIENCE).counted(counted, 1)
-    corrections = trace(system, start, 1.0, metric=scale, control=control, begin=-1.0)
-    point = whole_drive(corrections, parameter)
-    return point[:-1].reshape(fourier.coefficients, path.rank)
-
-
 def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
     """Return the homotopies that may lead to a problem.
 
@@ -150,8 +119,8 @@ def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
     points = problem.points
     rubs = bool(points.dynamic.any() or points.static.any())
     ways: list[Easier] = [driven, *((_threshold, _friction) if rubs else ())]
-    if _apart(problem).any():
-        ways = [*ways, _stops]
+    if soft(problem).any():
+        ways = [*ways, stiffer]
     motion = largest(problem.apart(frequency))
     if not _touches(problem, motion):
         return ways
@@ -171,21 +140,6 @@ def _friction(problem: RelativeProblem, share: float) -> RelativeProblem:
         dynamic=problem.points.dynamic * share, static=problem.points.static * share
     )
     return replace(problem, points=points)
-
-
-def _stops(problem: RelativeProblem, share: float) -> RelativeProblem:
-    """Return the problem with softer stops behind their gaps."""
-    factor = np.where(_apart(problem), SOFT ** (1.0 - share), 1.0)
-    points = problem.points._replace(stiffness=problem.points.stiffness * factor)
-    return replace(problem, points=points)
-
-
-def _apart(problem: RelativeProblem) -> NDArray[np.bool_]:
-    """Return which stops are open at rest, shape (points,)."""
-    points = problem.points
-    depth = (problem.basis @ problem.rest + problem.offset)[::3] - points.gap
-    apart: NDArray[np.bool_] = (points.normal == ONE_SIDED) & (depth < 0.0)
-    return apart
 
 
 def _pressed(problem: RelativeProblem, depth: float, share: float) -> RelativeProblem:

@@ -16,6 +16,7 @@ from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.curves.grown_drive import Resolved, grown
 from hbm.curves.homotopy import approaches
+from hbm.curves.stiffened import stiffened
 from hbm.errors import ContinuationError
 from hbm.paths.path import Path
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -82,8 +83,8 @@ class Restart:
                 settled = self.settled(coefficients, parameter)
                 if settled is not None:
                     return settled
-            if leap == 0.0:
-                settled = self._grown(parameter)
+            for sought in (self._grown, self._stiffened) if leap == 0.0 else ():
+                settled = sought(parameter)
                 if settled is not None:
                     return settled
         return None
@@ -173,6 +174,13 @@ class Restart:
         except ContinuationError:
             return None
         return self.settled(coefficients, parameter)
+
+    def _stiffened(self, parameter: float) -> Array | None:
+        """Return a point to which stops have stiffened; None if they do not."""
+        coefficients = stiffened(
+            self.path, parameter, self.control, self.effort, self.metric
+        )
+        return None if coefficients is None else self.settled(coefficients, parameter)
 
     def still(self, parameter: float) -> Array:
         """Return the point at rest."""

@@ -13,9 +13,13 @@ from hbm.paths.path import along_frequency
 from hbm.solve import frequency_response
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import load_scene
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from rigs import rig_problem
+from timedomain.shooting.comparison import compared
 
 TURN = 2.0 * np.pi
 
@@ -93,3 +97,39 @@ def test_a_rig_whose_coarse_responses_differ_has_a_first_point() -> None:
     first = next(curve)
     assert first.frequency == TURN * 125.0
     assert first.error < options.error
+
+
+@pytest.mark.parametrize(
+    ("mass", "stiffness", "damping", "drive", "stop", "preload", "hertz"),
+    [
+        (1.4, 2.54e6, 249.0, 1560.0, 4.88e7, 2665.0, 125.7),
+        pytest.param(1.0, 1e4, 4.0, 4.0, 3e5, 31.0, 4.77, marks=pytest.mark.slow),
+    ],
+)
+def test_a_mass_that_is_lifted_off_a_pressed_spring_has_a_first_point(
+    mass: float,
+    stiffness: float,
+    damping: float,
+    drive: float,
+    stop: float,
+    preload: float,
+    hertz: float,
+) -> None:
+    # A drive that grows leads to the corner where the mass first lifts off, far below
+    # the whole drive, and from there through fold after fold.
+    problem = system(
+        mass=[mass],
+        stiffness=[stiffness],
+        damping=[damping],
+        elements=[Element(UnilateralSpring(stop, preload=preload), ("x1", "ground"))],
+        drive={"x1": drive},
+    )
+    options = CurveOptions(TURN * hertz, TURN * 2.0 * hertz, events=False)
+
+    first = next(frequency_response(problem, static_equilibrium(problem), options))
+
+    found = compared(problem, first)
+    assert first.frequency == TURN * hertz
+    assert first.normal_smallest[0] == 0.0
+    assert found.agrees
+    assert found.as_stable

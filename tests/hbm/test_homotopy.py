@@ -24,7 +24,7 @@ from small_problems import between_stops
     [
         (0.0, False, ["driven"]),
         (0.3, False, ["driven", "_threshold", "_friction"]),
-        (0.0, True, ["driven", "_stops"]),
+        (0.0, True, ["driven", "stiffer"]),
     ],
 )
 def test_what_a_problem_has_makes_it_easier(
@@ -41,9 +41,9 @@ def test_what_a_problem_has_makes_it_easier(
         return np.zeros((1, 1))
 
     monkeypatch.setattr(hbm.curves.homotopy, "_touches", lambda *_: False)
-    monkeypatch.setattr(hbm.curves.homotopy, "_apart", lambda _: np.array([stop]))
+    monkeypatch.setattr(hbm.curves.homotopy, "soft", lambda _: np.array([stop]))
     monkeypatch.setattr(hbm.curves.homotopy, "_followed", followed)
-    monkeypatch.setattr(hbm.curves.homotopy, "_along_an_arc", along)
+    monkeypatch.setattr(hbm.curves.homotopy, "along_an_arc", along)
     laws = np.array([friction])
     points = SimpleNamespace(dynamic=laws, static=laws)
     problem = SimpleNamespace(points=points, apart=lambda _: np.zeros(3))

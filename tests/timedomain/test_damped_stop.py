@@ -6,6 +6,7 @@ import pytest
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.element import Element
+from microslip_mechanics.laws.polynomial_spring import PolynomialSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
@@ -63,3 +64,34 @@ def test_the_error_is_honest_where_two_marches_are_wrong_alike(hertz: float) -> 
     for orbit in orbits:
         true = np.abs(orbit.amplitude / reference.amplitude - 1.0).max()
         assert true <= orbit.error < 5e-4
+
+
+@pytest.mark.parametrize("hertz", [164.0, 165.5, 166.0])
+def test_an_orbit_near_a_fold_is_found_though_its_leap_asks_for_much(
+    hertz: float,
+) -> None:
+    stop = UnilateralSpring(stiffness=7.5e4, gap=6e-5, damping=7.5)
+    springs = PolynomialSpring({1.5: 4.1e5, 2.5: 7.9e8})
+    problem = system(
+        mass=[0.109],
+        stiffness=[7e4],
+        damping=[2.9],
+        elements=[
+            Element(springs, between=("x1", "ground")),
+            Element(stop, between=("x1", "ground")),
+            Element(stop, between=("ground", "x1")),
+        ],
+        drive={"x1": 1.32},
+    )
+    start, end = 2.0 * np.pi * 145.0, 2.0 * np.pi * hertz
+    rest = static_equilibrium(problem)
+    curve = frequency_response(problem, rest, CurveOptions(start, end, events=False))
+    loud = next(each for each in curve if each.frequency == end)
+
+    found = compared(problem, loud)
+
+    assert loud.unstable == 0
+    assert np.hypot(*loud.coefficients[1:3, 0]) > 1.5e-4  # beyond both gaps
+    assert found.difference < 2e-3
+    assert found.agrees
+    assert found.as_stable

@@ -54,8 +54,10 @@ class ClosedMarch:
             return sensitivity_of(self.map, self.period).monodromy
 
 
-def closed(carried: PeriodMap, state: Array) -> ClosedMarch:
+def closed(carried: PeriodMap, state: Array, leap: float = LEAP) -> ClosedMarch:
     """Return the orbit of one number of steps by Newton's iteration.
+
+    ``leap`` is the largest change that may be left where steps leap, see :data:`LEAP`.
 
     Sliders that never slip carry no mean traction, or as little as their limits admit.
     Directions in which nothing pins the state, such as the mean position of a body
@@ -80,7 +82,7 @@ def closed(carried: PeriodMap, state: Array) -> ClosedMarch:
             return _held(found)
         closer = _closer(found, change, gap, HALVINGS if own else 1)
         if closer is None and own:
-            if size <= LEAP * unit:
+            if size <= leap * unit:
                 return replace(found, left=size / unit)
             raise ShootingError(
                 f"{_at(carried)}: Newton's change does not bring end and beginning "

@@ -13,7 +13,7 @@ from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.record.start import Start
-from timedomain.shooting.closed_march import ClosedMarch, ShootingError, closed
+from timedomain.shooting.closed_march import LEAP, ClosedMarch, ShootingError, closed
 from timedomain.shooting.period_map import BLOCK, PeriodMap
 from timedomain.shooting.periodic_orbit import (
     PeriodicOrbit,
@@ -26,6 +26,9 @@ from timedomain.shooting.whole_orbit import whole_orbit
 
 ASTRAY = 0.1
 """change of the first harmonic, relative, from which an orbit may be another one, …"""
+LEAPS = (LEAP, 10.0 * LEAP, 50.0 * LEAP)
+"""changes that may be left where steps leap, tried in turn: near a fold a leap of some
+ten thousandths of the motion asks for a change a hundred times as large"""
 DOUBT = 3.0
 """… unless it is below so many times the error, if known, of the response beside it"""
 
@@ -100,16 +103,34 @@ def periodic_orbit(
     chosen = options or ShootingOptions()
     if beyond_motion(points):
         near = None
-    before, coarse = None, _first(problem, frequency, start, chosen, near)
+    failed: list[ShootingError] = []
+    for leap in LEAPS:
+        try:
+            return _refined(problem, frequency, start, chosen, near, leap)
+        except ShootingError as error:
+            failed.append(error)
+    raise failed[0]
+
+
+def _refined(
+    problem: Problem,
+    frequency: float,
+    start: Start,
+    chosen: ShootingOptions,
+    near: PeriodicResponse | None,
+    leap: float,
+) -> PeriodicOrbit:
+    """Return the periodic motion near a start, with steps doubled as is chosen."""
+    before, coarse = None, _first(problem, frequency, start, chosen, near, leap)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
         try:
-            fine = _found(finer, coarse.state, near)
+            fine = _found(finer, coarse.state, near, leap)
         except ShootingError:
             if 4 * finer.steps > chosen.most:
                 raise
             more = replace(chosen, steps=2 * finer.steps)
-            before, coarse = None, _first(problem, frequency, start, more, near)
+            before, coarse = None, _first(problem, frequency, start, more, near, leap)
             continue
         error = amplitude_error(before, coarse, fine)
         sure = before is not None or not jumps(fine)
@@ -124,6 +145,7 @@ def _first(
     start: Start,
     chosen: ShootingOptions,
     near: PeriodicResponse | None,
+    leap: float,
 ) -> ClosedMarch:
     """Return the orbit of the fewest steps that have one, and close to ``near``.
 
@@ -135,7 +157,7 @@ def _first(
         carried = PeriodMap.of(problem, frequency, steps)
         last = 4 * steps > chosen.most
         try:
-            found = _found(carried, carried.state(start), near)
+            found = _found(carried, carried.state(start), near, leap)
             if near is None or not _astray(found, near):
                 return found
             astray = astray or found
@@ -148,7 +170,7 @@ def _first(
 
 
 def _found(
-    carried: PeriodMap, state: Array, near: PeriodicResponse | None
+    carried: PeriodMap, state: Array, near: PeriodicResponse | None, leap: float
 ) -> ClosedMarch:
     """Return the orbit of one number of steps, marched or all steps at once.
 
@@ -156,7 +178,7 @@ def _found(
     too fast on none.
     """
     try:
-        marched = closed(carried, state)
+        marched = closed(carried, state, leap)
     except ShootingError as error:
         if near is None:
             raise

@@ -1,9 +1,10 @@
-"""A path along the drive at one place of another path (theory §6.2)."""
+"""A path at one place of another, from an easier problem to the whole one (§6.2)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,16 +19,27 @@ from hbm.stability.stability import SmallMotions
 from microslip_mechanics.arrays import Array
 
 LEAST, UNIT = 0.01, 0.1
-"""drive at which a curve may begin and what counts as one unit of it, over the whole"""
+"""drive at which a curve may begin, over the whole, and what counts as one unit of a
+share"""
+Easier: TypeAlias = Callable[[RelativeProblem, float], RelativeProblem]
+"""problem, share of the way to it ↦ an easier one"""
+
+
+def driven(problem: RelativeProblem, share: float) -> RelativeProblem:
+    """Return the problem under a share of its drive."""
+    return replace(problem, force=problem.force * np.array([[1.0], [share]]))
 
 
 @dataclass(frozen=True, slots=True)
-class AlongDrive:
-    """The share of the drive changes, from minus the whole to the whole."""
+class AlongShare:
+    """The share of the way to a problem changes; that of its drive, if left out."""
 
     path: Path
     place: float
     """parameter of the path"""
+    easier: Easier = driven
+    least: float = -1.0
+    """least share; from minus the whole drive to the whole"""
 
     @property
     def rank(self) -> int:
@@ -35,15 +47,15 @@ class AlongDrive:
         return self.path.rank
 
     def at(self, parameter: float) -> tuple[RelativeProblem, float]:
-        """Return the problem under a share of the drive, and the frequency [rad/s]."""
+        """Return the problem at a share, and the frequency [rad/s]."""
         problem, frequency = self.path.at(self.place)
-        return driven(problem, parameter), frequency
+        return self.easier(problem, parameter), frequency
 
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
         return self.path.mask(harmonics)
 
-    def in_all(self) -> tuple[AlongDrive, NDArray[np.int64]]:
+    def in_all(self) -> tuple[AlongShare, NDArray[np.int64]]:
         """Return the path in all coordinates and orders, and which of them are kept."""
         path, kept = self.path.in_all()
         return self if path is self.path else replace(self, path=path), kept
@@ -51,7 +63,8 @@ class AlongDrive:
     def balance(self, fourier: FourierBasis) -> ParametricBalance:
         """Return harmonic balance at one resolution."""
         mask = self.mask(fourier.harmonics)
-        return ParametricBalance(self.at, fourier, mask, self.unit, (-1.0, 1.0))
+        limits = self.least, 1.0
+        return ParametricBalance(self.at, fourier, mask, self.unit, limits)
 
     def unit(self, parameter: float) -> float:  # noqa: ARG002
         """Return the change that counts as one unit of arc."""
@@ -62,18 +75,13 @@ class AlongDrive:
         return self.path.motions(self.place)
 
 
-def driven(problem: RelativeProblem, share: float) -> RelativeProblem:
-    """Return the problem under a share of its drive."""
-    return replace(problem, force=problem.force * np.array([[1.0], [share]]))
-
-
-def whole_drive(corrections: Iterable[Correction], place: float) -> Array:
-    """Return the last point of a path along the drive, at a place of another.
+def whole(corrections: Iterable[Correction], place: float) -> Array:
+    """Return the last point of a path along a share, at a place of another.
 
     Raises
     ------
     ContinuationError
-        If the drive is not the whole one there.
+        If the share is not the whole there.
     """
     for last in corrections:
         point = last.point

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from microslip_mechanics.arrays import TINY, Array
+from microslip_mechanics.contact.law import sudden
 from microslip_mechanics.contact.memory import beyond_motion, remembers
 from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
@@ -104,7 +105,8 @@ def periodic_orbit(
     if beyond_motion(points):
         near = None
     failed: list[ShootingError] = []
-    for leap in LEAPS:
+    leaps = any(sudden(points, point) for point in range(points.load.size))
+    for leap in LEAPS if leaps else LEAPS[:1]:
         try:
             return _refined(problem, frequency, start, chosen, near, leap)
         except ShootingError as error:

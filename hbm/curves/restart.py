@@ -19,7 +19,7 @@ from hbm.curves.homotopy import approaches
 from hbm.errors import ContinuationError
 from hbm.paths.path import Path
 from hbm.resolution.adaptive import AdaptiveBalance
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 
 LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
 """shares of the range by which a restart passes what resists, tried in turn; from the
@@ -149,7 +149,9 @@ class Restart:
     def besides(self, known: Array) -> Array | None:
         """Return the point to which rest leads at the place of a known one.
 
-        None if that is about the same, or none.
+        None if that is about the same, or none. Two points are the same to the
+        tolerance if what lies half way between them balances too: without drive rest
+        is one of those.
         """
         self.system.restart(self.system.fourier.harmonics)
         guess = self.still(float(known[-1]))
@@ -159,8 +161,10 @@ class Restart:
             )
         except ContinuationError:
             return None
-        alike = distance(found.point, known, self.metric(known)) <= ALIKE
-        return None if alike else found.point
+        if distance(found.point, known, self.metric(known)) <= ALIKE:
+            return None
+        residual, _ = self.system(0.5 * (found.point + known))
+        return found.point if largest(residual) > self.control.tolerance else None
 
     def _grown(self, parameter: float) -> Array | None:
         """Return a point to which the drive has grown; None if it does not."""

@@ -104,19 +104,18 @@ def _load(problem: RelativeProblem, frequency: float) -> ComplexArray:
 def _stuck(problem: RelativeProblem, frequency: float) -> float:
     """Return the amplitude of the linear response about rest [m].
 
-    It is the least of several frequencies: what is undamped has none at resonance.
+    It is taken a little below the frequency: at an undamped resonance, as of a mode,
+    there is none.
     """
+    variable = np.array([1j * BESIDE[0] * frequency])
+    stiffness = problem.condensed.dynamic_stiffness(variable)
     contact = problem.contact(PROBE)
     contact(np.vstack([problem.rest, np.zeros((10, problem.rank))]), frequency)
     elastic, viscous = contact.tangents.means()
-    moved = []
-    for share in BESIDE:
-        variable = np.array([1j * share * frequency])
-        stiffness = problem.condensed.dynamic_stiffness(variable)
-        matrix = stiffness[0] + elastic + variable[0] * viscous
-        load = _load(problem, share * frequency)
-        moved.append(largest(np.linalg.lstsq(matrix, load, rcond=None)[0]))
-    return max(min(moved), STILL)
+    matrix = stiffness[0] + elastic + variable[0] * viscous
+    load = _load(problem, BESIDE[0] * frequency)
+    moved = np.linalg.lstsq(matrix, load, rcond=None)[0]
+    return max(largest(moved), STILL)
 
 
 def _large(values: Array | ComplexArray, faint: float = 0.0) -> NDArray[np.bool_]:

@@ -102,14 +102,19 @@ def _load(problem: RelativeProblem, frequency: float) -> ComplexArray:
 
 
 def _stuck(problem: RelativeProblem, frequency: float) -> float:
-    """Return the amplitude of the linear response about rest [m]."""
-    variable = np.array([1j * frequency])
+    """Return the amplitude of the linear response about rest [m].
+
+    It is taken a little below the frequency: at an undamped resonance, as of a mode,
+    there is none.
+    """
+    variable = np.array([1j * BESIDE[0] * frequency])
     stiffness = problem.condensed.dynamic_stiffness(variable)
     contact = problem.contact(PROBE)
     contact(np.vstack([problem.rest, np.zeros((10, problem.rank))]), frequency)
     elastic, viscous = contact.tangents.means()
     matrix = stiffness[0] + elastic + variable[0] * viscous
-    moved = np.linalg.lstsq(matrix, _load(problem, frequency), rcond=None)[0]
+    load = _load(problem, BESIDE[0] * frequency)
+    moved = np.linalg.lstsq(matrix, load, rcond=None)[0]
     return max(largest(moved), STILL)
 
 

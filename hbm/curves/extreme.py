@@ -49,7 +49,7 @@ def _farther(reached: Reached, probe: int, sign: float) -> Reached | None:
     change = leeway.farthest(probe, sign)
     here, slope = reached.amplitude[probe], leeway.slopes[probe] @ change
     made = None
-    for part in PARTS if abs(slope) > GAIN * here else ():
+    for part in PARTS if abs(slope) > GAIN * reached.measure[probe] else ():
         made = reached.changed(part * change)
         if made is not None and made.beyond(reached, probe, sign):
             return made

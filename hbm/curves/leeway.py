@@ -16,6 +16,7 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import upright
 from hbm.curves.stuck_tractions import Effects, StuckTractions
 from microslip_mechanics.arrays import TINY, Array, largest
+from microslip_mechanics.results.response import measure
 
 WITHIN = 1e-6
 """of what slips have changed, by which a traction is taken to be within its limit"""
@@ -68,9 +69,9 @@ class Leeway:
         return cls(stuck, changes, *_slopes(balance, point, changes, rows))
 
     def opens(self, least: float) -> list[int]:
-        """Return the probes whose amplitudes may change by a share of that, or more."""
+        """Return the probes whose amplitudes may change by that share, or more."""
         most = 2.0 * np.abs(self.slopes) @ self.stuck.limit.max(axis=0)
-        open_ = (most > least * self.amplitude) & (self.amplitude > 0.0)
+        open_ = most > least * measure(self.amplitude)
         found: list[int] = np.flatnonzero(open_).tolist()
         return found
 

@@ -13,9 +13,10 @@ from hbm.continuation.correction import Outcome
 from hbm.continuation.newton import correct
 from hbm.curves.leeway import Leeway
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.results.response import measure
 
 GAIN = 1e-3
-"""relative change of an amplitude that counts"""
+"""change of an amplitude that counts, over its measure"""
 PARTS = (1.0, 0.5, 0.25, 0.1)
 """of a change of tractions that are tried"""
 ITERATIONS = 15
@@ -62,6 +63,11 @@ class Reached:
         return found
 
     @cached_property
+    def measure(self) -> Array:
+        """What their changes are shares of [m], shape (probes,)."""
+        return measure(self.amplitude)
+
+    @cached_property
     def leeway(self) -> Leeway:
         """What other tractions change, to first order."""
         return Leeway.of(self.balance, self.point, self.rows)
@@ -69,7 +75,7 @@ class Reached:
     def beyond(self, other: Reached, probe: int, sign: float) -> bool:
         """Return whether the amplitude of a probe is farther than another one."""
         gained = sign * (self.amplitude[probe] - other.amplitude[probe])
-        return bool(gained > GAIN * other.amplitude[probe])
+        return bool(gained > GAIN * other.measure[probe] > 0.0)
 
     def bent_by(self, bent: Array | None, guess: Array | None = None) -> Reached | None:
         """Return the response with sliders that are bent so, if it is found.

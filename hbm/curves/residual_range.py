@@ -60,10 +60,11 @@ class ResidualRange:
         self.last.clear()
 
     def at(self, point: Array) -> Array:
-        """Return by how much amplitudes may change, relative, shape (2, probes).
+        """Return by how much amplitudes may change, shape (2, probes).
 
-        The first row is that of lower ones. ``point`` is one of the curve, with any
-        number of harmonics. NaN if there is no response to begin with.
+        As shares of their :func:`~microslip_mechanics.results.response.measure`; the
+        first row is that of lower ones. ``point`` is one of the curve, with any number
+        of harmonics. NaN if there is no response to begin with.
         """
         balance, guess = self._begun(point)
         found = np.zeros((2, len(self._rows)))
@@ -79,9 +80,8 @@ class ResidualRange:
                 farthest = extreme(begun, probe, sign)
                 if farthest is not here:
                     self.last[probe, sign] = farthest
-                    found[side, probe] = farthest.amplitude[probe]
-                    found[side, probe] /= here.amplitude[probe]
-                    found[side, probe] -= 1.0
+                    gained = farthest.amplitude[probe] - here.amplitude[probe]
+                    found[side, probe] = gained / here.measure[probe]
         return found
 
     def _begun(self, point: Array) -> tuple[HarmonicBalance, Array]:

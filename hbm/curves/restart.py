@@ -20,7 +20,7 @@ from hbm.curves.stiffened import stiffened
 from hbm.errors import ContinuationError
 from hbm.paths.path import Path
 from hbm.resolution.adaptive import AdaptiveBalance
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 
 LEAPS = (1e-4, 1e-3, 5e-3, 2e-2, 5e-2)
 """shares of the range by which a restart passes what resists, tried in turn; from the
@@ -159,9 +159,18 @@ class Restart:
             ).point
         except ContinuationError:
             return None
-        scale = self.metric(found)
-        alike = any(distance(found, each, scale) <= ALIKE for each in known)
-        return None if alike else found
+        return None if any(self._alike(found, each) for each in known) else found
+
+    def _alike(self, one: Array, other: Array) -> bool:
+        """Return whether two points at one place are the same, to the tolerance.
+
+        They are if what lies half way between them balances too: without drive rest is
+        one of those.
+        """
+        if distance(one, other, self.metric(other)) <= ALIKE:
+            return True
+        residual, _ = self.system(0.5 * (one + other))
+        return largest(residual) <= self.control.tolerance
 
     def _grown(self, parameter: float) -> Array | None:
         """Return a point to which the drive has grown; None if it does not."""

@@ -107,7 +107,7 @@ def nonlinear_mode(
         If the mode cannot be followed, or not with the effort that is granted; what was
         yielded before stays valid.
     """
-    resolution = _resolution(problem, rest, linear)
+    resolution = _resolution(problem, rest, linear, options.largest)
     system = AdaptiveBalance(
         resolution,
         options.first,
@@ -137,15 +137,19 @@ def _millimetres(parameter: float) -> str:
 
 
 def _resolution(
-    problem: Problem, rest: StaticState, linear: LinearMode
+    problem: Problem, rest: StaticState, linear: LinearMode, largest: float
 ) -> ModalResolution:
-    """Return the mode that grows from a linear one, at any resolution."""
+    """Return the mode that grows from a linear one, at any resolution.
+
+    ``largest`` is an amplitude [m] that tells which springs bend and which gaps close.
+    """
     whole = relative_problem(problem, rest)
     mass = problem.structure.mass
     row = linear.shape.conj() @ mass
     size = float((row @ linear.shape).real)
     # The mode answers to a load like its own inertia, and moves what that reaches.
-    load = np.stack([whole.force[0], (mass @ linear.shape).astype(complex)])
+    inertia = largest * linear.frequency**2 * (mass @ linear.shape)
+    load = np.stack([whole.force[0], inertia.astype(complex)])
     loaded = replace(whole, force=load)
     active = moving(loaded, linear.frequency)
     kept, odd = symmetric(active)

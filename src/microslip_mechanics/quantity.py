@@ -174,6 +174,10 @@ def check_quantities(made: Any, name: str) -> None:  # noqa: ANN401  (a dataclas
             raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
                 f"{name}: {each.name} = {value!r} is a text: give a number in SI units"
             )
+        if not isinstance(value, numbers.Real):
+            raise ValueError(  # noqa: TRY004  (as above)
+                f"{name}: {each.name} = {value}: is not a number: give one in SI units"
+            )
         try:
             number = kind.read(value)
         except ValueError as error:

@@ -19,8 +19,9 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.elastic_friction import ElasticFriction
 from microslip_mechanics.laws.jenkins import Jenkins
-from microslip_mechanics.problem import Problem
+from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response_curve import response_curve
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
 from small_problems import dwelled, last_harmonic
@@ -131,3 +132,19 @@ def test_a_march_keeps_what_breaks_the_symmetry() -> None:
     change = np.abs(last_harmonic(history)[0]) / found.amplitudes(rows)[0] - 1.0
     assert change > 0.5
     assert found.residual_range[1, 0] > change
+
+
+def test_a_probe_that_a_symmetry_keeps_still_has_a_range_too() -> None:
+    problem = replace(between_faces(), probes=Probes(("x", "z"), np.eye(2)))
+    rows, frequency = problem.probes.rows, 12.0
+
+    found = response(problem, frequency, sought=True)
+
+    curve = response_curve(problem, [found], "complete")
+    along = [
+        response(between_faces(pull), frequency).amplitudes(rows)[1]
+        for pull in np.linspace(0.0, LIMIT, 41)
+    ]
+    assert curve.amplitude[0, 1] < 1e-9 * curve.amplitude[0, 0]
+    assert curve.amplitude_lowest[0, 1] == pytest.approx(0.0, abs=1e-9)
+    assert curve.amplitude_highest[0, 1] == pytest.approx(max(along), rel=5e-3)

@@ -117,3 +117,13 @@ def test_a_curve_to_zero_ends_at_zero() -> None:
 
     assert last.point[-1] == 0.0
     assert last.point[0] == pytest.approx(1.0, abs=1e-12)
+
+
+def test_a_curve_to_no_drive_is_not_traced_twice() -> None:
+    driven = parameter("jenkins", (), "drive.x", "0.5", "0").problem_at
+    options = CurveOptions(0.5, 0.0, harmonics=3, samples=256)
+
+    found = [each.parameter for each in parameter_response(driven, FREQUENCY, options)]
+
+    assert found[-1] == 0.0
+    assert found == sorted(found, reverse=True)

@@ -54,6 +54,13 @@ def test_the_way_down_is_longer_than_both_errors_together(deep: float) -> None:
     assert found == ([1, 3] if deep > 2.0 * ERROR else [3])
 
 
+def test_how_much_higher_a_peak_may_be_does_not_flatten_its_point() -> None:
+    points = curve([1.0, 1.1, 1.1, 1.09, 1.2, 1.0], [1, 4])
+    points[1] = replace(points[1], error=0.02, parameter=2.0)
+
+    assert kept(points) == [2, 4]
+
+
 def test_the_highest_peak_is_kept_however_flat_it_is() -> None:
     assert kept(curve([1.0, 1.0 + 1e-6, 1.0], [1])) == [1]
 

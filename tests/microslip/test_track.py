@@ -138,3 +138,20 @@ def test_amplitudes_over_decades_of_a_parameter_are_drawn_by_decades(
     assert left.get_yscale() == scale
     assert left.get_ylim()[1] > drives[-1]
     assert left.get_ylim()[0] < drives[0]
+
+
+def test_a_range_that_ends_below_its_peak_tells_the_largest_amplitude(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["track", "duffing", "drive.x", "0.05", "0.4", "-o", str(tmp_path / "a")]
+
+    assert main(words) == 0
+
+    with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    told = {(row["drive.x"], row["event"]): row for row in rows}
+    assert ("0.05", "peak") in told
+    assert ("0.05", "largest") not in told
+    assert float(told["0.4", "largest"]["frequency_hz"]) == pytest.approx(7.0)
+    assert float(told["0.4", "largest"]["amplitude_m"]) > 4e-3
+    assert "largest" in capsys.readouterr().out

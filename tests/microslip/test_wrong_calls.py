@@ -235,13 +235,43 @@ def test_what_is_kept_of_a_reduction_is_a_list_of_texts(keep: Any) -> None:
         microslip.reduced_problem(problem, 0.2, keep=keep)
 
 
-def test_modes_in_a_list_are_drawn_and_one_alone_is_told_how(duffing: Any) -> None:
+def test_modes_in_a_list_or_alone_are_drawn_but_no_points(duffing: Any) -> None:
     modes = microslip.modes(duffing, 4.0, 6.0, smallest=1e-4, largest=2e-4)
 
-    drawn = microslip.figure(list(modes))
+    for drawn in (microslip.figure(list(modes)), microslip.figure(modes[0])):
+        assert drawn.axes[0].lines
     with pytest.raises(
         microslip.MicroslipError, match=r"give what microslip.modes, microslip\.cu"
     ):
-        microslip.figure(modes[0])  # type: ignore[arg-type]
+        microslip.figure(modes[0].points[0])  # type: ignore[arg-type]
 
-    assert drawn.axes[0].lines
+
+@pytest.mark.parametrize(
+    ("slides", "tolerance", "remedy"),
+    [
+        (True, None, "give a shorter time_step"),
+        (True, 1e-3, "give a shorter time_step"),
+        (False, None, "give a shorter time_step, or a tolerance"),
+    ],
+)
+def test_a_march_that_does_not_close_is_told_what_closes_it(
+    slides: bool, tolerance: float | None, remedy: str
+) -> None:
+    law = microslip.Jenkins(5e3, 1.0) if slides else microslip.CubicSpring(5e9)
+    problem = microslip.system(
+        mass=[1.0],
+        stiffness=[1e4],
+        drive={"x1": 2.0},
+        elements=[microslip.Element(law, between=("x1", "ground"))],
+    )
+
+    history = microslip.sweep(
+        problem, 14.0, 22.0, duration=1.0, time_step=0.02, tolerance=tolerance
+    )
+
+    assert history.ending.endswith(f"wrong: {remedy}")
+
+
+def test_numbers_of_a_law_are_asked_for_in_si_units() -> None:
+    with pytest.raises(ValueError, match=r"is not a number: give one in SI units$"):
+        microslip.Jenkins(stiffness=np.array([5.0, 6.0]), limit=1.0)  # type: ignore[arg-type]

@@ -71,6 +71,10 @@ def test_a_folder_in_place_of_a_matrix_is_refused(tmp_path: Path) -> None:
             {"K": MASS, "names": ("a", "b")},
             "2 names, but 4 rows: give one name for each row",
         ),
+        (
+            {"K": np.eye(2) > 0.0},
+            "K has 2 axes of bool: give a matrix of real numbers",
+        ),
     ],
 )
 def test_an_archive_without_the_matrix_is_refused(

@@ -67,9 +67,12 @@ def load(path: str | PathLike[str]) -> Result:
 
 
 def figure(
-    result: Result | tuple[FollowedMode, ...] | list[FollowedMode], title: str = ""
+    result: Result | FollowedMode | tuple[FollowedMode, ...] | list[FollowedMode],
+    title: str = "",
 ) -> Figure:
     """Return the picture that the command line draws of a curve, a march, or modes.
+
+    These may be what :func:`microslip.modes` returns, or some or one of them.
 
     A notebook shows it; ``figure(result).savefig(path)`` writes it.
 
@@ -87,9 +90,13 @@ def figure(
             f"microslip.figure: title = {title!r}: give a text; the picture has axes "
             "of its own"
         )
+    from microslip.figures.result import result_figure
+    from microslip.studies.modes import FollowedMode
+
+    if isinstance(result, FollowedMode):
+        return _modes((result,), title)
     if isinstance(result, tuple | list):
         return _modes(result, title)
-    from microslip.figures.result import result_figure
 
     _check(result, "microslip.figure", DRAWN)
     return result_figure(result, title)

@@ -95,5 +95,16 @@ def sweep(
         history = march_sweep(given, loads, march, tolerance=swept.tolerance)
     if history.ending != "complete" or closes(history):
         return history
-    remedy = "give a shorter time_step, or a smaller tolerance"
+    remedy = _remedy(given, swept.tolerance)
     return replace(history, ending=f"{OPEN}: {remedy}")
+
+
+def _remedy(problem: Problem, tolerance: float | None) -> str:
+    """Return what closes the balance of a march with or without a tolerance."""
+    from microslip_mechanics.contact.memory import beyond_motion
+
+    if beyond_motion(problem.interface.points):
+        return "give a shorter time_step"
+    if tolerance is None:
+        return "give a shorter time_step, or a tolerance"
+    return "give a smaller tolerance"

@@ -28,7 +28,7 @@ def energy_table(result: TimeHistory | Envelope) -> str:
     from microslip_mechanics.results.energies import worded
 
     lines, pulls = [f"energy until {result.time[-1]:g} s [J]"], result.pulls
-    least = ROUNDING * float(abs(result.energy[-1]).max())
+    least = _least(result)
     for name in result.energies:
         last = float(result.of(name)[-1])
         shown = last if abs(last) > least else 0.0
@@ -42,8 +42,8 @@ def energy_table(result: TimeHistory | Envelope) -> str:
 def estimates(result: TimeHistory | Envelope, found: Extremes) -> list[str]:
     """Return lines of the estimated errors, as far as the result tells them.
 
-    Where there is no friction, that of its energy is none. ``found`` are the result's
-    extremes, of all rows.
+    Where friction takes out nothing but rounding, that of its energy is none. ``found``
+    are the result's extremes, of all rows.
     """
     if not result.energy_error.size:
         return []
@@ -53,13 +53,18 @@ def estimates(result: TimeHistory | Envelope, found: Extremes) -> list[str]:
         ("friction, error", result.energy_error),
         ("quadrature - work", result.work_difference),
     ):
-        for value in values[-1:] if rows.any() else ():
+        for value in values[-1:] if abs(rows).max() > _least(result) else ():
             share = f"  ({value / friction:.1e} of it)" if friction else ""
             lines.append(f"  {name:20s} {value:12.2g}{share}")
     missed = float(found.errors[0])
     peak = max(float(result.peak_error[-1]), missed)
     more = " or more" if missed > SPARSE else ""
     return [*lines, f"estimated error of the peak amplitude {peak:.1e}{more}"]
+
+
+def _least(result: TimeHistory | Envelope) -> float:
+    """Return the energy [J] up to which another one is rounding."""
+    return ROUNDING * float(abs(result.energy[-1]).max())
 
 
 def parting(result: TimeHistory | Envelope, tolerance: float) -> list[str]:

@@ -56,7 +56,7 @@ def track_figure(
         more than the highest peak.
     """
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    left, right = figure.subplots(1, 2, sharex=True)
     peaks = sorted(peaks)
     places = {value for value, *_ in (*peaks, *others)}
     line = {"color": COLOURS[0], "linewidth": 0.0 if names else WIDTH}

@@ -25,7 +25,7 @@ def matrix_of(path: Path, there: Mapping[str, Any], wanted: tuple[str, ...]) -> 
     value = there[name]
     if not scipy.sparse.issparse(value):
         value = np.asarray(value)
-    if value.ndim != 2 or value.dtype.kind not in "fiub":
+    if value.ndim != 2 or value.dtype.kind not in "fiu":
         raise MatrixFileError(
             path,
             f"{name} has {value.ndim} axes of {value.dtype}: "

@@ -96,7 +96,10 @@ def _standing_out(
     for at, each in enumerate(piece):
         if each.event == "peak":
             on = [*range(at + 1), *range(_passed(at, place, folds), len(piece))]
-            if not _descends(at, amplitude[on], doubt[on]):
+            # a peak told at a point may be higher, and is no lower, than this is
+            same = (place == place[at]) & (amplitude == amplitude[at])
+            sure = np.where(same, doubt[same].min(), doubt)
+            if not _descends(at, amplitude[on], sure[on]):
                 continue
         if each.event == "fold":
             outwards = _outwards(at, place) * place

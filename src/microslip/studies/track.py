@@ -15,8 +15,10 @@ from microslip_mechanics.results.response_curve import ResponseCurve
 
 OTHERWISE = "other tractions"
 """what the largest amplitude is called that other residual tractions allow"""
+HIGHEST = "largest"
+"""what the largest amplitude is called where it is above all peaks of the range"""
 SEEN = 1e-3
-"""of the largest amplitude, by which that has to be larger"""
+"""of the largest amplitude, or of the highest peak, by which these have to be larger"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +26,7 @@ class Event:
     """Something located on a curve."""
 
     name: str
-    """peak, fold, branch point, … or :data:`OTHERWISE`"""
+    """peak, fold, branch point, …, :data:`HIGHEST` or :data:`OTHERWISE`"""
     frequency: float
     """[rad/s]"""
     frequency_error: float
@@ -80,7 +82,7 @@ def tracked(
         except ContinuationError as error:
             yield Tracked(value, str(error), ())
         else:
-            events = (*_events(curve), *_otherwise(curve))
+            events = (*_events(curve), *_highest(curve), *_otherwise(curve))
             yield Tracked(value, curve.ending, events)
             if curve.ending == "interrupted":
                 raise KeyboardInterrupt
@@ -88,16 +90,28 @@ def tracked(
 
 def _events(curve: ResponseCurve) -> tuple[Event, ...]:
     return tuple(
-        Event(
-            name,
-            float(curve.frequency[place]),
-            float(curve.parameter_error[place]),
-            float(curve.amplitude[place].max()),
-            float(curve.error[place]),
-        )
-        for place, name in enumerate(curve.event)
-        if name
+        _event(curve, place, name) for place, name in enumerate(curve.event) if name
     )
+
+
+def _event(curve: ResponseCurve, place: int, name: str) -> Event:
+    return Event(
+        name,
+        float(curve.frequency[place]),
+        float(curve.parameter_error[place]),
+        float(curve.amplitude[place].max()),
+        float(curve.error[place]),
+    )
+
+
+def _highest(curve: ResponseCurve) -> tuple[Event, ...]:
+    """Return the largest amplitude if it is above all peaks, as at a range's end."""
+    sizes = curve.amplitude.max(axis=1)
+    peaks = [name == "peak" for name in curve.event]
+    place = int(sizes.argmax())
+    if sizes[place] <= (1.0 + SEEN) * sizes[peaks].max(initial=0.0):
+        return ()
+    return (_event(curve, place, HIGHEST),)
 
 
 def _otherwise(curve: ResponseCurve) -> tuple[Event, ...]:

@@ -13,6 +13,9 @@ MARGIN = 1e-5
 """by which a Floquet multiplier outside the unit circle must exceed it: rounding moves
 one that is double, as of a free mean position, by the root of its own size"""
 
+FAINT = 1e-6
+"""of the largest amplitude, below which changes of another one are shares of this"""
+
 BEGINNINGS = ("restart", "detached", "branch")
 """events at which a curve begins anew"""
 
@@ -57,9 +60,10 @@ class PeriodicResponse(ByValue):
     parameter_error: float = np.nan
     """estimated one of the parameter at which a peak or a fold lies; NaN for others"""
     residual_range: Array = field(default_factory=lambda: np.empty((0, 0)))
-    """by how much amplitudes of probes were found lower and higher, relative, with
-    other residual tractions of contacts that stick, shape (2, probes); NaN where they
-    were sought in vain, empty where they were not (theory §6.5)"""
+    """by how much amplitudes of probes were found lower and higher, as shares of
+    :func:`measure`, with other residual tractions of contacts that stick, shape
+    (2, probes); NaN where they were sought in vain, empty where they were not
+    (theory §6.5)"""
     shapes: Array | None = None
     """motion of the coordinates of a reduced structure, shape (dofs, coordinates)"""
 
@@ -105,3 +109,14 @@ class PeriodicResponse(ByValue):
         if self.shapes is None:
             return displacement, velocity
         return displacement @ self.shapes.T, velocity @ self.shapes.T
+
+
+def measure(amplitude: Array) -> Array:
+    """Return what changes of amplitudes are shares of [m], (probes,).
+
+    It is an amplitude itself, unless the probe is at rest beside others: what a
+    symmetry keeps still may move without it.
+    """
+    least = FAINT * amplitude.max(initial=0.0)
+    large: Array = np.maximum(amplitude, least)
+    return large

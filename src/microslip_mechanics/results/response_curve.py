@@ -12,7 +12,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.by_value import ByValue
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.quantity import apart
-from microslip_mechanics.results.response import PeriodicResponse
+from microslip_mechanics.results.response import PeriodicResponse, measure
 
 PULL = 0.1
 """of its largest push: a pull from which what pulls is no contact"""
@@ -155,8 +155,9 @@ def _range(points: Sequence[PeriodicResponse], amplitude: Array) -> tuple[Array,
     low, high = amplitude.copy(), amplitude.copy()
     for place, point in enumerate(points):
         if point.residual_range.size:
-            low[place] *= 1.0 + point.residual_range[0]
-            high[place] *= 1.0 + point.residual_range[1]
+            less, more = point.residual_range * measure(amplitude[place])
+            low[place] += less
+            high[place] += more
     return low, high
 
 

@@ -159,6 +159,7 @@ class Restart:
             ).point
         except ContinuationError:
             return None
+        self.system.fourier = self.system.settled  # with less it may not be found again
         return None if any(self._alike(found, each) for each in known) else found
 
     def _alike(self, one: Array, other: Array) -> bool:

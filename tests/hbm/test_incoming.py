@@ -5,9 +5,13 @@ import pytest
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.system import system
 from small_problems import cubic_oscillator
+from timedomain.shooting.comparison import compared
 
 DAMPING, DRIVE, WITHIN = 0.2, 1.0, 2.0
 """the last between both folds [rad/s]"""
@@ -84,3 +88,23 @@ def test_what_folds_farther_beyond_the_start_is_left_alone() -> None:
     found = curve(2.15, 2.6)
 
     assert "restart" not in [each.event for each in found]
+
+
+def test_what_comes_in_at_a_sharp_fold_is_found_again_with_as_many_harmonics() -> None:
+    problem = system(
+        mass=[1.0],
+        stiffness=[1000.0],
+        damping_ratio=0.03,
+        elements=[Element(UnilateralSpring(stiffness=1e3, gap=5e-4), ("x1", "ground"))],
+        drive={"x1": 0.1},
+    )
+    start, end = 2.0 * np.pi * 5.5995, 2.0 * np.pi * 5.8
+    rest = static_equilibrium(problem)
+
+    found = frequency_response(problem, rest, CurveOptions(start, end))
+
+    starts = [each for each in found if each.frequency == start]
+    assert [each.unstable for each in starts] == [0, 1, 0]
+    shot = [compared(problem, each) for each in starts]
+    assert [each.as_estimated for each in shot] == [True] * 3
+    assert max(each.difference for each in shot) < 2e-3

@@ -30,7 +30,7 @@ class Square(Unsettled):
     """y² = 1, at any parameter."""
 
     size = 2
-    fourier = FourierBasis(1, 32)
+    fourier = settled = FourierBasis(1, 32)
 
     def __call__(self, point: Array) -> tuple[Array, Dense]:
         y, _ = point

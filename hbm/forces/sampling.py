@@ -123,7 +123,7 @@ def sample_smooth(
 ) -> None:
     """Write what :func:`sample` does for points without transitions.
 
-    A scene without any does not compile what resolves them: a sixth of its first run.
+    A scene that has no others does not compile what resolves them.
     """
     work = Work(
         np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))

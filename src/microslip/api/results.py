@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
     from microslip.files.schema import Result
     from microslip.studies.modes import FollowedMode
+    from microslip_mechanics.results.response_curve import ResponseCurve
+
+    Many = tuple[FollowedMode, ...] | list[FollowedMode] | list[ResponseCurve]
 
 SAVED = "microslip.curve, microslip.follow, microslip.sweep or microslip.load"
 DRAWN = f"microslip.modes, {SAVED}"
@@ -67,19 +70,29 @@ def load(path: str | PathLike[str]) -> Result:
 
 
 def figure(
-    result: Result | FollowedMode | tuple[FollowedMode, ...] | list[FollowedMode],
+    result: Result | FollowedMode | Many,
     title: str = "",
+    labels: Sequence[str] = (),
 ) -> Figure:
     """Return the picture that the command line draws of a curve, a march, or modes.
 
-    These may be what :func:`microslip.modes` returns, or some or one of them.
-
     A notebook shows it; ``figure(result).savefig(path)`` writes it.
+
+    Parameters
+    ----------
+    result
+        A curve, several that are compared, a march, what :func:`microslip.modes`
+        returns, or some or one of these modes.
+    title
+        Above the picture.
+    labels
+        What several curves are called, one for each; their numbers if left out.
 
     Raises
     ------
     MicroslipError
-        If the result is none, or the title is no text.
+        If the result is none, the title is no text, labels are not as many as curves,
+        or curves go along different quantities.
     ValueError
         If a march has not come far enough to have anything to draw.
     """
@@ -92,17 +105,49 @@ def figure(
         )
     from microslip.figures.result import result_figure
     from microslip.studies.modes import FollowedMode
+    from microslip_mechanics.results.response_curve import ResponseCurve
 
     if isinstance(result, FollowedMode):
         return _modes((result,), title)
     if isinstance(result, tuple | list):
+        curves = [each for each in result if isinstance(each, ResponseCurve)]
+        if curves and len(curves) == len(result):
+            return _compared(curves, title, labels)
         return _modes(result, title)
 
     _check(result, "microslip.figure", DRAWN)
     return result_figure(result, title)
 
 
-def _modes(result: Sequence[FollowedMode], title: str) -> Figure:
+def _compared(
+    curves: Sequence[ResponseCurve], title: str, labels: Sequence[str]
+) -> Figure:
+    """Return the picture of several curves.
+
+    Raises
+    ------
+    GivenError
+        If labels are not as many, or the curves go along different quantities.
+    """
+    from microslip.errors import GivenError
+    from microslip.figures.compared import compared_figure
+
+    names = list(labels) or [str(number) for number in range(1, len(curves) + 1)]
+    if isinstance(labels, str) or len(names) != len(curves):
+        raise GivenError(
+            f"microslip.figure: labels = {labels!r}: give a list of {len(curves)} "
+            "texts, one for each curve"
+        )
+    ways = [each.along or "the frequency" for each in curves]
+    if len(set(ways)) > 1:
+        raise GivenError(
+            f"microslip.figure: curves along {' and '.join(sorted(set(ways)))}: give "
+            "those along one of them"
+        )
+    return compared_figure(curves, [str(each) for each in names], title)
+
+
+def _modes(result: Sequence[FollowedMode | ResponseCurve], title: str) -> Figure:
     """Return the picture of modes.
 
     Raises
@@ -115,9 +160,10 @@ def _modes(result: Sequence[FollowedMode], title: str) -> Figure:
     from microslip.mode_lines import mode_lines
     from microslip.studies.modes import FollowedMode
 
-    if not all(isinstance(each, FollowedMode) for each in result):
+    modes = [each for each in result if isinstance(each, FollowedMode)]
+    if len(modes) < len(result):
         raise GivenError(f"microslip.figure: {result!r}: give what {DRAWN} returns")
-    lines = mode_lines(result)
+    lines = mode_lines(modes)
     if not lines:
         raise GivenError("microslip.figure: no mode has a point: see their endings")
     return modes_figure(lines, title)

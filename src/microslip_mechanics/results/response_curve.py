@@ -75,6 +75,12 @@ class ResponseCurve(ByValue):
     """how the curve ended: "complete", "interrupted", or the cause"""
 
     @property
+    def contact_energy(self) -> Array:
+        """What contacts take out per period, by friction and damping [J], (points,)."""
+        total: Array = self.friction_energy + self.damping_energy
+        return total
+
+    @property
     def pulls(self) -> bool:
         """Whether springs or dampers are among the contacts, which hardly pull."""
         return pulling(self.normal_smallest, self.normal_largest)

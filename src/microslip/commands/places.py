@@ -70,18 +70,18 @@ def demand_no_scene(path: Path, option: str, ending: str) -> None:
         )
 
 
-def demand_apart(picture: Path, data: Path) -> None:
-    """Refuse a picture that would be written over the data that it shows.
+def demand_apart(shown: Path, data: Path, what: str = "picture") -> None:
+    """Refuse a picture, or a table, that would be written over the data that it shows.
 
     Raises
     ------
     OutputError
         If both are one file.
     """
-    if data.exists() and picture.exists() and picture.samefile(data):
+    if data.exists() and shown.exists() and shown.samefile(data):
         raise OutputError(
-            f"{picture} holds the result, and its picture would be written over it: "
-            "give the result a name that ends with .nc, or the picture another name"
+            f"{shown} holds the result, and its {what} would be written over it: "
+            f"give the result a name that ends with .nc, or the {what} another name"
         )
 
 

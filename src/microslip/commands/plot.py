@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.places import demand_apart, demand_place
+from microslip.errors import GivenError
 
 if TYPE_CHECKING:
     from microslip.files.store import Stored
@@ -27,7 +28,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "decay wrote, also of a run that was stopped or is still going on. Of several "
         "files of frc, or of follow along one key, draw amplitudes and dissipated "
         "energies together, and tell the largest amplitude of each. A legend names "
-        "the values that --set gave to some of them, or the files.",
+        "the values that --set gave to some of them, or the files. With --csv the "
+        "columns of a file are written as text.",
         epilog="example: microslip plot soft-frc.nc stiff-frc.nc -o both.pdf",
     )
     parser.add_argument(
@@ -41,13 +43,15 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="picture to write: .png, also without an ending, .pdf or .svg (default: "
         f"FILE with .png, {TOGETHER} of several)",
     )
+    arguments.add_table(parser)
     parser.set_defaults(run=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.result import result_figure
     from microslip.files.result_file import load
-    from microslip.files.store import save_figure
+    from microslip.files.store import save_figure, save_table
+    from microslip.files.tabulated import tabulated
 
     files: list[Path] = options.files
     stored = [load(each, arguments.MOST_ROWS) for each in files]
@@ -59,10 +63,18 @@ def _run(options: argparse.Namespace) -> int:
     for each in files:
         demand_apart(picture, each)
     if len(files) > 1:
+        if options.csv is not None:
+            raise GivenError("--csv writes what one file holds: give one")
         return _together(files, stored, picture)
+    table = arguments.table(options)
+    if table is not None:
+        demand_apart(table, files[0], "table")
     title = f"{files[0].name}: {stored[0].command}"
     save_figure(picture, result_figure(stored[0].result, title))
     print(f"picture in {picture}")
+    if table is not None:
+        save_table(table, *tabulated(load(files[0]).result))
+        print(f"table in {table}")
     return 0
 
 

@@ -84,9 +84,7 @@ def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Re
     known = system.impulses(harmonics // 2, harmonics)
     before, after, now, sizes = point, point, residual, [_size(residual)]
     moves, slope = True, latest
-    while moves and (
-        len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS)
-    ):
+    while moves and _goes_on(sizes):
         slope = slope if _served(sizes) else latest
         step = slope.solve(normal, np.append(-now, 0.0))
         before = after
@@ -117,6 +115,18 @@ def _lowered(
 
 def _size(values: Array) -> float:
     return float(np.linalg.norm(values))
+
+
+def _goes_on(sizes: list[float]) -> bool:
+    """Return whether another step is due, from the residuals before and after each.
+
+    One that takes back what another has raised may lead on, away from the point.
+    """
+    if len(sizes) < 3:
+        return True
+    if sizes[-1] > SURE * sizes[-2]:
+        return len(sizes) <= STEPS
+    return sizes[-1] > SURE * min(sizes[:-1]) and len(sizes) <= 2 * STEPS
 
 
 def _served(sizes: list[float]) -> bool:

@@ -107,6 +107,18 @@ def test_steps_that_take_back_a_rise_go_on() -> None:
     assert told == pytest.approx(true, rel=0.1)
 
 
+def test_a_rise_that_is_taken_back_near_the_point_does_not_matter() -> None:
+    start = np.array([2.4, 5.0])
+
+    near, far = (
+        refined(Beyond(1.0, 0.1), start, MANY, UPRIGHT, seen)
+        for seen in (lambda _: False, lambda _: True)
+    )
+
+    assert abs(near.corrected[0] - 3.0) > 0.1
+    assert abs(far.corrected[0] - 3.0) < 0.02
+
+
 def test_a_rise_that_is_not_taken_back_leaves_everything() -> None:
     assert steps(0.1, Beyond(1.0, 0.1)).left == math.inf
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -67,13 +68,21 @@ class Refined(NamedTuple):
     """the derivative that the last step had"""
 
 
-def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Refined:
+def refined(
+    system: Resolved,
+    point: Array,
+    harmonics: int,
+    normal: Array,
+    far: Callable[[Sequence[Array]], bool] = lambda _: True,
+) -> Refined:
     """Return a point after Newton steps in the plane normal to ``normal``.
 
     ``harmonics`` are those of ``system``, about twice those of the point. There are two
     steps, and up to :data:`STEPS` until one leaves little, or one alone that is mere
-    rounding. With :data:`MANY` harmonics one that would raise the residual is halved. A
-    step has the factors of the one before if that left a tenth.
+    rounding; twice as many where one takes back but what another has raised, away from
+    the point, if points before all steps, before the last and after it are ``far`` from
+    each other. With :data:`MANY` harmonics one that would raise the residual is halved.
+    A step has the factors of the one before if that left a tenth.
 
     Raises
     ------
@@ -85,7 +94,7 @@ def refined(system: Resolved, point: Array, harmonics: int, normal: Array) -> Re
     before, after, now, sizes = point, point, residual, [_size(residual)]
     moves, slope = True, latest
     while moves and (
-        len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS)
+        _due(sizes) or (_takes_back(sizes) and far((point, before, after)))
     ):
         slope = slope if _served(sizes) else latest
         step = slope.solve(normal, np.append(-now, 0.0))
@@ -117,6 +126,17 @@ def _lowered(
 
 def _size(values: Array) -> float:
     return float(np.linalg.norm(values))
+
+
+def _due(sizes: list[float]) -> bool:
+    """Return whether another step is due, from the residuals before and after each."""
+    return len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS)
+
+
+def _takes_back(sizes: list[float]) -> bool:
+    """Return whether the last step left little but of what one before had raised."""
+    falls = SURE * min(sizes[:-1]) < sizes[-1] <= SURE * sizes[-2]
+    return falls and len(sizes) <= 2 * STEPS
 
 
 def _served(sizes: list[float]) -> bool:

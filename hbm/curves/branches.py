@@ -76,6 +76,7 @@ class Branching:
         """
         tracer = Tracer(self.problem, self.path, self.options)
         tracer.system.restart(min(max(response.harmonics, FEWEST), FINEST))
+        tracer.system.raise_floor()  # at its foot errors of amplitudes ask for less
         place = BranchPoint.of(response, known, tracer, self.path)
         begun = place.beside()
         if begun is None:

@@ -13,13 +13,14 @@ mean position that hardly decays is there all the time"""
 TORUS, BRANCH = "Neimark-Sacker", "branch point"
 
 
-def crossed(multiplier: complex) -> str:
+def crossed(multiplier: complex, *, alone: bool = False) -> str:
     """Return what happens where a multiplier is on the unit circle.
 
     At +1, where the curve does not fold, another branch begins; at −1 a period doubles;
-    elsewhere, together with its conjugate, a torus begins.
+    elsewhere, together with its conjugate, a torus begins. One that crosses ``alone``
+    has none: it has met that on the real axis before.
     """
-    if turns(multiplier) and abs(multiplier - 1.0) > BESIDE:
+    if not alone and turns(multiplier) and abs(multiplier - 1.0) > BESIDE:
         return TORUS
     return BRANCH if multiplier.real > 0.0 else "period doubling"
 

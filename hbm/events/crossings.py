@@ -106,7 +106,7 @@ class Crossings:
 
         Its error is that by orbits of the ``other`` resolution.
         """
-        name, (first, last) = crossed(moving.outside), moving.ends
+        name, (first, last) = _name(moving), moving.ends
         if self.recalls:
             left = abs(self._growth(moving, located, finer))
             if left > LEAP * abs(last - first):
@@ -149,7 +149,7 @@ class Crossings:
         Where the curve folds a multiplier crosses in any case, and nothing is asked for
         again.
         """
-        if crossed(moving.outside) != BRANCH:
+        if _name(moving) != BRANCH:
             return False
         folded = segment.after.turns or folds(segment.before) * folds(segment.after) < 0
         if located is None or folded or self.recalls:
@@ -226,3 +226,8 @@ class Crossings:
             found = self.multipliers.finer(point, finer)
             point, fourier = (point, fourier) if found is None else (found, finer)
         return moving.growth(self.multipliers.at(point, fourier))
+
+
+def _name(moving: MovingMultiplier) -> str:
+    """Return what happens where a multiplier crosses."""
+    return crossed(moving.outside, alone=moving.alone)

@@ -55,22 +55,29 @@ def fold_error(
 def _turns(segment: Segment, point: Array, step: Array, near: float) -> float | None:
     """Return what a fold may be aside if a curve has slopes of both signs about it.
 
-    None if it has not; nothing where the curve is lost.
+    None if it has not; nothing where the curve is lost. Where it is lost to one side
+    alone it may have turned before that.
     """
     slopes: list[float] = []
+    lost = math.inf
     for distance in _distances(segment.length):
         sides = [
             segment.across(point + side * distance * step, near) for side in (-1.0, 1.0)
         ]
-        if None in sides and not slopes:
-            return 0.0
+        if None in sides:
+            lost = min(lost, distance)
+            if not slopes:
+                return 0.0
         slopes += [folds(each) for each in sides if each]
         if min(slopes) <= 0.0 <= max(slopes):
-            steepest = max(-min(slopes), max(slopes))
-            return (
-                steepest * distance * segment.length if distance > AROUND[-1] else 0.0
-            )
-    return None
+            far = distance > AROUND[-1]
+            return _changed(slopes, distance, segment) if far else 0.0
+    return None if math.isinf(lost) else _changed(slopes, lost, segment)
+
+
+def _changed(slopes: list[float], distance: float, segment: Segment) -> float:
+    """Return by how much the parameter changes up to a distance at the most."""
+    return max(map(abs, slopes)) * distance * segment.length
 
 
 def _distances(length: float) -> list[float]:

@@ -24,6 +24,8 @@ class MovingMultiplier:
         self._known = max(before, after, key=outside)
         self.outside: complex = self._known[which]
         """its last value outside"""
+        self.alone = abs(outside(before) - outside(after)) == 1
+        """whether no other crosses between the two"""
         self.ends = self.growth(before), self.growth(after)
         """its excess at the two"""
 

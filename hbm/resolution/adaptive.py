@@ -214,7 +214,8 @@ class AdaptiveBalance:
             estimate = (
                 self._resolution.estimate if across else self._resolution.least_estimate
             )
-            self.estimate = estimate(correction, self.fourier, normal)
+            seen = correction, self.fourier, normal
+            self.estimate = estimate(*seen, self._tolerance or 0.0)
         except SingularError:
             self.estimate = None
             return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -56,12 +56,16 @@ class Resolution(ABC):
         return estimate.error
 
     def estimate(
-        self, correction: Correction, fourier: FourierBasis, normal: Array
+        self,
+        correction: Correction,
+        fourier: FourierBasis,
+        normal: Array,
+        tolerance: float = 0.0,
     ) -> Estimate:
         """Return the error of a converged point, by steps at twice the order.
 
         The corrected point lies in the plane through the point that is normal to
-        ``normal``.
+        ``normal``. Of changes below ``tolerance`` less is asked.
 
         Raises
         ------
@@ -69,7 +73,9 @@ class Resolution(ABC):
             If the point lies on a fold.
         """
         point, finer = correction.point, fourier.doubled
-        made = refined(self.at(finer), point, finer.harmonics, normal)
+        made = refined(
+            self.at(finer), point, finer.harmonics, normal, self._apart(tolerance)
+        )
         beyond = self._beyond(made, finer, normal)
         low = made.residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
@@ -102,17 +108,32 @@ class Resolution(ABC):
         )
 
     def least_estimate(
-        self, correction: Correction, fourier: FourierBasis, normal: Array
+        self,
+        correction: Correction,
+        fourier: FourierBasis,
+        normal: Array,
+        tolerance: float = 0.0,
     ) -> Estimate:
         """Return the error at constant parameter or, where that is steep, across.
 
         Arguments and errors are those of :meth:`estimate`.
         """
-        estimate = self.estimate(correction, fourier, upright(correction.point))
+        here = upright(correction.point)
+        estimate = self.estimate(correction, fourier, here, tolerance)
         if self.steepness(estimate) < STEEP:
             return estimate
-        other = self.estimate(correction, fourier, normal)
+        other = self.estimate(correction, fourier, normal, tolerance)
         return min(estimate, other, key=self.steepness)
+
+    def _apart(self, tolerance: float) -> Callable[[Sequence[Array]], bool]:
+        """Return whether values at the last of points differ by that from another."""
+
+        def apart(points: Sequence[Array]) -> bool:
+            *others, last = self.amplitudes(points)
+            change = max(largest(each - last) for each in others)
+            return change > tolerance * float(last.max(initial=0.0))
+
+        return apart
 
     def _beyond(self, made: Refined, finer: FourierBasis, normal: Array) -> Array:
         """Return the point after the steps once orders beyond have moved it.

@@ -31,9 +31,6 @@ SCENES = (
     ("jenkins", "drive.x=0.7"),
     ("jenkins", "drive.x=2"),
 )
-MANY = pytest.mark.parametrize(
-    "scenes", [SCENES[:4], pytest.param(SCENES, marks=pytest.mark.long)], ids=len
-)
 TOLERANCES = (1e-2, 3e-3, 1e-3, 3e-4)
 FINEST = 3e-6
 
@@ -62,12 +59,10 @@ def finest_marked(*scene: str) -> list[PeriodicResponse]:
 
 
 @functools.cache
-def compared(
-    scenes: tuple[tuple[str, ...], ...],
-) -> list[tuple[PeriodicResponse, PeriodicResponse]]:
+def compared() -> list[tuple[PeriodicResponse, PeriodicResponse]]:
     """Return each peak and fold beside that of the finest curve."""
     pairs = []
-    for scene in scenes:
+    for scene in SCENES:
         finest = finest_marked(*scene)
         for tolerance in TOLERANCES:
             for each in marked(*scene, error=tolerance):
@@ -82,10 +77,7 @@ def amplitude(response: PeriodicResponse) -> float:
     return float(np.hypot(*response.coefficients[1:3, 0]))
 
 
-@MANY
-def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above(
-    scenes: tuple[tuple[str, ...], ...],
-) -> None:
+def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above() -> None:
     true, estimated, doubt = np.array(
         [
             (
@@ -93,31 +85,27 @@ def test_errors_of_peaks_and_folds_bound_the_true_ones_and_are_not_far_above(
                 each.parameter_error,
                 finest.parameter_error,
             )
-            for each, finest in compared(scenes)
+            for each, finest in compared()
         ]
     ).T
     known = doubt < 0.3 * true  # else the finest curve does not know better
 
     assert known.sum() >= 20
     share = estimated[known] / true[known]
-    assert share.min() >= 1.0  # measured 1.9, of all scenes 1.6
-    # measured 5.9, between 8 of duffing, 57 to 70, and 12 others; of all scenes 3.6
-    assert np.median(share) <= 6.5
+    assert share.min() >= 1.0  # measured 1.6
+    assert np.median(share) <= 4.0  # measured 3.3; two folds of duffing have 57 and 70
     # the others are as far from the finest curve as both say at the most
     assert np.all(true <= estimated + doubt)
 
 
-@MANY
 @pytest.mark.parametrize("event", ["fold", "peak"])
-def test_amplitudes_err_by_no_more_than_is_told(
-    event: str, scenes: tuple[tuple[str, ...], ...]
-) -> None:
+def test_amplitudes_err_by_no_more_than_is_told(event: str) -> None:
     # more harmonics move a fold along its curve, where the amplitude changes fastest,
     # and a peak to where it is larger
     true, estimated, doubt = np.array(
         [
             (abs(amplitude(each) / amplitude(finest) - 1.0), each.error, finest.error)
-            for each, finest in compared(scenes)
+            for each, finest in compared()
             if each.event == event
         ]
     ).T
@@ -258,3 +246,20 @@ def test_what_goes_on_upwards_is_no_fold() -> None:
     system: Any = graph
 
     assert fold_error(system, segment, graph.at(0.0), 1.0) is None
+
+
+def test_what_is_lost_to_one_side_may_fold_before_that() -> None:
+    class Torn(Graph):
+        def __call__(self, point: Array) -> tuple[Array, Dense]:
+            residual, dense = super().__call__(point)
+            return (residual if point[0] < 0.25 else residual * np.nan), dense
+
+    graph = Torn(lambda x: x - 1.9 * x**2, lambda x: 1.0 - 3.8 * x)
+    segment = graph.segment(-0.1, graph.at(0.1))
+    system: Any = graph
+
+    error = fold_error(system, segment, graph.at(0.0), 1.0)
+
+    # the fold lies at x = 0.263, where p = 0.132: what is found at 0.1 and less rises
+    assert error is not None
+    assert error >= 0.132

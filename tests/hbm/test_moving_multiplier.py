@@ -59,3 +59,14 @@ def test_what_pairs_with_a_neutral_multiplier_still_crosses_at_plus_one() -> Non
     assert crossed(1.00003 - 8e-5j) == BRANCH
     assert crossed(1.0022 - 0.0145j) == TORUS
     assert crossed(-1.0001 + 0.0j) == "period doubling"
+
+
+def test_one_of_a_pair_that_crosses_alone_makes_no_torus() -> None:
+    pair, parted = [1.02 + 0.1j, 1.02 - 0.1j], [1.1, 0.9]
+    both = MovingMultiplier(0, ordered(*pair), ordered(0.9 + 0.1j, 0.9 - 0.1j))
+    moving = MovingMultiplier(1, ordered(*pair), ordered(*parted))
+
+    assert not both.alone
+    assert moving.alone
+    assert crossed(moving.outside) == TORUS
+    assert crossed(moving.outside, alone=True) == BRANCH

@@ -55,6 +55,19 @@ class Root:
         raise NotImplementedError(point, residual, above)
 
 
+class Beyond(Root):
+    """x = 3, with a hollow about x = 0 from which steps lead away and come back."""
+
+    def __call__(self, point: Array) -> tuple[Array, Linearised]:
+        place = point[0]
+        slope = 3.0 * place**2 - 6.0 * place + 0.05
+        return self.residual(point), Slope(slope)
+
+    def residual(self, point: Array) -> Array:
+        place = point[:1]
+        return (place**2 + 0.05) * (place - 3.0)
+
+
 class Bending(Root):
     """arctan x = 0, beyond which whole steps go farther and farther."""
 
@@ -82,6 +95,32 @@ def test_the_steps_leave_what_the_next_ones_change(start: float) -> None:
 
 def test_steps_that_lead_away_leave_everything() -> None:
     assert steps(3.0, Root(1.0, 0.1, away=True)).left == math.inf
+
+
+def test_steps_that_take_back_a_rise_go_on() -> None:
+    found = steps(2.4, Beyond(1.0, 0.1))
+
+    told = found.left * abs(found.corrected[0] - found.before[0])
+    true = abs(found.corrected[0] - 3.0)
+    # the third of them has brought the residual from 2.2 to 0.4 of what it was
+    assert true < 0.02
+    assert told == pytest.approx(true, rel=0.1)
+
+
+def test_a_rise_that_is_taken_back_near_the_point_does_not_matter() -> None:
+    start = np.array([2.4, 5.0])
+
+    near, far = (
+        refined(Beyond(1.0, 0.1), start, MANY, UPRIGHT, seen)
+        for seen in (lambda _: False, lambda _: True)
+    )
+
+    assert abs(near.corrected[0] - 3.0) > 0.1
+    assert abs(far.corrected[0] - 3.0) < 0.02
+
+
+def test_a_rise_that_is_not_taken_back_leaves_everything() -> None:
+    assert steps(0.1, Beyond(1.0, 0.1)).left == math.inf
 
 
 def test_with_the_most_harmonics_steps_that_would_lead_away_are_halved() -> None:

@@ -198,8 +198,13 @@ class Blunt(Resolution):
         return np.array([point[:1] for point in points])
 
     def estimate(
-        self, correction: Correction, fourier: FourierBasis, _: Array
+        self,
+        correction: Correction,
+        fourier: FourierBasis,
+        _: Array,
+        tolerance: float = 0.0,
     ) -> Estimate:
+        assert tolerance > 0.0
         smoothing = 0.1 * fourier.threshold
         point, slope = correction.point, correction.linearised
         truncation = 0.5 if fourier.harmonics < self.needed else 0.0

@@ -58,6 +58,7 @@ def compared_figure(
         if decades:
             axes.set_xscale("log")
             plain_logarithmic(axes.xaxis)
+    _explain(figure, curves)
     headline(figure, title)
     return figure
 
@@ -88,7 +89,6 @@ def _amplitudes(
         axes.set_yscale("log")
     else:
         from_nothing(axes)
-    _explain(axes, curves)
 
 
 def _energies(
@@ -127,15 +127,27 @@ def _lines(
             )
 
 
-def _explain(axes: Axes, curves: Sequence[ResponseCurve]) -> None:
-    """Put the legend of the curves, and of what marks on them mean."""
+def _explain(figure: Figure, curves: Sequence[ResponseCurve]) -> None:
+    """Put the legend of the curves, and of what marks on them mean.
+
+    More of them than have a colour of their own stand beside the panels.
+    """
+    axes = figure.axes[0]
     events = {event for curve in curves for event in curve.event}
     styles = {kind: MARKERS[kind] for kind in MARKED if kind in events}
     if any((curve.unstable > 0).any() for curve in curves):
         styles["unstable"] = UNSTABLE
     for name, style in styles.items():
         axes.plot([], [], style, color="0.15", fillstyle="none", label=name)
-    axes.legend(frameon=False)
+    if len(curves) <= len(COLOURS):
+        axes.legend(frameon=False)
+        return
+    figure.legend(
+        *axes.get_legend_handles_labels(),
+        loc="outside right upper",
+        frameon=False,
+        fontsize="small",
+    )
 
 
 def _energy(curve: ResponseCurve) -> np.ndarray:

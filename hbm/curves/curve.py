@@ -102,7 +102,7 @@ class Curve:
         )
         settled = self.system.settled
         coarser = (correction.point, settled) if settled != fourier else None
-        told, finer = self._examined(made, kept, fourier, coarser)
+        told, finer = self._examined(made, kept, fourier, coarser, correction.tangent)
         if self.residual_range and told.unstable <= 0:
             told = replace(told, residual_range=self.residual_range.at(kept))
         asks = finer != fourier
@@ -125,15 +125,17 @@ class Curve:
         point: Array,
         fourier: FourierBasis,
         coarser: tuple[Array, FourierBasis] | None = None,
+        along: Array | None = None,
     ) -> tuple[PeriodicResponse, FourierBasis]:
         """Return a response with its multipliers, and the resolution they ask for.
 
-        ``coarser`` is the orbit with fewer harmonics, if it is known.
+        ``coarser`` is the orbit with fewer harmonics, and ``along`` the tangent of its
+        curve, if they are known.
         """
         points = self.problem.interface.points
         presses = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
         multipliers, finer, confirmed = self.multipliers.sure(
-            point, fourier, made.normal_smallest[presses], coarser
+            point, fourier, made.normal_smallest[presses], coarser, along
         )
         error = made.error if confirmed else np.inf
         return replace(made, error=error, multipliers=multipliers), finer

@@ -58,10 +58,11 @@ def crossing_error(
 def _slope(ends: tuple[float, float], share: float) -> float:
     """Return how steep what is zero at a share of a step is there.
 
-    It is that of the parabola through both ends, or of the line if it is at one.
+    It is that of the parabola through both ends, but no steeper than the line: at an
+    end the zero may be one of other orbits than those that have the values there.
     """
     first, last = (abs(end) for end in ends)
     left = 1.0 - share
     if share * left <= 0.0:
         return first + last
-    return (first * left**2 + last * share**2) / (share * left)
+    return min(first + last, (first * left**2 + last * share**2) / (share * left))

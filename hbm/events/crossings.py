@@ -23,6 +23,8 @@ stability"""
 ASTRAY = 0.01
 """distance of a multiplier from +1 at which an orbit as it is reported is no branch
 point: the crossing is located again with all harmonics, then more precisely"""
+NEAR = 0.01
+"""of a step, from its ends"""
 LEAP = 0.1
 """of the change of a multiplier between two points: what is left of its excess where it
 is located, from which on it leaps"""
@@ -79,6 +81,10 @@ class Crossings:
             located = self._among(segment, moving, finer, before, after, precision)
         if located is None:
             located = self._along(segment, moving, finer, precision)
+        if told != finer and _at_end(segment, located):
+            moving = MovingMultiplier(which, before.multipliers, after.multipliers)
+            again = self._along(segment, moving, told, precision)
+            located, finer = (again, told) if again else (located, finer)
         for each in (precision, PRECISION):
             if not self._astray(segment, located, moving, told):
                 break
@@ -226,6 +232,17 @@ class Crossings:
             found = self.multipliers.finer(point, finer)
             point, fourier = (point, fourier) if found is None else (found, finer)
         return moving.growth(self.multipliers.at(point, fourier))
+
+
+def _at_end(segment: Segment, located: Correction | None) -> bool:
+    """Return whether what was located lies about at an end of its step.
+
+    Orbits with fewer harmonics than those at the ends may cross beyond it.
+    """
+    if located is None:
+        return False
+    place = segment.place(located.point) / segment.length
+    return not NEAR < place < 1.0 - NEAR
 
 
 def _name(moving: MovingMultiplier) -> str:

@@ -77,6 +77,7 @@ class Multipliers:
         fourier: FourierBasis,
         normal_smallest: Array,
         coarser: tuple[Array, FourierBasis] | None = None,
+        along: Array | None = None,
     ) -> tuple[ComplexArray, FourierBasis, bool]:
         """Return the multipliers, of more harmonics if they ask for it, and which.
 
@@ -91,6 +92,9 @@ class Multipliers:
             Of each contact point that can lift off, during a period [N].
         coarser
             The same orbit with fewer harmonics, if it is known.
+        along
+            Tangent of the curve there, if it is known: beside a fold there are two
+            orbits at one parameter, or none.
         """
         known = self.at(point, fourier)
         falls = self._falls(point, fourier)
@@ -104,7 +108,7 @@ class Multipliers:
         most = self._most(falls=falls)
         while fourier.harmonics < most:
             fourier = _finer(fourier, most)
-            found = self.finer(orbit, fourier)
+            found = self.finer(orbit, fourier, along)
             confirmed = found is not None or not falls
             if found is None:
                 continue
@@ -136,15 +140,23 @@ class Multipliers:
         peak = np.minimum(points.threshold, points.stribeck)
         return bool((falling & (speeds > NEARLY * peak)).any())
 
-    def finer(self, point: Array, fourier: FourierBasis) -> Array | None:
-        """Return the orbit at the same parameter with another resolution, if found."""
+    def finer(
+        self, point: Array, fourier: FourierBasis, along: Array | None = None
+    ) -> Array | None:
+        """Return the orbit with another resolution, if it is found.
+
+        At the same parameter or, with the tangent ``along`` a curve, across that.
+        """
         point = self._with_room(point, fourier)
+        normal = upright(point)
+        if along is not None:
+            normal = self.resolution.across(self._with_room(along, fourier), point)
         vibration = float(np.linalg.norm(point[self.resolution.rank : -1]))
         changes = np.full_like(point, SMALL * vibration)
         found = correct(
             self.resolution.at(fourier),
             point,
-            upright(point),
+            normal,
             tolerance=self.control.tolerance,
             small=Small(lambda _: changes, self.control.loose),
             chord=CHORD,

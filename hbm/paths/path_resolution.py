@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.balance.balance import Balance
+from hbm.continuation.arc import plane_across
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path import Path
+from hbm.paths.path_metric import path_metric
 from hbm.resolution.resolution import Resolution
 from microslip_mechanics.arrays import Array, ComplexArray
 
@@ -53,6 +55,10 @@ class PathResolution(Resolution):
             return 0.0
         drive = float(np.linalg.norm(problem.force[1]))
         return CREEPS * problem.tractions.creep(frequency, drive)
+
+    def across(self, along: Array, point: Array) -> Array:
+        """Return the normal of the plane through a point across a curve's tangent."""
+        return plane_across(along, path_metric(self._path, point))
 
     def amplitudes(self, points: Sequence[Array]) -> Array:
         """Return the first-harmonic amplitude of each probe [m], (points, probes)."""

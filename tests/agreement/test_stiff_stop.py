@@ -176,11 +176,11 @@ def test_the_curve_of_a_mass_that_strikes_a_stiff_stop_is_whole(stop: float) -> 
     for each in found:
         size = np.hypot(*each.coefficients[1:3, 0])
         if not each.event and size > 1.02 * GAP:
-            _, (omega, share, _) = struck.near(each)
+            _, omega, share, _ = struck.at(each)
             exactly = struck.multiplier(omega, share * 2.0 * np.pi / omega)
             largest = float(np.abs(each.multipliers).max())
-            assert largest == pytest.approx(exactly, rel=0.1)
-            assert each.unstable == (exactly > 1.0) or abs(exactly - 1.0) < 0.02
+            assert largest == pytest.approx(exactly, rel=5e-3)  # measured 2.7e-3
+            assert each.unstable == (exactly > 1.0)
 
 
 @pytest.mark.parametrize("ends", [(4.6, 5.0), (5.0, 4.6)])

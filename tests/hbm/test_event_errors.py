@@ -10,6 +10,7 @@ import pytest
 
 from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.segment import Segment, folds
+from hbm.events.crossing_error import crossing_error
 from hbm.events.event_error import fold_error
 from hbm.events.found import found_between
 from hbm.forces.fourier import FourierBasis
@@ -263,3 +264,16 @@ def test_what_is_lost_to_one_side_may_fold_before_that() -> None:
     # the fold lies at x = 0.263, where p = 0.132: what is found at 0.1 and less rises
     assert error is not None
     assert error >= 0.132
+
+
+@pytest.mark.parametrize("place", [0.5, 0.999, 1.0])
+def test_a_crossing_near_an_end_errs_by_as_much_as_one_in_the_middle(
+    place: float,
+) -> None:
+    graph = Graph(lambda x: x, lambda _: 1.0)
+    segment = graph.segment(0.0, graph.at(1.0))
+
+    error = crossing_error(segment, graph.at(place), (-1.0, 1.0), 0.1, 1e-3)
+
+    # the excess changes by 2 while the parameter does by 1: twice a doubt of 0.1 is 0.1
+    assert error == pytest.approx(0.1 + 1e-3, rel=1e-3)

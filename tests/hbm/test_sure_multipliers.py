@@ -32,7 +32,9 @@ def sought(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """
     harmonics: list[int] = []
 
-    def finer(_: Multipliers, point: Array, fourier: FourierBasis) -> Array:
+    def finer(
+        _: Multipliers, point: Array, fourier: FourierBasis, *__: object
+    ) -> Array:
         harmonics.append(fourier.harmonics)
         return point
 
@@ -192,7 +194,7 @@ def test_a_multiplier_that_one_resolution_lacks_asks_for_more(
 def test_an_orbit_that_no_finer_one_confirms_is_in_doubt_where_friction_falls(
     falls: bool, sought: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def lost(_: Multipliers, __: Array, fourier: FourierBasis) -> None:
+    def lost(_: Multipliers, __: Array, fourier: FourierBasis, *___: object) -> None:
         sought.append(fourier.harmonics)
 
     monkeypatch.setattr(Multipliers, "finer", lost)
@@ -209,7 +211,9 @@ def test_an_orbit_that_no_finer_one_confirms_is_in_doubt_where_friction_falls(
 def test_one_orbit_that_is_found_at_last_confirms(
     sought: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def late(_: Multipliers, point: Array, fourier: FourierBasis) -> Array | None:
+    def late(
+        _: Multipliers, point: Array, fourier: FourierBasis, *__: object
+    ) -> Array | None:
         sought.append(fourier.harmonics)
         return point if fourier.harmonics == 63 else None
 

@@ -63,7 +63,7 @@ def _run(options: argparse.Namespace) -> int:
         ),
     )
     save(data, Stored(curve, followed.scene.text, options.command))
-    title = f"{arguments.title(options)}, {options.frequency:g} Hz"
+    title = f"{arguments.title(options)}, {options.frequency:.9g} Hz"
     with written(f"{curve.frequency.size} points in {data}", picture):
         print(_table(curve), *residual_range(curve), sep="\n")
         save_figure(picture, curve_figure(curve, title))

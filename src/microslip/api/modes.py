@@ -90,7 +90,8 @@ def modes(
     if not asked.smallest < asked.largest:
         low, high = apart(asked.smallest, asked.largest)
         raise GivenError(
-            f"{NAME}: smallest = {low} m, largest = {high} m: give the smaller one first"
+            f"{NAME}: smallest = {low} m, largest = {high} m: give the smaller one "
+            "first"
         )
     given = checked(NAME, problem)
     turn = sorted((math.tau * asked.lowest, math.tau * asked.highest))

@@ -94,7 +94,9 @@ def _lift(axes: Axes, legend: Legend) -> None:
 
 def _tops(axes: Axes, left: float, right: float) -> Iterator[float]:
     """Yield how high lines and areas come between two shares of a panel's width."""
-    paths = [line.get_transform().transform_path(line.get_path()) for line in axes.lines]
+    paths = [
+        line.get_transform().transform_path(line.get_path()) for line in axes.lines
+    ]
     paths += [
         axes.transData.transform_path(path)
         for area in axes.collections

@@ -1,17 +1,12 @@
-"""Legends that cover no line, titles that fit, and close-ups that are close."""
-
-import dataclasses
+"""Legends that cover no line, and titles that fit."""
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from microslip.figures.close_up import worth
-from microslip.figures.curve import curve_figure
 from microslip.figures.fitted import fitted
-from microslip_mechanics.results.response_curve import ResponseCurve
 
-LONG = "the transverse displacement of the tip of the longest beam"
+LONG = "the transverse displacement of the tip"
 
 
 def _drawn(heights: np.ndarray, scale: str, label: str, count: int) -> Figure:
@@ -53,33 +48,10 @@ def test_where_there_is_room_an_axis_stays_as_it_is() -> None:
 def test_a_title_takes_as_many_lines_as_it_needs() -> None:
     figure = Figure(figsize=(8.0, 3.0), layout="constrained")
     left, right = figure.subplots(1, 2)
-    left.set_title(f"Amplitude of {LONG}, and some more of it", loc="left")
+    left.set_title(f"Amplitude of {LONG}, {LONG}", loc="left")
     right.set_title("Amplitude", loc="left")
 
     fitted(figure)
 
     assert "\n" in left.get_title(loc="left")
     assert right.get_title(loc="left") == "Amplitude"
-
-
-def test_a_close_up_of_everything_is_left_out(small_curve: ResponseCurve) -> None:
-    hertz = np.linspace(2.0, 12.0, 41)
-    curve = dataclasses.replace(
-        small_curve,
-        **{
-            each.name: np.resize(value, (41, *value.shape[1:]))
-            for each in dataclasses.fields(small_curve)
-            if isinstance(value := getattr(small_curve, each.name), np.ndarray)
-        },
-        outcome=("converged",) * 41,
-    )
-    curve = dataclasses.replace(curve, frequency=2.0 * np.pi * hertz)
-    every, few = ("fold",) * 41, ("",) * 19 + ("fold", "peak") + ("",) * 20
-
-    whole = dataclasses.replace(curve, event=every)
-    part = dataclasses.replace(curve, event=few)
-
-    assert not worth(whole)
-    assert worth(part)
-    titles = [each.get_title(loc="left") for each in curve_figure(whole, "").axes]
-    assert not any(title.startswith("Close-up") for title in titles)

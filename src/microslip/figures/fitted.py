@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import textwrap
 from collections.abc import Iterator
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,13 +17,18 @@ from matplotlib.transforms import Bbox
 
 from microslip_mechanics.arrays import Array
 
+Corner = Literal["upper left", "upper right"]
 WIDE = 1.04
 """width of a title over that of its panel, from which on it takes more lines"""
 TALLEST = 0.7
 """share of a panel that a legend above lines may take"""
-GAP = 0.03
+GAP = 0.02
 """share of a panel between such a legend and the lines"""
-CORNERS = {"upper left": 0.0, "upper right": 1.0}
+INSIDE, OUTSIDE = 0.8, 0.5
+"""height of a legend's margins, and of what is above it, over that of its letters"""
+POINTS = 72.0
+"""in an inch"""
+CORNERS: dict[Corner, float] = {"upper left": 0.0, "upper right": 1.0}
 """where it may be: in which share of the panel's width"""
 
 
@@ -37,7 +43,9 @@ def fitted(figure: Figure) -> None:
     for axes in figure.axes:
         _break_title(axes)
         legend = axes.get_legend()
-        if legend is not None and _covers(axes, legend.get_window_extent()):
+        if legend is None or not legend.get_texts():
+            continue
+        if _covers(axes, legend.get_window_extent()):
             _lift(axes, legend)
 
 
@@ -63,7 +71,7 @@ def _passes(line: Line2D, box: Bbox) -> bool:
     """Return whether a line, or a mark of one without a line, is in a box."""
     path = line.get_transform().transform_path(line.get_path())
     if line.get_linestyle() == "None":
-        return any(box.contains(*place) for place in path.vertices)
+        return any(box.contains(x, y) for x, y in np.asarray(path.vertices))
     return bool(path.intersects_bbox(box, filled=False))
 
 
@@ -71,25 +79,34 @@ def _lift(axes: Axes, legend: Legend) -> None:
     """Put a legend where its panel must be stretched least to have it above lines."""
     box, count = legend.get_window_extent(), len(legend.get_texts())
     panel, most = axes.bbox, int(axes.bbox.width / box.width)
-    found: list[tuple[float, int, str]] = []
+    found: list[tuple[float, int, Corner]] = []
     for columns, (corner, side) in itertools.product(
         range(1, max(1, min(count, most)) + 1), CORNERS.items()
     ):
-        rows = -(-count // columns)
         width = columns * box.width / panel.width
-        height = min(TALLEST, rows / count * box.height / panel.height + GAP)
+        height = _height(legend, -(-count // columns)) / panel.height + GAP
         left = side * (1.0 - width)
         top = max(_tops(axes, left, left + width), default=0.0)
-        found.append((max(1.0, top / (1.0 - height)), columns, corner))
+        stretch = max(1.0, top / (1.0 - min(TALLEST, height)))
+        found.append((stretch, columns, corner))
     stretch, columns, corner = min(found)
     scale = axes.yaxis.get_transform()
     low, high = scale.transform(axes.get_ylim())
     axes.set_ylim(top=float(scale.inverted().transform(low + stretch * (high - low))))
     texts = legend.get_texts()
+    handles = [handle for handle in legend.legend_handles if handle is not None]
     axes.legend(
-        legend.legend_handles, [text.get_text() for text in texts], frameon=False,
-        fontsize=texts[0].get_fontsize(), ncols=columns, loc=corner,
+        handles, [text.get_text() for text in texts], frameon=False, ncols=columns,
+        fontsize=texts[0].get_fontsize(), loc=corner,
     )  # fmt: skip
+
+
+def _height(legend: Legend, rows: int) -> float:
+    """Return how far down a legend of so many rows reaches [pixels]."""
+    letters = legend.prop.get_size_in_points() * legend.axes.figure.dpi / POINTS
+    margin, count = INSIDE * letters, len(legend.get_texts())
+    row = (legend.get_window_extent().height - margin) / count
+    return rows * row + margin + OUTSIDE * letters
 
 
 def _tops(axes: Axes, left: float, right: float) -> Iterator[float]:

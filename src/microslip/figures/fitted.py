@@ -121,8 +121,7 @@ def _tops(axes: Axes, left: float, right: float) -> Iterator[float]:
     ]
     for path in paths:
         places: Array = axes.transAxes.inverted().transform(path.vertices)
-        places = places[np.isfinite(places).all(axis=1)]
-        first, last = places[:-1], places[1:]
+        first, last = np.vstack([places, places[:-1]]), np.vstack([places, places[1:]])
         across = np.maximum(first[:, 0], last[:, 0]) >= left
         across &= np.minimum(first[:, 0], last[:, 0]) <= right
         yield float(np.maximum(first, last)[across, 1].max(initial=0.0))

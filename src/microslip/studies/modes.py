@@ -107,9 +107,7 @@ def followed(
             return
 
 
-def _none(
-    problem: Problem, rest: StaticState, frequencies: tuple[float, float]
-) -> str:
+def _none(problem: Problem, rest: StaticState, frequencies: tuple[float, float]) -> str:
     """Return what is said of a range [rad/s] without modes."""
     stuck = " while its contacts stick" if rubs(problem.interface.points) else ""
     lowest, highest = frequencies

@@ -151,7 +151,7 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
         (COLOURS[0], "friction", curve.friction_energy),
         (COLOURS[1], damping, curve.damping_energy),
     ):
-        if name != "friction" and not np.nanmax(energy, initial=0.0) > 0.0:
+        if not _largest(energy):
             continue
         axes.plot(
             abscissa(curve),

@@ -63,7 +63,9 @@ def one_harmonic_response(
     start, end = limits
     if frequency is not None:
         start, end = _towards(frequency, limits), frequency
-    options = CurveOptions(start, end, harmonics=1, samples=SAMPLES, stability=False)
+    options = CurveOptions(
+        start, end, harmonics=1, samples=SAMPLES, stability=False, errors=False
+    )
     curve = frequency_response(problem, rest, options)
     if frequency is not None:
         return _met(curve, frequency)
@@ -140,7 +142,9 @@ def _at_frequency(
             yield response
     except ContinuationError:
         start = _towards(frequency, limits)
-        options = CurveOptions(start, frequency, harmonics=DETOUR, stability=False)
+        options = CurveOptions(
+            start, frequency, harmonics=DETOUR, stability=False, errors=False
+        )
         yield _met(frequency_response(problem, rest, options), frequency)
 
 

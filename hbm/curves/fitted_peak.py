@@ -7,6 +7,7 @@ flat top is easily missed by that.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -20,15 +21,15 @@ from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
 
 REACHES = (1e-2, 3e-3, 1e-3, 3e-4)
-"""how far about a peak responses are looked at, over its frequency: the first that
-does"""
+"""how far about a peak responses are looked at, over its frequency"""
 PLACES, DEGREE = np.linspace(-1.0, 1.0, 9), 4
 """of the responses, over the reach, and of the polynomial in them"""
 SAMPLES = 4096
 """of each response"""
-MISSED, FLAT = 1e-3, 1e-4
-"""by how much the polynomial may miss an amplitude, over the drop to the ends, and the
-drop over the amplitude that is needed for it"""
+SURE, MISSED, FLAT = 1e-3, 1e-2, 1e-4
+"""by how much a polynomial may miss an amplitude, over the drop to the ends: the first
+one that does by less than that, else the best of all; and the drop over the amplitude
+that is needed for it"""
 LOWER = 1e-3
 """than the known peak, relative: from which on a response lies on another branch"""
 
@@ -41,52 +42,72 @@ def fitted_peak(
     It has as many harmonics. Where the amplitude is no smooth function of the
     frequency, as at a bent peak, the known one is returned.
     """
+    least, factor = MISSED, 1.0
     for reach in REACHES:
         try:
-            found = _fitted(problem, rest, peak, reach)
+            missed, top = _top(_sizes(problem, rest, peak, reach))
         except ContinuationError:
             continue
-        if found is not None:
-            return found
-    return peak
+        if missed < least:
+            least, factor = missed, 1.0 + reach * top
+        if least <= SURE:
+            break
+    try:
+        found = _beside(problem, rest, peak, factor)
+    except ContinuationError:
+        return peak
+    if least == MISSED or _size(problem, found) < (1.0 - LOWER) * _size(problem, peak):
+        return peak
+    return replace(found, event=peak.event, parameter=found.frequency)
 
 
-def _fitted(
+def _sizes(
     problem: Problem, rest: StaticState, peak: PeriodicResponse, reach: float
-) -> PeriodicResponse | None:
-    """Return it by responses within a reach; None if no polynomial has their top.
+) -> Array:
+    """Return the amplitudes of responses within a reach [m].
 
     Raises
     ------
     ContinuationError
         If one of them does not converge.
     """
-
-    def at(place: float) -> PeriodicResponse:
-        beside = replace(peak, frequency=(1.0 + reach * place) * peak.frequency)
-        return periodic_response(
-            problem, rest, beside, harmonics=peak.harmonics, samples=SAMPLES
-        )
-
-    top = _top(np.array([_size(problem, at(place)) for place in PLACES]))
-    if top is None:
-        return None
-    found = at(top)
-    if _size(problem, found) < (1.0 - LOWER) * _size(problem, peak):
-        return None
-    return replace(found, event=peak.event, parameter=found.frequency)
+    return np.array(
+        [
+            _size(problem, _beside(problem, rest, peak, 1.0 + reach * place))
+            for place in PLACES
+        ]
+    )
 
 
-def _top(sizes: Array) -> float | None:
-    """Return the place of the largest of amplitudes; None if they have no clear top."""
+def _beside(
+    problem: Problem, rest: StaticState, peak: PeriodicResponse, factor: float
+) -> PeriodicResponse:
+    """Return the response at ``factor`` times the frequency.
+
+    Raises
+    ------
+    ContinuationError
+        If it does not converge.
+    """
+    guess = replace(peak, frequency=factor * peak.frequency)
+    return periodic_response(
+        problem, rest, guess, harmonics=peak.harmonics, samples=SAMPLES
+    )
+
+
+def _top(sizes: Array) -> tuple[float, float]:
+    """Return how a polynomial misses amplitudes, and the place of its largest value.
+
+    It misses by infinity if there is no clear top.
+    """
     fit = Polynomial.fit(PLACES, sizes, DEGREE)
     drop = float(sizes.max() - sizes[[0, -1]].max())
-    missed = float(np.abs(fit(PLACES) - sizes).max())
-    if drop < FLAT * sizes.max() or missed > MISSED * drop:
-        return None
     turns = fit.deriv().roots()
     places = turns.real[(turns.imag == 0.0) & (np.abs(turns.real) < 1.0)]
-    return float(places[fit(places).argmax()]) if places.size else None
+    if drop < FLAT * sizes.max() or not places.size:
+        return math.inf, 0.0
+    missed = float(np.abs(fit(PLACES) - sizes).max())
+    return missed / drop, float(places[fit(places).argmax()])
 
 
 def _size(problem: Problem, response: PeriodicResponse) -> float:

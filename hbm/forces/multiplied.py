@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 
+from hbm.forces.by_thread import ByThread
 from hbm.forces.fourier import Transform, to_complex
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.jit import inner_kernel, kernel
@@ -34,7 +33,7 @@ def multiplied(now: Array, rate: Array, harmonics: int) -> Array:
     return matrix
 
 
-_transform = lru_cache(maxsize=8)(Transform)
+_transform = ByThread(Transform)
 
 
 @kernel

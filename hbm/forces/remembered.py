@@ -8,12 +8,12 @@ is a tangent like any other, the latter a few numbers in a period.
 from __future__ import annotations
 
 import itertools
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.forces.by_thread import ByThread
 from hbm.forces.fourier import FourierBasis, Transform, derivative
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.loop_gradient import LoopGradient
@@ -117,13 +117,13 @@ def _rests(loops: list[Loop]) -> Array:
     return made.reshape(len(loops), 2 * runs, -1)
 
 
-@lru_cache(maxsize=8)
+@ByThread
 def _buffers(motions: int, tractions: int, samples: int) -> tuple[Transform, Transform]:
     """Return room for the motions, their slopes too if they count, and tractions."""
     return Transform(motions, samples), Transform(tractions, samples)
 
 
-_factors = lru_cache(maxsize=8)(Transform)
+_factors = ByThread(Transform)
 
 
 @kernel

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import NDArray
 
+from hbm.forces.by_thread import ByThread
 from hbm.forces.fourier import Transform, derivative
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
@@ -53,7 +52,7 @@ class TangentProduct:
         return force.analysis(len(coefficients) // 2)
 
 
-@lru_cache(maxsize=8)
+@ByThread
 def _buffers(motions: int, rank: int, samples: int) -> tuple[Transform, Transform]:
     """Return room for displacements, velocities too if they count, and the force."""
     return Transform(motions, samples), Transform(rank, samples)

@@ -12,7 +12,7 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import PointLaw, contact_table
 from microslip_mechanics.laws.row import Direction, Law, Row
-from microslip_mechanics.structures.forms import Pair, relative
+from microslip_mechanics.structures.forms import Pair, is_name, relative
 
 KEYS = ("between", "normal", "tangents", "rotations")
 """by which an element says in what directions its law acts"""
@@ -39,10 +39,8 @@ class Element:
 
     def __post_init__(self) -> None:
         """Check that the law is one, and the name a text."""
-        if not isinstance(self.name, str | None):
-            raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
-                f"Element: name = {self.name!r}: give a text"
-            )
+        if self.name not in ("", None) and not is_name(self.name):
+            raise ValueError(f"Element: name = {self.name!r}: give a text of one line")
         if isinstance(self.law, type):
             kind = self.law.__name__
             keys = ", ".join(

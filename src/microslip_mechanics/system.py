@@ -20,7 +20,13 @@ from microslip_mechanics.loads.given_loads import (
 from microslip_mechanics.loads.node_sets import Sets, given_sets
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structures.damping import Damping
-from microslip_mechanics.structures.forms import Form, Pair, form, relative
+from microslip_mechanics.structures.forms import (
+    Form,
+    Pair,
+    form,
+    is_name,
+    relative,
+)
 from microslip_mechanics.structures.given_matrices import (
     check_like,
     check_massive,
@@ -133,10 +139,8 @@ def _probes(given: ProbeForms | None, names: tuple[str, ...]) -> Probes:
 def _probe(name: str, wanted: Form | Pair, names: tuple[str, ...]) -> Array:
     """Return what a probe sees of the motion, shape (dofs,)."""
     what = f"probe {name}"
-    if not isinstance(name, str):
-        raise ValueError(  # noqa: TRY004  (one kind of error for one kind of fault)
-            f"{what}: give a text as its name"
-        )
+    if not is_name(name):
+        raise ValueError(f"probe {name!r}: give a text of one line as its name")
     if isinstance(wanted, (str, Mapping)):
         row = form(wanted, names, what)
     else:

@@ -14,21 +14,21 @@ MASS, STIFFNESS, DAMPING, SLIDER, DRIVE = 1.0, 1e4, 1.0, 5e3, 0.5
 """of the scene ``jenkins``"""
 
 
-def jenkins(amplitude: float, limit: float) -> complex:
+def jenkins(amplitude: float, limit: float, slider: float = SLIDER) -> complex:
     """Return the describing function of Jenkins' element [N/m]."""
-    if amplitude <= limit / SLIDER:
-        return SLIDER
-    angle = np.arccos(1.0 - 2.0 * limit / SLIDER / amplitude)
+    if amplitude <= limit / slider:
+        return slider
+    angle = np.arccos(1.0 - 2.0 * limit / slider / amplitude)
     elastic = angle - 0.5 * np.sin(2.0 * angle)
-    return complex(SLIDER / np.pi * (elastic + 1j * np.sin(angle) ** 2))
+    return complex(slider / np.pi * (elastic + 1j * np.sin(angle) ** 2))
 
 
-def exact(frequency: float, limit: float) -> float:
+def exact(frequency: float, limit: float, slider: float = SLIDER) -> float:
     """Return the one-harmonic amplitude [m] at a frequency [rad/s]."""
     linear = STIFFNESS - MASS * frequency**2 + 1j * frequency * DAMPING
     return float(
         brentq(
-            lambda size: size * abs(linear + jenkins(size, limit)) - DRIVE,
+            lambda size: size * abs(linear + jenkins(size, limit, slider)) - DRIVE,
             1e-9,
             1.0,
             xtol=1e-16,
@@ -54,3 +54,22 @@ def test_the_peak_is_where_the_describing_function_has_it(limit: float) -> None:
     assert found.frequency == pytest.approx(best.x, rel=3e-6)
     (size,) = found.amplitudes(problem.probes.rows)
     assert size == pytest.approx(exact(best.x, limit), rel=3e-6)
+
+
+@pytest.mark.parametrize("limit", [0.44, 0.46])
+def test_the_peak_of_a_stiff_slider_is_where_a_broad_top_has_it(limit: float) -> None:
+    stiff = 8e4
+    slider = [f"element.slider.limit={limit}", f"element.slider.stiffness={stiff}"]
+    problem = problem_of(load_scene("jenkins", slider))
+    best = minimize_scalar(
+        lambda frequency: -1e3 * exact(frequency, limit, stiff),
+        bounds=(19.0 * TURN, 22.0 * TURN),
+        method="bounded",
+        options={"xatol": 1e-9},
+    )
+
+    found = one_harmonic_response(
+        problem, static_equilibrium(problem), (14.0 * TURN, 50.0 * TURN)
+    )
+
+    assert found.frequency == pytest.approx(best.x, rel=2e-5)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from figure_checks import check_lines, legend, unique, unmarked
 from microslip.figures.abscissa import abscissa
 from microslip.figures.amplitude import frequency_response, stretches
-from microslip.figures.close_up import close_up, crowd
+from microslip.figures.close_up import close_up, crowd, worth
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 
@@ -152,6 +152,15 @@ def test_a_close_up_shows_what_is_around_a_crowd(
     axes.clear()
     close_up(axes, dataclasses.replace(curve, unstable=curve.unstable - 1.0))
     assert legend(axes)[0] == "curve"  # nobody knows whether it is stable
+
+
+def test_a_close_up_of_nearly_everything_is_none(small_curve: ResponseCurve) -> None:
+    hertz = [float(each) for each in np.linspace(2.0, 12.0, 41)]
+    beside = ("",) * 19 + ("fold", "peak") + ("",) * 20
+
+    assert worth(_located(small_curve, hertz, beside))
+    assert not worth(_located(small_curve, hertz, ("fold",) * 41))
+    assert not worth(_located(small_curve, hertz, ("",) * 41))
 
 
 def test_a_curve_without_points_has_no_crowd(small_curve: ResponseCurve) -> None:

@@ -72,6 +72,16 @@ def test_what_only_rounding_moves_has_no_axis_of_rounding(
     assert axes.yaxis.get_offset_text().get_text() == ""
 
 
+def test_energy_of_friction_that_there_is_not_is_not_drawn(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curve = dataclasses.replace(small_curve, friction_energy=np.zeros(4))
+
+    curves.dissipated_energy(axes, curve)
+
+    assert legend(axes) == ["normal contact damping"]
+
+
 def test_energy_of_contacts_that_stick_throughout_has_no_axis_of_rounding(
     axes: Axes, small_curve: ResponseCurve
 ) -> None:

@@ -34,6 +34,18 @@ def test_damping_that_rounding_hides_has_an_absolute_error() -> None:
     )
 
 
+def test_damping_of_most_cycles_is_known_though_some_beat() -> None:
+    still = np.ones(9)
+    decay = RingDown(np.arange(9.0), still, still, 0.01 * still)
+
+    told = errors(decay, 1.0, 1.5, 2e-4)
+
+    assert told.startswith(
+        "frequency 1.0e+00 of the largest; damping ratio 2.0e-02 % in the median"
+    )
+    assert "no damping can be measured" in errors(decay, 1.0, 1.5, 5e-3)
+
+
 def test_small_damping_keeps_its_digits() -> None:
     still = np.ones(2)
 

@@ -237,3 +237,16 @@ def test_errors_along_a_parameter_name_it(label: str, place: str) -> None:
     assert next(points) == 1
     with pytest.raises(ContinuationError, match=f"^it is lost at {place}: try less$"):
         next(points)
+
+
+def test_the_table_of_a_drive_that_vanishes_is_spread_along_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["follow", "duffing", "drive.x", "0.2", "0", "--frequency", "5.2"]
+
+    assert main([*words, "-o", str(tmp_path / "a")]) == 0
+
+    rows = capsys.readouterr().out.splitlines()[2:-1]
+    drives = [float(row.split()[0]) for row in rows]
+    assert sum(drive < 0.002 for drive in drives) <= 2
+    assert len(drives) >= 10

@@ -186,7 +186,7 @@ MALFORMED: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
         edited(
             'highest = "145 Hz"\ntolerance', "highest = 125.00000000000003\ntolerance"
         ),
-        ("[curve]", "lowest = 125 Hz", "highest = 125 Hz"),
+        ("[curve]", "lowest = 125 Hz", "highest = 125.00000000000003 Hz"),
     ),
     "angles that make no wedge": (
         edited('"20 deg"', '"-20 deg"'),

@@ -91,6 +91,7 @@ def test_modes_stick_where_there_is_friction(
     assert ("while its contacts stick" in output) == sticks
     *_, error = run("modes", name, "--range", "1e5 Hz", "2e5 Hz")
     assert "no mode has a natural frequency in this range" in error
+    assert "the nearest is " in error
     assert ("while its contacts stick" in error) == sticks
 
 

@@ -10,6 +10,7 @@ from microslip.api.arguments import check_apart, check_single, checked, named, r
 from microslip.errors import GivenError
 from microslip.scenes.experiments import HERTZ
 from microslip.scenes.quantity import quantity
+from microslip_mechanics.quantity import apart
 
 if TYPE_CHECKING:
     from microslip.studies.modes import FollowedMode
@@ -87,9 +88,10 @@ def modes(
     )
     check_apart(NAME, asked.lowest, asked.highest)
     if not asked.smallest < asked.largest:
+        low, high = apart(asked.smallest, asked.largest)
         raise GivenError(
-            f"{NAME}: smallest = {asked.smallest:g} m, largest = {asked.largest:g} m: "
-            "give the smaller one first"
+            f"{NAME}: smallest = {low} m, largest = {high} m: give the smaller one "
+            "first"
         )
     given = checked(NAME, problem)
     turn = sorted((math.tau * asked.lowest, math.tau * asked.highest))

@@ -91,7 +91,7 @@ def _run(options: argparse.Namespace) -> int:
     columns = (decay.time, decay.amplitude, hertz, decay.damping)
     with named(f"decay in {data}"):
         save_table(table, COLUMNS, zip(*columns, strict=True))
-    title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:g} Hz"
+    title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:.9g} Hz"
     with written(f"decay in {data}, table in {table}", picture):
         lost = too_fast(problem, history, probe)
         print("\n".join(cycles(decay, history.probes[probe], lost)))

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 COLUMNS = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
 SHOWN = 20
+SMALL = 0.1
+"""of the damping, that its error is where it is known"""
 GROWS = -1e-6
 """damping ratio below which an amplitude grows by more than the table shows"""
 
@@ -54,15 +56,25 @@ def cycles(decay: RingDown, probe: str, too_fast: int = 0) -> list[str]:
     return rows
 
 
-def errors(decay: RingDown, frequency: float, damping: float) -> str:
+def errors(
+    decay: RingDown, frequency: float, damping: float, usual: float = math.inf
+) -> str:
     """Return what time steps and rows change, over the largest of each.
 
-    Damping that is not larger than its error has an absolute one.
+    Damping that is not larger than its error has an absolute one: that in the median
+    of the cycles, ``usual``, where this is far less than their median damping.
     """
     if math.isnan(frequency):
         return "not known: steps twice as long show no swings"
     if damping < 1.0:
         return f"frequency {frequency:.1e}, damping {damping:.1e}, of the largest"
+    middle = sorted(abs(decay.damping))[decay.damping.size // 2]
+    if usual < SMALL * middle:
+        return (
+            f"frequency {frequency:.1e} of the largest; damping ratio "
+            f"{100.0 * usual:.1e} % in the median of the cycles, and as much as the "
+            "largest where several motions beat"
+        )
     ratio = damping * float(abs(decay.damping).max())
     return (
         f"frequency {frequency:.1e} of the largest; no damping can be measured, its "

@@ -81,7 +81,7 @@ def _run(options: argparse.Namespace) -> int:
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     history, distances, ending = dwelled(options, scene, problem, data)
-    title = f"{arguments.title(options)}, {options.frequency:g} Hz"
+    title = f"{arguments.title(options)}, {options.frequency:.9g} Hz"
     with written(f"{len(distances)} periods in {data}", picture):
         print("\n".join(_lines(options, history, distances)))
         errors = estimates(history, extremes(history))
@@ -185,7 +185,7 @@ def _lines(
         far = f"it repeats itself every {many} periods"
     found = amplitudes(history, math.tau * options.frequency)
     return [
-        f"{options.frequency:g} Hz: {'steady' if steady else 'NOT steady'} after "
+        f"{options.frequency:.9g} Hz: {'steady' if steady else 'NOT steady'} after "
         f"{len(distances)} periods, {history.time[-1]:.4g} s; {far}",
         "first harmonic of the last period [mm]",
         *(

@@ -14,6 +14,9 @@ from microslip.commands.written import written
 if TYPE_CHECKING:
     from microslip_mechanics.results.response_curve import ResponseCurve
 
+ROWS = 13
+"""of a table, about"""
+
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
@@ -63,7 +66,7 @@ def _run(options: argparse.Namespace) -> int:
         ),
     )
     save(data, Stored(curve, followed.scene.text, options.command))
-    title = f"{arguments.title(options)}, {options.frequency:g} Hz"
+    title = f"{arguments.title(options)}, {options.frequency:.9g} Hz"
     with written(f"{curve.frequency.size} points in {data}", picture):
         print(_table(curve), *residual_range(curve), sep="\n")
         save_figure(picture, curve_figure(curve, title))
@@ -72,8 +75,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _table(curve: ResponseCurve) -> str:
     """Return about a dozen points, and all events."""
-    evenly = range(0, curve.parameter.size, max(1, curve.parameter.size // 12))
-    places = {*evenly, curve.parameter.size - 1}
+    places = _spread(curve)
     places |= {place for place, name in enumerate(curve.event) if name}
     probes = tabled(curve.probes, curve.amplitude.max(axis=0))
     names = [curve.probes[each] for each in probes]
@@ -97,6 +99,20 @@ def _table(curve: ResponseCurve) -> str:
         event = curve.event[place] + about(curve.parameter_error[place])
         lines.append(" ".join(values) + f"  {event}")
     return "\n".join(lines)
+
+
+def _spread(curve: ResponseCurve) -> set[int]:
+    """Return points about evenly spread along the curve as a picture shows it."""
+    import numpy as np
+
+    from microslip.figures.abscissa import over_decades
+
+    at, size = curve.parameter, curve.amplitude.max(axis=1, initial=0.0)
+    at = np.log(at) if over_decades(at) else at
+    across, up = (np.diff(each) / (np.ptp(each) or 1.0) for each in (at, size))
+    way = np.append(0.0, np.hypot(across, up).cumsum())
+    wanted = np.linspace(0.0, way[-1], ROWS)
+    return {int(abs(way - each).argmin()) for each in wanted}
 
 
 def _multiplier(curve: ResponseCurve, place: int) -> str:

@@ -161,15 +161,15 @@ def _chosen(options: argparse.Namespace) -> ModeOptions:
     """
     from hbm.modes.mode_options import ModeOptions
     from microslip.scenes.quantity import SceneError
+    from microslip_mechanics.quantity import apart
 
     if options.range and not options.range[0] < options.range[1]:
-        low, high = options.range
-        raise SceneError(f"--range {low:g} {high:g}: give the lower frequency first")
+        low, high = apart(*options.range)
+        raise SceneError(f"--range {low} {high}: give the lower frequency first")
     smallest, largest = options.amplitudes
     if not smallest < largest:
-        raise SceneError(
-            f"--amplitudes {smallest:g} {largest:g}: give the smaller one first"
-        )
+        low, high = apart(smallest, largest)
+        raise SceneError(f"--amplitudes {low} {high}: give the smaller one first")
     amplitudes = 1e-3 * smallest, 1e-3 * largest
     chosen = ModeOptions(
         *amplitudes, error=options.tolerance, harmonics=options.harmonics

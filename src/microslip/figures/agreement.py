@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from microslip.figures.abscissa import FREQUENCY, abscissa, parted
 from microslip.figures.amplitude import frequency_response, greatest
+from microslip.figures.fitted import fitted
 from microslip.figures.names import absolute, readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip_mechanics.arrays import Array
@@ -72,6 +73,7 @@ def agreement_figure(
             _energy(panels[1, 1], energies)
         else:
             panels[1, 1].remove()
+    fitted(figure)
     headline(figure, title)
     return figure
 

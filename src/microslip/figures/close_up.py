@@ -27,6 +27,17 @@ FLAT = 1e-3
 """of an amplitude, that a close-up of it shows above and below at least"""
 BESIDE = 0.5
 """of what is located, that a close-up shows to either side of it"""
+CLOSE = 0.6
+"""of the whole range, that a close-up is narrower than"""
+
+
+def worth(curve: ResponseCurve) -> bool:
+    """Return whether a close-up shows more than the picture of the whole curve."""
+    if not crowd(curve):
+        return False
+    low, high = _window(curve)
+    at = abscissa(curve)
+    return high - low < CLOSE * float(np.ptp(at[np.isfinite(at)]))
 
 
 def close_up(axes: Axes, curve: ResponseCurve) -> None:
@@ -74,7 +85,10 @@ def crowd(curve: ResponseCurve) -> list[int]:
 
 
 def _window(curve: ResponseCurve) -> tuple[float, float]:
-    """Return the ends of a close-up: all that is located beside the crowd is in it."""
+    """Return the ends of a close-up: all that is located beside the crowd is in it.
+
+    It does not go beyond those of the curve.
+    """
     at = abscissa(curve)
     located = [i for i, event in enumerate(curve.event) if event in MARKERS]
     width = NEAR * np.ptp(at[np.isfinite(at)])
@@ -86,4 +100,5 @@ def _window(curve: ResponseCurve) -> tuple[float, float]:
             break
         inside = wider
     room = BESIDE * float(np.ptp(inside))
-    return float(inside.min()) - room, float(inside.max()) + room
+    low, high = max(inside.min() - room, np.nanmin(at)), inside.max() + room
+    return float(low), float(min(high, np.nanmax(at)))

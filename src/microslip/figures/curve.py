@@ -18,7 +18,8 @@ from microslip.figures.abscissa import (
     parted,
 )
 from microslip.figures.amplitude import frequency_response, greatest, some
-from microslip.figures.close_up import close_up, crowd
+from microslip.figures.close_up import close_up, worth
+from microslip.figures.fitted import fitted
 from microslip.figures.names import (
     absolute,
     faces,
@@ -62,7 +63,7 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
     """
     curve = parted(curve)
     drawn = [frequency_response, sliding_velocity]
-    if crowd(curve) and not by_decades(curve):
+    if worth(curve) and not by_decades(curve):
         drawn.insert(1, close_up)
     if (_largest(curve.friction_energy), _largest(curve.damping_energy)) != (0.0, 0.0):
         drawn.append(dissipated_energy)
@@ -77,6 +78,7 @@ def curve_figure(curve: ResponseCurve, title: str) -> Figure:
         if by_decades(curve):
             axes.set_xscale("log")
             plain_logarithmic(axes.xaxis)
+    fitted(figure)
     headline(figure, title)
     return figure
 
@@ -149,7 +151,7 @@ def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
         (COLOURS[0], "friction", curve.friction_energy),
         (COLOURS[1], damping, curve.damping_energy),
     ):
-        if name != "friction" and not np.nanmax(energy, initial=0.0) > 0.0:
+        if not _largest(energy):
             continue
         axes.plot(
             abscissa(curve),

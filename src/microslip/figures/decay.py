@@ -7,6 +7,7 @@ import math
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from microslip.figures.fitted import fitted
 from microslip.figures.names import readable
 from microslip.figures.style import (
     COLOURS,
@@ -51,6 +52,7 @@ def decay_figure(
         widened(damping, ROUNDING)
     if (decay.amplitude > 0.0).all() and decay.amplitude.size:
         _by_decades(shrinking, frequency, damping)
+    fitted(figure)
     headline(figure, title)
     return figure
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from microslip.figures.amplitude import greatest
+from microslip.figures.fitted import fitted
 from microslip.figures.march import energies
 from microslip.figures.names import (
     absolute,
@@ -55,6 +56,7 @@ def dwell_figure(
     _velocities(panels[1, 1], history, rows)
     _distance(panels[2, 0], distances, tolerance)
     energies(panels[2, 1], history)
+    fitted(figure)
     headline(figure, title)
     return figure
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.abscissa import over_decades
+from microslip.figures.fitted import fitted
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
@@ -62,6 +63,7 @@ def folds_figure(folds: Sequence[FoldLine], label: str, title: str) -> Figure:
     _legend(left, folds)
     if len(folds) > 1:
         _names(right, len(folds))
+    fitted(figure)
     headline(figure, title)
     return figure
 

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from microslip.figures.abscissa import FREQUENCY, abscissa, parted
 from microslip.figures.amplitude import steady, stretches
+from microslip.figures.fitted import fitted
 from microslip.figures.names import readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
 from microslip_mechanics.arrays import Array
@@ -60,6 +61,7 @@ def jumps_figure(curve: ResponseCurve, jumps: Sequence[JumpLine], title: str) ->
     right.set_xlim(0.0, 1.05 * max(jump.rates.max() for jump in jumps) ** (2.0 / 3.0))
     right.axhline(0.0, color="k", linewidth=WIDTH)
     right.legend(frameon=False)
+    fitted(figure)
     headline(figure, title)
     return figure
 

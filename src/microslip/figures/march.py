@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from microslip.figures.fitted import fitted
 from microslip.figures.names import faces, foremost, relative, swings
 from microslip.figures.passes import amplitude, passes
 from microslip.figures.style import (
@@ -93,6 +94,7 @@ def march_figure(
     energies(next(free), march)
     for axes, place in zip(others, blades, strict=False):
         amplitude(axes, ways, place, march.probes[place])
+    fitted(figure)
     headline(figure, title)
     return figure
 

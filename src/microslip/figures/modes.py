@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from microslip.figures.fitted import fitted
 from microslip.figures.style import (
     COLOURS,
     SHORT,
@@ -61,6 +62,7 @@ def modes_figure(lines: Sequence[ModeLine], title: str) -> Figure:
         right.set_ylim(0.0, 108.0 * max(ratios))
     if len(lines) > 1 or any(line.coarse for line in lines):
         right.legend(frameon=False)
+    fitted(figure)
     headline(figure, title)
     return figure
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -10,6 +11,8 @@ from microslip.figures.style import literal
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response_curve import pulling
 
+LETTERS = 40
+"""in a line of a legend"""
 RESTS = 1e-9
 """of the largest motion, below which another one is nothing but rounding errors"""
 
@@ -82,5 +85,6 @@ def listed_motion(name: str) -> str:
 
 
 def _seen(label: str) -> str:
-    """Return a label that legends do not leave out."""
+    """Return a label that legends do not leave out, in lines of a legend's width."""
+    label = textwrap.fill(label, LETTERS)
     return f" {label}" if label.startswith("_") else label

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from microslip.figures.fitted import fitted
 from microslip.figures.style import (
     COLOURS,
     WIDTH,
@@ -85,6 +86,7 @@ def poles_figure(
     for axes in (frequency, path):
         axes.ticklabel_format(axis="y", useOffset=False)
         widened(axes)
+    fitted(figure)
     headline(figure, title)
     return figure
 

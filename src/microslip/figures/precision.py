@@ -38,10 +38,14 @@ TITLES = {
 EXPLAINED = (
     "A mark is one motion found with one setting; the lines join the best of each "
     "method, whose error falls like one over time to the power of the slope.\n"
-    "Down and to the left is better. Within the grey the reference itself is not known."
+    "Down and to the left is better."
 )
+GREY = " Within the grey the reference itself is not known."
 LOWEST = 1e-12
-"""error below which nothing is drawn"""
+"""error as which smaller ones are drawn"""
+BELOW = f" Errors below {LOWEST:g} are drawn there."
+REACH = 1e-3
+"""of the smallest error, down to which an axis goes to show the grey"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,11 +97,14 @@ def precision_figure(
             loc="best",
         )
     panels[0].set_ylabel("relative error")
-    panels[0].set_ylim(bottom=max(LOWEST, 0.3 * _least(lines)))
+    bottom = _bottom(lines, doubts)
+    panels[0].set_ylim(bottom=bottom)
+    told = EXPLAINED + (GREY if max(doubts.values()) > bottom else "")
+    told += BELOW if _least(lines) < LOWEST else ""
     handles, names = panels[0].get_legend_handles_labels()
     figure.legend(
         handles, names, loc="outside lower center", ncols=4, frameon=False,
-        fontsize="small", title=EXPLAINED, title_fontsize="small",
+        fontsize="small", title=told, title_fontsize="small",
     )  # fmt: skip
     headline(figure, title)
     return figure
@@ -131,7 +138,13 @@ def _slopes(axes: Axes, slopes: Sequence[float]) -> tuple[list[object], list[str
     return [handle for handle, _ in known], [text for _, text in known]
 
 
+def _bottom(lines: Mapping[str, Line], doubts: Mapping[str, float]) -> float:
+    """Return where the axis of errors begins: below all marks, and in the grey."""
+    least = max(LOWEST, _least(lines))
+    doubt = max(LOWEST, min(doubts.values()))
+    return 0.3 * (min(least, doubt) if doubt >= REACH * least else least)
+
+
 def _least(lines: Mapping[str, Line]) -> float:
-    """Return the smallest error that is drawn."""
-    found = [line.errors[line.errors > 0.0].min(initial=1.0) for line in lines.values()]
-    return float(min(found, default=LOWEST))
+    """Return the smallest error, zero if a run is exact."""
+    return float(min((line.errors.min() for line in lines.values()), default=LOWEST))

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from microslip.figures.amplitude import MARKERS
+from microslip.figures.fitted import fitted
 from microslip.figures.style import (
     COLOURS,
     SHORT,
@@ -72,6 +73,7 @@ def track_figure(
     right.legend(frameon=False)
     for axes in (left, right):
         axes.margins(x=0.04)
+    fitted(figure)
     headline(figure, title)
     return figure
 

@@ -24,6 +24,7 @@ from microslip.files.schema import (
     kind_of,
 )
 from microslip.files.stream import ORIGIN, RESERVED, Head, Stream
+from microslip.files.whole_file import write_whole
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.results.response_curve import ResponseCurve
 
@@ -68,7 +69,7 @@ def save(path: Path, stored: Stored) -> None:
         return
     made = _curve_file(result, scene=stored.scene, command=stored.command)
     with told(path):
-        path.write_bytes(made)
+        write_whole(path, made)
 
 
 def _curve_file(curve: ResponseCurve, *, scene: str, command: str) -> bytes:
@@ -145,7 +146,7 @@ def save_figure(path: Path, figure: Figure) -> None:
     drawn = io.BytesIO()  # an interruption leaves no half a picture
     figure.savefig(drawn, format=ending, dpi=160)
     with told(path):
-        path.write_bytes(drawn.getvalue())
+        write_whole(path, drawn.getvalue())
 
 
 def save_table(
@@ -158,8 +159,10 @@ def save_table(
     StoreError
         If the file cannot be written.
     """
-    with told(path), path.open("w", encoding="utf-8", newline="") as file:
-        csv.writer(file).writerows([names, *rows])
+    made = io.StringIO(newline="")
+    csv.writer(made).writerows([names, *rows])
+    with told(path):
+        write_whole(path, made.getvalue().encode())
 
 
 def _about(result: Result, *, scene: str, command: str) -> dict[str, Value]:

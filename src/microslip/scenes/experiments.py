@@ -6,6 +6,7 @@ import typing
 from dataclasses import dataclass
 
 from microslip.scenes.quantity import SceneError, quantity
+from microslip_mechanics.quantity import apart
 
 HERTZ = 1e-12, 1e12
 """between which frequencies lie, so that periods and their steps can be counted"""
@@ -113,9 +114,9 @@ def check_samples(place: str, curve: Resolution) -> None:
 
 def _check_range(place: str, table: Sweep | Curve) -> None:
     if not table.lowest * (1.0 + APART) < table.highest:
+        low, high = apart(table.lowest, table.highest)
         raise SceneError(
-            f"{place} lowest = {table.lowest:g} Hz, highest = "
-            f"{table.highest:g} Hz: give lowest < highest"
+            f"{place} lowest = {low} Hz, highest = {high} Hz: give lowest < highest"
         )
 
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from microslip.scenes.experiments import March
 from microslip.scenes.quantity import SceneError
 from microslip.studies.march_size import demand_end
-from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.problem import Problem
@@ -142,9 +142,20 @@ def _cycle_rows(problem: Problem, history: TimeHistory, probe: int) -> float:
     return cycle_rows(history.time, *rows, rest=_rest(problem, history, probe))
 
 
+class StepErrors(NamedTuple):
+    """What steps and rows change in a decay; NaN where there are no swings."""
+
+    frequency: float
+    """largest, over the largest natural frequency"""
+    damping: float
+    """largest, over the largest damping ratio"""
+    usual: float
+    """of the damping ratio, in the median"""
+
+
 def step_errors(
     problem: Problem, history: TimeHistory, coarse: TimeHistory, probe: int
-) -> tuple[float, float]:
+) -> StepErrors:
     """Return what steps and rows change in a decay, as longer ones tell.
 
     Rows of the other decay are taken two by two: extremes lie between rows, by a cubic.
@@ -154,29 +165,31 @@ def step_errors(
     problem, history, probe
         The decay that is measured.
     coarse
-        The same decay, marched with steps twice as long.
-
-    Returns
-    -------
-    frequency, damping
-        Largest of all swings that both have, over the largest natural frequency and
-        over the largest damping ratio; NaN if there are none.
+        The same decay, marched with steps twice as long. Where several motions beat
+        one of both may have a swing more: they are compared at the same time.
     """
     fine = measured(problem, history, probe)
     other = _swings(problem, coarse, probe, every=2)
-    count = min(fine.time.size, other.time.size)
-    if count == 0:
-        return math.nan, math.nan
-    return (
-        _apart(fine.frequency[:count], other.frequency[:count]),
-        _apart(fine.damping[:count], other.damping[:count]),
+    if not (fine.time.size and other.time.size):
+        return StepErrors(math.nan, math.nan, math.nan)
+    both = fine.time <= max(other.time[-1], fine.time[0])
+    nearest = np.searchsorted(0.5 * (other.time[1:] + other.time[:-1]), fine.time)
+    apart = [
+        CAUTION * np.abs(one - two[nearest])[both]
+        for one, two in (
+            (fine.frequency, other.frequency),
+            (fine.damping, other.damping),
+        )
+    ]
+    largest = [
+        float(np.abs(each[both]).max()) or 1.0
+        for each in (fine.frequency, fine.damping)
+    ]
+    return StepErrors(
+        float(apart[0].max()) / largest[0],
+        float(apart[1].max()) / largest[1],
+        float(np.median(apart[1])),
     )
-
-
-def _apart(fine: Array, coarse: Array) -> float:
-    """Return the estimated error of the former, over its largest value."""
-    largest = float(np.abs(fine).max())
-    return CAUTION * float(np.abs(fine - coarse).max()) / (largest or 1.0)
 
 
 def unmeasured(problem: Problem, history: TimeHistory, probe: int) -> str:

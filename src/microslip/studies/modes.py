@@ -18,7 +18,7 @@ from microslip.studies.mode_beginning import ALIKE, begun, likeness
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
-from microslip_mechanics.static import static_equilibrium
+from microslip_mechanics.static import StaticState, static_equilibrium
 
 COARSER = (7, 3, 1)
 """harmonics with which a mode is followed on, in turn, that does not go on with those
@@ -90,10 +90,7 @@ def followed(
     rest = static_equilibrium(problem)
     found = modes_in_range(problem, rest, *frequencies)
     if not found:
-        stuck = " while its contacts stick" if rubs(problem.interface.points) else ""
-        raise SceneError(
-            f"no mode has a natural frequency in this range{stuck}: give another range"
-        )
+        raise SceneError(_none(problem, rest, frequencies))
     for linear in found:
         mode = _followed(linear, begun(problem, rest, linear, options), watch)
         for harmonics in COARSER if options.harmonics is None else ():
@@ -108,6 +105,20 @@ def followed(
         yield mode
         if mode.ending == "interrupted":
             return
+
+
+def _none(problem: Problem, rest: StaticState, frequencies: tuple[float, float]) -> str:
+    """Return what is said of a range [rad/s] without modes."""
+    stuck = " while its contacts stick" if rubs(problem.interface.points) else ""
+    lowest, highest = frequencies
+    every = [each.frequency for each in modes_in_range(problem, rest, 0.0, math.inf)]
+    if not every:
+        return f"no mode vibrates{stuck}, or no probe sees it: give another probe"
+    nearest = min(every, key=lambda each: max(lowest / each, each / highest))
+    return (
+        f"no mode has a natural frequency in this range{stuck}: give another range; "
+        f"the nearest is {nearest / math.tau:.6g} Hz"
+    )
 
 
 def _followed(

@@ -20,6 +20,11 @@ Pair: TypeAlias = Sequence[Form]
 """two ends: what counts is the motion of the first relative to the second"""
 
 
+def is_name(name: object) -> bool:
+    """Return whether tables and pictures can show something as a name."""
+    return isinstance(name, str) and bool(name.strip()) and len(name.splitlines()) == 1
+
+
 def relative(pair: Pair, names: tuple[str, ...], what: str) -> Array:
     """Return the motion of a pair's first end relative to its second, shape (dofs,).
 

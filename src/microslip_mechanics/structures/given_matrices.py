@@ -10,6 +10,7 @@ import scipy.sparse
 
 from microslip_mechanics.arrays import Array, Matrix, masked
 from microslip_mechanics.quantity import LARGEST
+from microslip_mechanics.structures.forms import is_name
 
 
 def square_matrix(given: Matrix, what: str) -> Matrix:
@@ -87,9 +88,7 @@ def dof_names(given: Sequence[str] | None, count: int) -> tuple[str, ...]:
         return tuple(f"x{place}" for place in range(1, count + 1))
     listed = isinstance(given, Iterable) and not isinstance(given, str)
     names = tuple(given) if listed else ()
-    wrong: list[object] = [
-        name for name in names if not isinstance(name, str) or not name
-    ]
+    wrong: list[object] = [name for name in names if not is_name(name)]
     if wrong or not listed:
         told = wrong[0] if wrong else given
         raise ValueError(

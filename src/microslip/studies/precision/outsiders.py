@@ -99,16 +99,17 @@ class Outsiders:
     def _scipy(
         method: str, times: Array, state: Array, tolerance: float, watched: Watched
     ) -> Array:
-        found = solve_ivp(  # type: ignore[call-overload]
-            watched.rate,
-            (times[0], times[-1]),
-            state,
-            method=method,
-            t_eval=times,
-            rtol=tolerance,
-            atol=SHARE * tolerance,
-            jac=watched.tangent,
-        )
+        with np.errstate(all="ignore"):  # what overflows is seen from its states
+            found = solve_ivp(  # type: ignore[call-overload]
+                watched.rate,
+                (times[0], times[-1]),
+                state,
+                method=method,
+                t_eval=times,
+                rtol=tolerance,
+                atol=SHARE * tolerance,
+                jac=watched.tangent,
+            )
         return _whole(found.y.T, times)
 
     @staticmethod

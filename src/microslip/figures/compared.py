@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from microslip.figures.abscissa import abscissa, abscissa_name, over_decades, parted
 from microslip.figures.amplitude import MARKERS, STEEP, highest, stretches
+from microslip.figures.fitted import fitted
 from microslip.figures.names import absolute, readable
 from microslip.figures.style import (
     COLOURS,
@@ -30,6 +31,8 @@ UNSTABLE = ":"
 """style of a line where the motion is"""
 SHADES = "viridis", 0.0, 0.9
 """map of the colours of more curves than there are colours, from where to where"""
+THICK = 2.0
+"""width of the first line over that of the last one"""
 ALONE, BESIDE, HIGH = 8.0, 14.0, 5.5
 """widths of a picture with one panel and with two, and its height [in]"""
 NOTHING = 1e-15
@@ -59,6 +62,7 @@ def compared_figure(
             axes.set_xscale("log")
             plain_logarithmic(axes.xaxis)
     _explain(figure, curves)
+    fitted(figure)
     headline(figure, title)
     return figure
 
@@ -112,9 +116,14 @@ def _lines(
     labels: Sequence[str],
     values: Callable[[ResponseCurve], np.ndarray],
 ) -> None:
-    """Draw a line for each curve, of another style where it is unstable."""
-    looks = zip(_colours(len(curves)), curves, labels, strict=True)
-    for colour, curve, label in looks:
+    """Draw a line for each curve, of another style where it is unstable.
+
+    Of few the later ones are thinner: those that lie on one another are seen.
+    """
+    few = len(curves) <= len(COLOURS)
+    widths = np.linspace(THICK if few else 1.0, 1.0, len(curves)) * 1.5 * WIDTH
+    looks = zip(_colours(len(curves)), curves, labels, widths, strict=True)
+    for colour, curve, label, width in looks:
         kept, unstable = stretches(curve)
         for style, shown, name in (("-", kept, label), (UNSTABLE, unstable, "")):
             axes.plot(
@@ -122,7 +131,7 @@ def _lines(
                 np.where(shown, values(curve), np.nan),
                 style,
                 color=colour,
-                linewidth=WIDTH * 1.5,
+                linewidth=width,
                 label=literal(name) if name else None,
             )
 

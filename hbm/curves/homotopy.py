@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -13,11 +14,12 @@ from hbm.continuation.arc import Metric
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
+from hbm.curves.grown import Resolved
 from hbm.curves.share_arc import along_an_arc
-from hbm.curves.stiffened import soft, stiffer
+from hbm.curves.stiffened import stiffened, stiffening
 from hbm.errors import ContinuationError
 from hbm.forces.fourier import FourierBasis
-from hbm.paths.along_share import LEAST, AlongShare, Easier, driven
+from hbm.paths.along_share import LEAST, AlongShare, Easier, arrived, driven
 from hbm.paths.path import Path
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.points import ONE_SIDED
@@ -44,33 +46,42 @@ def approaches(
     metric: Metric,
     *,
     folded: bool = True,
+    resolved: Resolved | None = None,
 ) -> Iterator[Array]:
     """Yield coefficients of coarse responses at a parameter, (2H + 1, rank) each.
 
-    The drive grows from nothing, or the threshold velocity of friction falls from a
-    large value, or friction grows from nothing, or faces that just touch are pressed
+    Stops stiffen from nothing: beside them a drive that grows meets fold after fold.
+    Then the drive grows from nothing, or the threshold velocity of friction falls from
+    a large value, or friction grows from nothing, or faces that just touch are pressed
     together and then let go, at coarse resolutions in turn; at last, if ``folded``, the
     drive grows along an arc, through folds and through zero. Some of what is found may
     exist at its resolution alone, or be the same again. ``effort`` counts what it
-    takes; ``metric`` measures steps of Newton's iteration.
+    takes; ``metric`` measures steps of Newton's iteration. With what makes systems
+    ``resolved`` stops also stiffen at fine resolutions.
     """
-    ways = _ways(*path.at(parameter))
-    for fourier in FOURIERS:
-        for easier in ways:
-            try:
-                yield _followed(
-                    path, parameter, easier, fourier, control, effort, metric
-                )
-            except ContinuationError:
-                continue
-    for fourier in FOURIERS if folded else ():
-        try:
-            drives = AlongShare(path, parameter)
-            yield along_an_arc(
-                drives, LEAST, fourier, PATIENCE, control, effort, metric
+
+    def followed(easier: Easier, fourier: FourierBasis) -> Array:
+        return _followed(path, parameter, easier, fourier, control, effort, metric)
+
+    problem, frequency = path.at(parameter)
+    stiffer = stiffening(problem, frequency)
+    if stiffer is not None:
+        coarse = FOURIERS if resolved is None else FOURIERS[:1]
+        yield from arrived(partial(followed, stiffer, each) for each in coarse)
+    if resolved is not None:
+        yield from stiffened(path, parameter, resolved, control, effort, metric)
+    ways = _ways(problem, frequency)
+    yield from arrived(
+        partial(followed, easier, each) for each in FOURIERS for easier in ways
+    )
+    if folded:
+        drives = AlongShare(path, parameter)
+        yield from arrived(
+            partial(
+                along_an_arc, drives, LEAST, each, PATIENCE, control, effort, metric
             )
-        except ContinuationError:
-            continue
+            for each in FOURIERS
+        )
 
 
 def _followed(
@@ -119,8 +130,6 @@ def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
     points = problem.points
     rubs = bool(points.dynamic.any() or points.static.any())
     ways: list[Easier] = [driven, *((_threshold, _friction) if rubs else ())]
-    if soft(problem).any():
-        ways = [*ways, stiffer]
     motion = largest(problem.apart(frequency))
     if not _touches(problem, motion):
         return ways

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -73,6 +73,15 @@ class AlongShare:
     def motions(self, parameter: float) -> SmallMotions:  # noqa: ARG002
         """Return the structure for small motions."""
         return self.path.motions(self.place)
+
+
+def arrived(ways: Iterable[Callable[[], Array]]) -> Iterator[Array]:
+    """Yield what each way to a whole problem returns, if it does not fail."""
+    for way in ways:
+        try:
+            yield way()
+        except ContinuationError:
+            continue
 
 
 def whole(corrections: Iterable[Correction], place: float) -> Array:

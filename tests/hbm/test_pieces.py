@@ -67,7 +67,7 @@ class Finer(Square):
 
 @pytest.fixture(autouse=True)
 def _without_stops(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hbm.curves.restart.stiffened", lambda *_: None)
+    monkeypatch.setattr("hbm.curves.homotopy.stiffened", lambda *_: iter(()))
 
 
 @pytest.fixture
@@ -200,7 +200,7 @@ def test_folds_of_the_drive_are_followed_at_the_nearest_and_the_farthest_place(
     tried: list[tuple[float, bool]] = []
 
     def approaches(
-        _path: Any, parameter: float, *_: Any, folded: bool
+        _path: Any, parameter: float, *_: Any, folded: bool, **__: Any
     ) -> Iterator[Array]:
         tried.append((parameter, folded))
         return iter(())

@@ -49,9 +49,8 @@ def grown(
     """
     part = effort.part(patience)
     system = resolved(shares, part)
-    still, _ = shares.at(first)
-    start = np.zeros(system.size)
-    start[: still.rank], start[-1] = still.rest, first
+    start, begins = np.zeros(system.size), shares.begins(first).ravel()
+    start[: begins.size], start[-1] = begins, first
     corrections = trace(
         system,
         start,
@@ -66,4 +65,4 @@ def grown(
     finally:
         effort.spent += part.spent
     count = system.settled.coefficients
-    return point[: count * still.rank].reshape(count, still.rank)
+    return point[: count * shares.rank].reshape(count, shares.rank)

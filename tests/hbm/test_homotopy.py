@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import hbm.curves.homotopy
 from hbm.curves.homotopy import FOURIERS, approaches
 from hbm.options import CurveOptions
-from hbm.paths.along_share import driven
+from hbm.paths.along_share import AlongShare, driven
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
@@ -42,15 +42,15 @@ def test_what_a_problem_has_makes_it_easier(
         found.append("arc")
         return np.zeros((1, 1))
 
-    def stiffened(*_: Any) -> Iterator[Array]:
-        found.append("stiffened")
+    def fine_arcs(shares: AlongShare, *_: Any, **__: Any) -> Iterator[Array]:
+        found.append(f"fine {shares.easier.__name__}")
         yield np.zeros((1, 1))
 
     monkeypatch.setattr(hbm.curves.homotopy, "_touches", lambda *_: False)
     monkeypatch.setattr(
         hbm.curves.homotopy, "stiffening", lambda *_: driven if stop else None
     )
-    monkeypatch.setattr(hbm.curves.homotopy, "stiffened", stiffened)
+    monkeypatch.setattr(hbm.curves.homotopy, "fine_arcs", fine_arcs)
     monkeypatch.setattr(hbm.curves.homotopy, "_followed", followed)
     monkeypatch.setattr(hbm.curves.homotopy, "along_an_arc", along)
     laws = np.array([friction])
@@ -68,7 +68,8 @@ def test_what_a_problem_has_makes_it_easier(
     found.clear()
     given: Any = object()
     list(approaches(path, 1.0, nothing, nothing, nothing, folded=False, resolved=given))
-    assert found == [*stops, "stiffened", *tried * all_of]
+    stops = ["driven", "fine driven"] * stop
+    assert found == [*stops, *tried * all_of, *["fine _louder"] * (friction > 0.0)]
 
 
 def test_a_curve_begins_where_its_arc_of_drives_passes_zero() -> None:

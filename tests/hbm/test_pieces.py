@@ -65,11 +65,6 @@ class Finer(Square):
         return not before
 
 
-@pytest.fixture(autouse=True)
-def _without_stops(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hbm.curves.homotopy.stiffened", lambda *_: iter(()))
-
-
 @pytest.fixture
 def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
     """Return where pieces begin, which end at 0.3 unless they begin behind 0.302."""

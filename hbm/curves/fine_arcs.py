@@ -20,9 +20,9 @@ from microslip_mechanics.arrays import Array
 
 ARC, FINEST = FourierBasis(63, 1024), FourierBasis(255, 4096)
 """fixed resolutions"""
-PATIENCE = 1500
-"""evaluations after which the first arc is given up; few of those that arrive take more
-than 1000"""
+PATIENCE = 3000
+"""evaluations after which the first arc is given up; of those that arrive few take more
+than 1500"""
 FINE = 400
 """the same of the finest arc"""
 UNKNOWNS = 4000

@@ -102,12 +102,16 @@ class RelativeProblem:
 
         Its shape is ``(3 points,)``.
         """
+        seen: ComplexArray = self.basis @ self.moved_apart(frequency)
+        return seen
+
+    def moved_apart(self, frequency: float) -> ComplexArray:
+        """Return order 1 of y if there were no contacts [m], shape (rank,)."""
         variable = np.array([1j * frequency])
         load, _ = self.condensed.loading(self.force[1:])(variable)
         stiffness = self.condensed.dynamic_stiffness(variable)
-        moved = np.linalg.lstsq(stiffness[0], load[0], rcond=None)[0]
-        seen: ComplexArray = self.basis @ moved
-        return seen
+        moved: ComplexArray = np.linalg.lstsq(stiffness[0], load[0], rcond=None)[0]
+        return moved
 
     def map_from(self, displacement: Array) -> Array:
         """Return the map from a structure to y, shape (rank, dofs).

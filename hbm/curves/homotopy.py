@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -13,11 +14,13 @@ from hbm.continuation.arc import Metric
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
+from hbm.curves.fine_arcs import fine_arcs
+from hbm.curves.grown import Resolved
 from hbm.curves.share_arc import along_an_arc
-from hbm.curves.stiffened import soft, stiffer
+from hbm.curves.stiffened import stiffening
 from hbm.errors import ContinuationError
 from hbm.forces.fourier import FourierBasis
-from hbm.paths.along_share import LEAST, AlongShare, Easier, driven
+from hbm.paths.along_share import LEAST, AlongShare, Easier, arrived, driven
 from hbm.paths.path import Path
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.points import ONE_SIDED
@@ -30,6 +33,11 @@ FOURIERS = (FourierBasis(3, 128), FourierBasis(7, 128), FourierBasis(15, 256))
 """coarse resolutions that are tried in turn"""
 SMOOTH = 1e4
 """times the threshold velocity with which a homotopy begins"""
+LOUD = 10.0
+"""times the drive with which a drive begins that falls"""
+STOPPED, FALLEN = 15000, 4000
+"""evaluations after which stops that stiffen, or a drive that falls, are given up where
+harmonics are what each share asks for"""
 PRESSED = 1e4
 """depth to which faces are pressed as one begins, over the motion without contacts"""
 TOUCHING = 1e-3
@@ -44,33 +52,57 @@ def approaches(
     metric: Metric,
     *,
     folded: bool = True,
+    resolved: Resolved | None = None,
 ) -> Iterator[Array]:
     """Yield coefficients of coarse responses at a parameter, (2H + 1, rank) each.
 
-    The drive grows from nothing, or the threshold velocity of friction falls from a
-    large value, or friction grows from nothing, or faces that just touch are pressed
-    together and then let go, at coarse resolutions in turn; at last, if ``folded``, the
-    drive grows along an arc, through folds and through zero. Some of what is found may
+    Stops stiffen from nothing: beside them a drive that grows meets fold after fold.
+    Then the drive grows from nothing, or the threshold velocity of friction falls from
+    a large value, or friction grows from nothing, or faces that just touch are pressed
+    together and then let go, at coarse resolutions in turn; beside much more drive
+    friction is little, so that the drive also falls; at last, if ``folded``, the drive
+    grows along an arc, through folds and through zero. Some of what is found may
     exist at its resolution alone, or be the same again. ``effort`` counts what it
-    takes; ``metric`` measures steps of Newton's iteration.
+    takes; ``metric`` measures steps of Newton's iteration. With what makes systems
+    ``resolved`` stops also stiffen, and the drive falls, at fine resolutions.
     """
-    ways = _ways(*path.at(parameter))
-    for fourier in FOURIERS:
-        for easier in ways:
-            try:
-                yield _followed(
-                    path, parameter, easier, fourier, control, effort, metric
-                )
-            except ContinuationError:
-                continue
-    for fourier in FOURIERS if folded else ():
-        try:
-            drives = AlongShare(path, parameter)
-            yield along_an_arc(
-                drives, LEAST, fourier, PATIENCE, control, effort, metric
+
+    def followed(easier: Easier, fourier: FourierBasis) -> Array:
+        return _followed(path, parameter, easier, fourier, control, effort, metric)
+
+    def finely(easier: Easier, *, stops: bool) -> Iterator[Array]:
+        if resolved is not None:
+            shares = AlongShare(path, parameter, easier, 0.0, free=not stops)
+            yield from fine_arcs(
+                shares,
+                resolved,
+                control,
+                effort,
+                metric,
+                patience=STOPPED if stops else FALLEN,
+                finest=stops,
             )
-        except ContinuationError:
-            continue
+
+    problem, frequency = path.at(parameter)
+    stiffer = stiffening(problem, frequency)
+    if stiffer is not None:
+        coarse = FOURIERS if resolved is None else FOURIERS[:1]
+        yield from arrived(partial(followed, stiffer, each) for each in coarse)
+        yield from finely(stiffer, stops=True)
+    ways = _ways(problem, frequency)
+    yield from arrived(
+        partial(followed, easier, each) for each in FOURIERS for easier in ways
+    )
+    if _rubs(problem):
+        yield from finely(_louder, stops=False)
+    if folded:
+        drives = AlongShare(path, parameter)
+        yield from arrived(
+            partial(
+                along_an_arc, drives, LEAST, each, PATIENCE, control, effort, metric
+            )
+            for each in FOURIERS
+        )
 
 
 def _followed(
@@ -116,15 +148,22 @@ def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:
     Where faces just touch at rest, each share of the drive is as hard as the whole:
     there they begin pressed together, as springs.
     """
-    points = problem.points
-    rubs = bool(points.dynamic.any() or points.static.any())
+    rubs = _rubs(problem)
     ways: list[Easier] = [driven, *((_threshold, _friction) if rubs else ())]
-    if soft(problem).any():
-        ways = [*ways, stiffer]
     motion = largest(problem.apart(frequency))
     if not _touches(problem, motion):
         return ways
     return [*ways, lambda problem, share: _pressed(problem, motion, share)]
+
+
+def _rubs(problem: RelativeProblem) -> bool:
+    """Return whether there is friction."""
+    return bool(problem.points.dynamic.any() or problem.points.static.any())
+
+
+def _louder(problem: RelativeProblem, share: float) -> RelativeProblem:
+    """Return the problem under more drive, beside which friction is little."""
+    return driven(problem, LOUD ** (1.0 - share))
 
 
 def _threshold(problem: RelativeProblem, share: float) -> RelativeProblem:

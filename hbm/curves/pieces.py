@@ -14,7 +14,7 @@ from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.continuation.tracing import Tracing
 from hbm.curves.bounded import bounded
-from hbm.curves.grown_drive import Resolved
+from hbm.curves.grown import Resolved
 from hbm.curves.incoming import Incoming
 from hbm.curves.restart import FIRST, LEAPS, Beginning, Restart
 from hbm.errors import PLACE, ContinuationError, UnboundedError

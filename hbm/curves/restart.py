@@ -14,10 +14,10 @@ from hbm.continuation.corrected import correct_at
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
-from hbm.curves.grown_drive import Resolved, grown
+from hbm.curves.grown import Resolved, grown
 from hbm.curves.homotopy import approaches
-from hbm.curves.stiffened import stiffened
 from hbm.errors import ContinuationError
+from hbm.paths.along_share import LEAST, AlongShare
 from hbm.paths.path import Path
 from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array, largest
@@ -34,6 +34,8 @@ BACK = (1, 3, 6, 9, 12, 16, 24, 32)
 """points of the way at which more harmonics are tried, counted from the last one"""
 ALIKE = 0.03
 """relative difference up to which two points at one place are one"""
+PATIENCE = 1500
+"""evaluations after which a drive that grows is given up"""
 TENTHS = 10
 """units of a parameter in its range, or in the logarithm of that"""
 
@@ -79,11 +81,12 @@ class Restart:
                 self.effort,
                 self.metric,
                 folded=leap in FOLDED,
+                resolved=self.resolved if leap == 0.0 else None,
             ):
                 settled = self.settled(coefficients, parameter)
                 if settled is not None:
                     return settled
-            for sought in (self._grown, self._stiffened) if leap == 0.0 else ():
+            for sought in (self._grown,) if leap == 0.0 else ():
                 settled = sought(parameter)
                 if settled is not None:
                     return settled
@@ -178,19 +181,13 @@ class Restart:
         if self.resolved is None:
             return None
         try:
+            drives = AlongShare(self.path, parameter)
             coefficients = grown(
-                self.path, parameter, self.resolved, self.control, self.effort
+                drives, LEAST, self.resolved, PATIENCE, self.control, self.effort
             )
         except ContinuationError:
             return None
         return self.settled(coefficients, parameter)
-
-    def _stiffened(self, parameter: float) -> Array | None:
-        """Return a point to which stops have stiffened; None if they do not."""
-        coefficients = stiffened(
-            self.path, parameter, self.control, self.effort, self.metric
-        )
-        return None if coefficients is None else self.settled(coefficients, parameter)
 
     def still(self, parameter: float) -> Array:
         """Return the point at rest."""

@@ -39,7 +39,7 @@ def along_an_arc(
 
     balance, (easy, _) = shares.balance(fourier), shares.at(first)
     mask = shares.mask(fourier.harmonics)
-    start = HarmonicBalance(easy, fourier, mask).point(easy.rest[None, :], first)
+    start = HarmonicBalance(easy, fourier, mask).point(shares.begins(first), first)
     counted = effort.counted(balance, fourier.harmonics)
     system = Effort(patience).counted(counted, 1)
     corrections = trace(

@@ -13,46 +13,46 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hbm.balance.relative import RelativeProblem
-from hbm.continuation.arc import Metric
-from hbm.continuation.effort import Effort
-from hbm.continuation.step_control import StepControl
-from hbm.curves.share_arc import along_an_arc
-from hbm.errors import ContinuationError
-from hbm.forces.fourier import FourierBasis
-from hbm.paths.along_share import AlongShare
-from hbm.paths.path import Path
+from hbm.paths.along_share import Easier
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.points import FRICTIONLESS, ONE_SIDED
 
-SOFT = 1e-6
-"""stiffness with which stops begin, over what they have"""
-FOURIER = FourierBasis(63, 1024)
-"""resolution of the arc: what stiff stops excite, and a coarse one does not have, is
-why nothing leads from coarse responses to finer ones"""
-PATIENCE = 3000
-"""evaluations after which it is given up; of those that arrive few take more than
-1500"""
+SOFT = 0.1
+"""stiffness with which all stops begin together, over what resists there without them:
+it hardly changes the motion, however stiff stops and structure are"""
+LEAST = 1e-12
+"""share of its own stiffness with which a stop begins at the least"""
 
 
-def stiffened(
-    path: Path, parameter: float, control: StepControl, effort: Effort, metric: Metric
-) -> Array | None:
-    """Return the coefficients of a response, (2H + 1, rank); None if none is found."""
-    problem, _ = path.at(parameter)
-    if not soft(problem).any():
+def stiffening(problem: RelativeProblem, frequency: float) -> Easier | None:
+    """Return what makes stops softer; None if there is none that may begin soft."""
+    may = soft(problem)
+    if not may.any():
         return None
-    shares = AlongShare(path, parameter, stiffer, 0.0)
-    try:
-        return along_an_arc(shares, 0.0, FOURIER, PATIENCE, control, effort, metric)
-    except ContinuationError:
-        return None
+    shares = np.where(may, _shares(problem, frequency) / may.sum(), 1.0)
+    least = np.clip(shares, LEAST, 1.0)
+
+    def stiffer(problem: RelativeProblem, share: float) -> RelativeProblem:
+        """Return the problem with softer stops."""
+        stiffness = problem.points.stiffness * least ** (1.0 - share)
+        return replace(problem, points=problem.points._replace(stiffness=stiffness))
+
+    return stiffer
 
 
-def stiffer(problem: RelativeProblem, share: float) -> RelativeProblem:
-    """Return the problem with softer stops."""
-    factor = np.where(soft(problem), SOFT ** (1.0 - share), 1.0)
-    points = problem.points._replace(stiffness=problem.points.stiffness * factor)
-    return replace(problem, points=points)
+def _shares(problem: RelativeProblem, frequency: float) -> Array:
+    """Return the stiffness with which each stop alone may begin, over its own.
+
+    It hardly changes how its point moves without contacts.
+    """
+    points, normals = problem.points, problem.basis[::3]
+    stiffness = problem.condensed.dynamic_stiffness(np.array([1j * frequency]))[0]
+    yielding = np.linalg.lstsq(stiffness, normals.T.astype(complex), rcond=None)[0]
+    compliance = np.abs(np.einsum("pr,rp->p", normals, yielding))
+    depth = np.abs(problem.apart(frequency)[::3])
+    own = points.stiffness * depth ** (points.exponent - 1.0) * compliance
+    shares: Array = np.divide(SOFT, own, out=np.ones_like(own), where=own > 0.0)
+    return shares
 
 
 def soft(problem: RelativeProblem) -> NDArray[np.bool_]:

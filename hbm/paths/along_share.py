@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -40,6 +40,8 @@ class AlongShare:
     easier: Easier = driven
     least: float = -1.0
     """least share; from minus the whole drive to the whole"""
+    free: bool = False
+    """whether it begins with the motion without contacts, not at rest"""
 
     @property
     def rank(self) -> int:
@@ -50,6 +52,16 @@ class AlongShare:
         """Return the problem at a share, and the frequency [rad/s]."""
         problem, frequency = self.path.at(self.place)
         return self.easier(problem, parameter), frequency
+
+    def begins(self, parameter: float) -> Array:
+        """Return coefficients to begin with at a share, shape (3, rank)."""
+        problem, frequency = self.at(parameter)
+        still = np.zeros((3, problem.rank))
+        still[0] = problem.rest
+        if self.free:
+            moved = problem.moved_apart(frequency)
+            still[1:] = moved.real, -moved.imag
+        return still
 
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
@@ -73,6 +85,15 @@ class AlongShare:
     def motions(self, parameter: float) -> SmallMotions:  # noqa: ARG002
         """Return the structure for small motions."""
         return self.path.motions(self.place)
+
+
+def arrived(ways: Iterable[Callable[[], Array]]) -> Iterator[Array]:
+    """Yield what each way to a whole problem returns, if it does not fail."""
+    for way in ways:
+        try:
+            yield way()
+        except ContinuationError:
+            continue
 
 
 def whole(corrections: Iterable[Correction], place: float) -> Array:

@@ -1,5 +1,6 @@
 """Easier problems from which a first point is reached."""
 
+from collections.abc import Iterator
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,6 +11,7 @@ from scipy.integrate import solve_ivp
 import hbm.curves.homotopy
 from hbm.curves.homotopy import FOURIERS, approaches
 from hbm.options import CurveOptions
+from hbm.paths.along_share import AlongShare, driven
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
@@ -24,7 +26,7 @@ from small_problems import between_stops
     [
         (0.0, False, ["driven"]),
         (0.3, False, ["driven", "_threshold", "_friction"]),
-        (0.0, True, ["driven", "stiffer"]),
+        (0.0, True, ["driven"]),
     ],
 )
 def test_what_a_problem_has_makes_it_easier(
@@ -40,8 +42,15 @@ def test_what_a_problem_has_makes_it_easier(
         found.append("arc")
         return np.zeros((1, 1))
 
+    def fine_arcs(shares: AlongShare, *_: Any, **__: Any) -> Iterator[Array]:
+        found.append(f"fine {shares.easier.__name__}")
+        yield np.zeros((1, 1))
+
     monkeypatch.setattr(hbm.curves.homotopy, "_touches", lambda *_: False)
-    monkeypatch.setattr(hbm.curves.homotopy, "soft", lambda _: np.array([stop]))
+    monkeypatch.setattr(
+        hbm.curves.homotopy, "stiffening", lambda *_: driven if stop else None
+    )
+    monkeypatch.setattr(hbm.curves.homotopy, "fine_arcs", fine_arcs)
     monkeypatch.setattr(hbm.curves.homotopy, "_followed", followed)
     monkeypatch.setattr(hbm.curves.homotopy, "along_an_arc", along)
     laws = np.array([friction])
@@ -52,12 +61,15 @@ def test_what_a_problem_has_makes_it_easier(
 
     list(approaches(path, 1.0, nothing, nothing, nothing))
 
-    # what may take long comes last
-    assert found == tried * len(FOURIERS) + ["arc"] * len(FOURIERS)
+    # what may take long comes last, stops before anything else
+    stops, all_of = ["driven"] * stop, len(FOURIERS)
+    assert found == stops * all_of + tried * all_of + ["arc"] * all_of
 
     found.clear()
-    list(approaches(path, 1.0, nothing, nothing, nothing, folded=False))
-    assert found == tried * len(FOURIERS)
+    given: Any = object()
+    list(approaches(path, 1.0, nothing, nothing, nothing, folded=False, resolved=given))
+    stops = ["driven", "fine driven"] * stop
+    assert found == [*stops, *tried * all_of, *["fine _louder"] * (friction > 0.0)]
 
 
 def test_a_curve_begins_where_its_arc_of_drives_passes_zero() -> None:

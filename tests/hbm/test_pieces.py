@@ -65,11 +65,6 @@ class Finer(Square):
         return not before
 
 
-@pytest.fixture(autouse=True)
-def _without_stops(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hbm.curves.restart.stiffened", lambda *_: None)
-
-
 @pytest.fixture
 def begun(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
     """Return where pieces begin, which end at 0.3 unless they begin behind 0.302."""
@@ -200,7 +195,7 @@ def test_folds_of_the_drive_are_followed_at_the_nearest_and_the_farthest_place(
     tried: list[tuple[float, bool]] = []
 
     def approaches(
-        _path: Any, parameter: float, *_: Any, folded: bool
+        _path: Any, parameter: float, *_: Any, folded: bool, **__: Any
     ) -> Iterator[Array]:
         tried.append((parameter, folded))
         return iter(())

@@ -1,7 +1,8 @@
-"""A first point by a drive that grows, as finely resolved as each one asks for (§6.2).
+"""A first point by a share that grows, as finely resolved as each one asks for (§6.2).
 
 Higher harmonics may meet resonances of their own that coarse responses know nothing of:
-no iteration leads from those to finer ones, while small steps of the drive do.
+no iteration leads from those to finer ones, while small steps of the drive do, or of
+the stiffness of stops.
 """
 
 from __future__ import annotations
@@ -16,49 +17,52 @@ import numpy as np
 from hbm.continuation.continuation import trace
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
-from hbm.paths.along_share import LEAST, AlongShare, whole
+from hbm.paths.along_share import AlongShare, whole
 from hbm.paths.path import Path
 from hbm.paths.path_metric import path_metric
 from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array
 
-PATIENCE = 1500
-"""evaluations after which it is given up"""
+POINTS = 1500
+"""after which it is given up"""
 Resolved: TypeAlias = Callable[[Path, Effort], AdaptiveBalance]
 """path, effort granted ↦ the system that follows it"""
 
 
 def grown(
-    path: Path,
-    parameter: float,
+    shares: AlongShare,
+    first: float,
     resolved: Resolved,
+    patience: float,
     control: StepControl,
     effort: Effort,
 ) -> Array:
-    """Return the coefficients of a response under the whole drive, (2H + 1, rank).
+    """Return the coefficients of a response of the whole problem, (2H + 1, rank).
+
+    The share changes from ``first`` on. After ``patience`` it is given up; ``effort``
+    counts what it takes.
 
     Raises
     ------
     ContinuationError
-        If the drive does not come to be whole, or not with the effort granted.
+        If it does not arrive.
     """
-    drives, part = AlongShare(path, parameter), effort.part(PATIENCE)
-    system = resolved(drives, part)
-    still, _ = drives.at(LEAST)
-    start = np.zeros(system.size)
-    start[: still.rank], start[-1] = still.rest, LEAST
+    part = effort.part(patience)
+    system = resolved(shares, part)
+    start, begins = np.zeros(system.size), shares.begins(first).ravel()
+    start[: begins.size], start[-1] = begins, first
     corrections = trace(
         system,
         start,
         1.0,
-        metric=partial(path_metric, drives),
-        control=replace(control, most_points=PATIENCE),
+        metric=partial(path_metric, shares),
+        control=replace(control, most_points=POINTS),
         settler=system,
-        begin=-1.0,
+        begin=shares.least,
     )
     try:
-        point = whole(corrections, parameter)
+        point = whole(corrections, shares.place)
     finally:
         effort.spent += part.spent
     count = system.settled.coefficients
-    return point[: count * still.rank].reshape(count, still.rank)
+    return point[: count * shares.rank].reshape(count, shares.rank)

@@ -14,6 +14,8 @@ from microslip_mechanics.arrays import Array
 AROUND = (0.5, 1.5)
 """distances from a fold, over the step, to whose sides its curve has slopes of both
 signs: the second if not the first, …"""
+FLATTER = 0.75
+"""of the steepest slope about a fold, that the nearest to it has at the most"""
 FARTHER, WIDEST = 10.0, 1e-2
 """… or so many times more each, up to this arc: steps are short at corners, which lie
 elsewhere where they are resolved more finely"""
@@ -56,28 +58,34 @@ def _turns(segment: Segment, point: Array, step: Array, near: float) -> float | 
     """Return what a fold may be aside if a curve has slopes of both signs about it.
 
     None if it has not; nothing where the curve is lost. Where it is lost to one side
-    alone it may have turned before that.
+    alone, towards which it becomes upright, it may have turned before that.
     """
-    slopes: list[float] = []
-    lost = math.inf
+    slopes: dict[float, float] = {}
+    lost = 0.0
     for distance in _distances(segment.length):
-        sides = [
-            segment.across(point + side * distance * step, near) for side in (-1.0, 1.0)
-        ]
-        if None in sides:
-            lost = min(lost, distance)
-            if not slopes:
+        for place in (-distance, distance):
+            at = segment.across(point + place * step, near)
+            if at:
+                slopes[place] = folds(at)
+            elif slopes.keys() <= {-distance}:
                 return 0.0
-        slopes += [folds(each) for each in sides if each]
-        if min(slopes) <= 0.0 <= max(slopes):
+            else:
+                lost = lost or place
+        if min(slopes.values()) <= 0.0 <= max(slopes.values()):
             far = distance > AROUND[-1]
-            return _changed(slopes, distance, segment) if far else 0.0
-    return None if math.isinf(lost) else _changed(slopes, lost, segment)
+            return _steepest(slopes) * distance * segment.length if far else 0.0
+    upright = bool(lost) and _flattens(slopes, lost)
+    return _steepest(slopes) * abs(lost) * segment.length if upright else None
 
 
-def _changed(slopes: list[float], distance: float, segment: Segment) -> float:
-    """Return by how much the parameter changes up to a distance at the most."""
-    return max(map(abs, slopes)) * distance * segment.length
+def _steepest(slopes: dict[float, float]) -> float:
+    return max(map(abs, slopes.values()))
+
+
+def _flattens(slopes: dict[float, float], lost: float) -> bool:
+    """Return whether slopes at places become small towards one where none is known."""
+    nearest = max(slopes, key=lambda place: place * lost)
+    return abs(slopes[nearest]) <= FLATTER * _steepest(slopes)
 
 
 def _distances(length: float) -> list[float]:

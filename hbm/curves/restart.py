@@ -86,10 +86,9 @@ class Restart:
                 settled = self.settled(coefficients, parameter)
                 if settled is not None:
                     return settled
-            for sought in (self._grown,) if leap == 0.0 else ():
-                settled = sought(parameter)
-                if settled is not None:
-                    return settled
+            settled = self._grown(parameter) if leap == 0.0 else None
+            if settled is not None:
+                return settled
         return None
 
     def finer(

@@ -74,7 +74,7 @@ def test_the_command_writes_a_table_and_a_picture(run: Run, tmp_path: Path) -> N
     status, output, _ = run(*words, "-o", "jump")
 
     assert status == 0
-    assert "fold 2, 3 harmonics" in output
+    assert "fold 2, 7 harmonics" in output
     assert (tmp_path / "jump.png").stat().st_size > 10_000
     with (tmp_path / "jump.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))

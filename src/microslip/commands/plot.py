@@ -50,8 +50,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 def _run(options: argparse.Namespace) -> int:
     from microslip.figures.result import result_figure
     from microslip.files.result_file import load
-    from microslip.files.store import save_figure, save_table
-    from microslip.files.tabulated import tabulated
+    from microslip.files.store import save_figure
+    from microslip.files.tabulated import save_columns
 
     files: list[Path] = options.files
     stored = [load(each, arguments.MOST_ROWS) for each in files]
@@ -73,7 +73,7 @@ def _run(options: argparse.Namespace) -> int:
     save_figure(picture, result_figure(stored[0].result, title))
     print(f"picture in {picture}")
     if table is not None:
-        save_table(table, *tabulated(load(files[0]).result))
+        save_columns(table, load(files[0]).result)
         print(f"table in {table}")
     return 0
 

@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
 from microslip.files.schema import REPEATED, Result, Schema, kind_of
+from microslip.files.store import save_table
 
 ALONG = ("point", "time", "cycle")
 """dimensions of which each place is a row"""
 EACH = {"probe": "probes", "contact": "contacts", "energy": "energies"}
 """for each dimension that has a column for each of its places: where their names are"""
+
+
+def save_columns(path: Path, result: Result) -> None:
+    """Write the columns of a curve or a march as CSV.
+
+    Raises
+    ------
+    StoreError
+        If the file cannot be written.
+    """
+    save_table(path, *tabulated(result))
 
 
 def tabulated(result: Result) -> tuple[list[str], Iterator[tuple[object, ...]]]:

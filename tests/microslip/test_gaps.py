@@ -112,17 +112,17 @@ def test_gaps_along_frequency_are_told_in_hertz(small_curve: ResponseCurve) -> N
 
 
 @pytest.mark.long
-def test_a_curve_without_its_peak_is_not_whole(
+def test_a_narrow_gap_in_which_the_peak_lies_is_told(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    # without friction the element rattles from where its points open: 2 % of the range
+    # without friction the element rattles from where its points open: in 0.6 % of the
+    # range, less than would make the curve one that is not whole
     scene = ["two-blades", "--set", "friction.law=none"]
 
-    assert main(["frc", *scene, "-o", str(tmp_path / "none")]) == 1
+    assert main(["frc", *scene, "-o", str(tmp_path / "none")]) == 0
 
     said = capsys.readouterr()
     assert "no curve is found between 136.7" in said.out
-    assert "no curve is found between 136.7" in said.err
 
 
 def _pieces(

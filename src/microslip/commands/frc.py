@@ -29,7 +29,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "for; locate peaks, folds and changes of stability; tell how far amplitudes "
         "depend on what contacts that stick carry from before; print a short table, "
         "write SCENE-frc.nc and SCENE-frc.png. Exit status 1 if the curve does not "
-        "come to its end or leaves out more than 1 % of its range.",
+        "come to its end or leaves out more than 1 % of its range, or 0.1 % beside its "
+        "largest amplitude.",
         epilog="example: microslip frc two-blades --set model=A -o model-a",
     )
     arguments.add_scene(parser)

@@ -31,7 +31,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Trace the curve of a scene for combinations of friction law, "
         "sigma, threshold velocity, friction coefficient, preload and drive; print how "
         "each ends. Exit status 1 if less than 97 % are traced from end to end, where "
-        "a gap of 1 % of the range does not count.",
+        "a gap of 1 % of the range does not count, nor one of 0.1 % beside the largest "
+        "amplitude.",
         epilog="example: microslip grid two-blades --set model=A --csv grid.csv",
     )
     arguments.add_scene(parser)

@@ -12,6 +12,8 @@ from microslip_mechanics.results.response_curve import ResponseCurve
 
 NARROW = 0.01
 """share of its range that a whole curve may leave out"""
+SLIGHT = 1e-3
+"""share of its range that it may leave out beside its largest amplitude"""
 MISSING = "no curve is found between"
 """begins the ending of a curve that comes to its end with a gap"""
 BROKEN = "the curve breaks off on its way back, at"
@@ -24,7 +26,7 @@ OTHERS = ("branch", "detached")
 
 def told(curve: ResponseCurve) -> ResponseCurve:
     """Return a curve whose ending says where it is missing, if that is not narrow."""
-    wide = uncovered(curve) > NARROW
+    wide = uncovered(curve) > NARROW or _may_hide_peak(curve)
     lost = [*(_gap_lines(curve) if wide else []), *_broken_lines(curve)]
     if curve.ending != "complete" or not lost:
         return curve
@@ -64,6 +66,17 @@ def uncovered(curve: ResponseCurve) -> float:
         return 0.0
     own = _own(curve)
     return sum(high - low for low, high in found) / float(own.max() - own.min())
+
+
+def _may_hide_peak(curve: ResponseCurve) -> bool:
+    """Return whether a curve's largest amplitude may lie between its pieces."""
+    own, size = _own(curve), curve.amplitude.max(axis=1, initial=0.0)
+    for low, high in gaps(curve):
+        beside = size[: own.size][(own == low) | (own == high)].max()
+        wide = high - low > SLIGHT * float(own.max() - own.min())
+        if wide and beside >= (1.0 - ALIKE) * size.max(initial=0.0):
+            return True
+    return False
 
 
 def missing(curve: ResponseCurve, lowest: float, highest: float) -> float:

@@ -116,7 +116,7 @@ class Curve:
         Friction that was smooth for the curve is what it is here, where that converges.
         """
         fourier = FourierBasis(known.harmonics, known.samples)
-        orbit = self.multipliers.finer(point, fourier)
+        orbit = self.multipliers.orbits.finer(point, fourier)
         return self._examined(known, point if orbit is None else orbit, fourier)[0]
 
     def _examined(

@@ -15,6 +15,7 @@ from hbm.curves.curve import Curve
 from hbm.curves.pieces import Pieces
 from hbm.events.amplitude_growth import AmplitudeGrowth
 from hbm.events.events import Events
+from hbm.events.finer_orbits import FinerOrbits
 from hbm.events.multipliers import Multipliers
 from hbm.forces.memory import marched
 from hbm.options import CurveOptions
@@ -53,7 +54,10 @@ class Tracer:
         self.control = options.control(problem.force_scale, drive)
         motions = path.motions if options.stability and not rigid else None
         multipliers = Multipliers(
-            resolution, motions, self.control, options.harmonics is not None
+            resolution,
+            motions,
+            FinerOrbits(resolution, self.control),
+            options.harmonics is not None,
         )
         least, most = sorted((options.start, options.end))
         growth = AmplitudeGrowth(resolution, (least, most))

@@ -119,7 +119,7 @@ class Crossings:
                 return None
 
         def error() -> float:
-            orbit = self.multipliers.finer(located.point, other)
+            orbit = self.multipliers.orbits.finer(located.point, other)
             if orbit is None:
                 return math.nan
             doubt = moving.growth(self.multipliers.at(orbit, other))
@@ -229,7 +229,7 @@ class Crossings:
         """
         point, fourier = correction.point, self.system.fourier
         if finer is not None:
-            found = self.multipliers.finer(point, finer)
+            found = self.multipliers.orbits.finer(point, finer)
             point, fourier = (point, fourier) if found is None else (found, finer)
         return moving.growth(self.multipliers.at(point, fourier))
 

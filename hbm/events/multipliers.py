@@ -12,10 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from hbm.continuation.arc import upright
-from hbm.continuation.correction import Outcome
-from hbm.continuation.newton import Small, correct
-from hbm.continuation.step_control import StepControl
+from hbm.events.finer_orbits import FinerOrbits
 from hbm.events.moving_multiplier import outside
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path_resolution import PathResolution
@@ -42,13 +39,6 @@ ALIKE = 1e-3
 the latter are known: a finer orbit need not be sought"""
 LEADING = 3
 """how many of them are looked at"""
-ASIDE = 0.02
-"""relative change of the amplitude from which a finer orbit is another one"""
-CHORD = 0.5
-"""share of the residual that a Newton step leaves, below which its factors serve again:
-so many harmonics take longer to factor than many steps"""
-SMALL = 1e-6
-"""relative change of the motion that Newton's iteration may neglect"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +48,8 @@ class Multipliers:
     resolution: PathResolution
     motions: Callable[[float], SmallMotions] | None
     """parameter ↦ the structure for small motions, if stability is wanted"""
-    control: StepControl
+    orbits: FinerOrbits
+    """of the path"""
     fixed: bool
     """whether the harmonics are given, not found"""
 
@@ -108,7 +99,7 @@ class Multipliers:
         most = self._most(falls=falls)
         while fourier.harmonics < most:
             fourier = _finer(fourier, most)
-            found = self.finer(orbit, fourier, along)
+            found = self.orbits.finer(orbit, fourier, along)
             confirmed = found is not None or not falls
             if found is None:
                 continue
@@ -139,40 +130,6 @@ class Multipliers:
         )
         peak = np.minimum(points.threshold, points.stribeck)
         return bool((falling & (speeds > NEARLY * peak)).any())
-
-    def finer(
-        self, point: Array, fourier: FourierBasis, along: Array | None = None
-    ) -> Array | None:
-        """Return the orbit with another resolution, if it is found.
-
-        At the same parameter or, with the tangent ``along`` a curve, across that.
-        """
-        point = self._with_room(point, fourier)
-        normal = upright(point)
-        if along is not None:
-            normal = self.resolution.across(self._with_room(along, fourier), point)
-        vibration = float(np.linalg.norm(point[self.resolution.rank : -1]))
-        changes = np.full_like(point, SMALL * vibration)
-        found = correct(
-            self.resolution.at(fourier),
-            point,
-            normal,
-            tolerance=self.control.tolerance,
-            small=Small(lambda _: changes, self.control.loose),
-            chord=CHORD,
-        )
-        if found.outcome is not Outcome.CONVERGED:
-            return None
-        before, after = self.resolution.amplitudes((point, found.point))
-        other = np.abs(after - before).max() > ASIDE * before.max()
-        return None if other else found.point
-
-    def _with_room(self, point: Array, fourier: FourierBasis) -> Array:
-        """Return a point with room for all coefficients of a resolution."""
-        missing = fourier.coefficients * self.resolution.rank + 1 - point.size
-        if missing <= 0:
-            return point
-        return np.concatenate((point[:-1], np.zeros(missing), point[-1:]))
 
 
 def _rattles(normal_smallest: Array) -> bool:

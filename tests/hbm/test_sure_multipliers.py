@@ -8,6 +8,7 @@ import pytest
 
 from contact_tables import FRICTION_LAWS
 from hbm.continuation.step_control import StepControl
+from hbm.events.finer_orbits import FinerOrbits
 from hbm.events.multipliers import Multipliers
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path import along_frequency
@@ -33,7 +34,7 @@ def sought(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     harmonics: list[int] = []
 
     def finer(
-        _: Multipliers, point: Array, fourier: FourierBasis, *__: object
+        _: FinerOrbits, point: Array, fourier: FourierBasis, *__: object
     ) -> Array:
         harmonics.append(fourier.harmonics)
         return point
@@ -41,7 +42,7 @@ def sought(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     def at(_: Multipliers, point: Array, fourier: FourierBasis) -> ComplexArray:
         return np.array([1.1 + point[0] / fourier.harmonics**2, 1.0, 0.9, 0.1 + 0j])
 
-    monkeypatch.setattr(Multipliers, "finer", finer)
+    monkeypatch.setattr(FinerOrbits, "finer", finer)
     monkeypatch.setattr(Multipliers, "at", at)
     return harmonics
 
@@ -49,7 +50,8 @@ def sought(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 def at_rank(rank: int, *, fixed: bool = False) -> Multipliers:
     """Return the multipliers of so many coordinates."""
     resolution = cast(PathResolution, SimpleNamespace(rank=rank))
-    return Multipliers(resolution, None, cast(StepControl, None), fixed=fixed)
+    orbits = FinerOrbits(resolution, cast(StepControl, None))
+    return Multipliers(resolution, None, orbits, fixed=fixed)
 
 
 def sure(
@@ -197,7 +199,7 @@ def test_an_orbit_that_no_finer_one_confirms_is_in_doubt_where_friction_falls(
     def lost(_: Multipliers, __: Array, fourier: FourierBasis, *___: object) -> None:
         sought.append(fourier.harmonics)
 
-    monkeypatch.setattr(Multipliers, "finer", lost)
+    monkeypatch.setattr(FinerOrbits, "finer", lost)
 
     known, fourier, confirmed = sure(1.0, LIFTS, falls=falls, monkeypatch=monkeypatch)
 
@@ -212,12 +214,12 @@ def test_one_orbit_that_is_found_at_last_confirms(
     sought: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def late(
-        _: Multipliers, point: Array, fourier: FourierBasis, *__: object
+        _: FinerOrbits, point: Array, fourier: FourierBasis, *__: object
     ) -> Array | None:
         sought.append(fourier.harmonics)
         return point if fourier.harmonics == 63 else None
 
-    monkeypatch.setattr(Multipliers, "finer", late)
+    monkeypatch.setattr(FinerOrbits, "finer", late)
 
     _, fourier, confirmed = sure(1.0, STAYS, falls=True, monkeypatch=monkeypatch)
 
@@ -229,7 +231,8 @@ def of(problem: Problem) -> Multipliers:
     path = along_frequency(problem, static_equilibrium(problem), 1.0, 2.0)
     resolution = PathResolution(path, np.ones((1, 1)))
     motions = small_motions(problem)
-    return Multipliers(resolution, lambda _: motions, StepControl(), fixed=False)
+    orbits = FinerOrbits(resolution, StepControl())
+    return Multipliers(resolution, lambda _: motions, orbits, fixed=False)
 
 
 SPEED, SLOW, NEAR, FAST = 0.3, 0.1, 0.38, 0.5
@@ -268,31 +271,10 @@ def test_an_orbit_is_doubted_where_it_is_fast_enough_for_friction_to_fall(
         viscous=0.0,
         load=1.0,
     )
-    monkeypatch.setattr(Multipliers, "finer", lambda *_: None)
+    monkeypatch.setattr(FinerOrbits, "finer", lambda *_: None)
     point = np.zeros(2 * COARSE.harmonics + 2)
     point[2], point[-1] = SPEED / 1.5, 1.5  # a sine of amplitude speed over frequency
 
     _, _, confirmed = of(problem).sure(point, COARSE, np.empty(0))
 
     assert confirmed != doubted
-
-
-@pytest.mark.parametrize(("aside", "found"), [(0.01, True), (0.03, False)])
-def test_a_finer_orbit_with_another_amplitude_is_another_one(
-    aside: float, found: bool
-) -> None:
-    # 2 percent are admitted; the only orbit of a linear oscillator is so much aside
-    mass, damping, stiffness, drive, frequency = 2.0, 0.5, 300.0, 1.5, 1.5
-    problem = sliding_block(
-        mass=mass, damping=damping, stiffness=stiffness, drive=drive, friction=0
-    )
-    turned = drive / (stiffness - mass * frequency**2 + 1j * frequency * damping)
-    exact = np.array([turned.imag, turned.real])  # of drive · sin ωt: cosine and sine
-    point = np.zeros(2 * REPORTED.harmonics + 2)
-    point[1:3], point[-1] = exact / (1.0 + aside), frequency
-
-    finer = of(problem).finer(point, REPORTED)
-
-    assert (finer is not None) == found
-    if finer is not None:
-        np.testing.assert_allclose(finer[1:3], exact, rtol=1e-6)

@@ -3,7 +3,7 @@
 import contextlib
 from collections.abc import Sequence
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import pytest
@@ -100,6 +100,11 @@ class Known:
         found = np.roots([1.0, -total, product]).astype(complex)
         ordered: ComplexArray = found[np.argsort(-np.abs(found))]
         return ordered
+
+    @property
+    def orbits(self) -> Self:
+        """What finds it with another resolution."""
+        return self
 
     def finer(self, point: Array, _: FourierBasis) -> Array:
         """Return the point with another resolution: it is known without any."""

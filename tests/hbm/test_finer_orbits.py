@@ -1,5 +1,6 @@
 """Orbits with more harmonics than a curve has."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -89,3 +90,25 @@ def test_an_orbit_begins_with_what_the_last_one_has_changed(
     assert anew is not None
     assert again < 0.5 * first
     np.testing.assert_allclose(found, anew, rtol=1e-4, atol=1e-7)
+
+
+def test_where_that_leads_nowhere_the_orbit_itself_is_the_beginning(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = between_stops()
+    begun: list[Array] = []
+    orbits = orbits_of(problem)
+    orbits.finer(orbit(problem, STRIKING), MANY)
+
+    def lost_at_first(system: Any, guess: Array, *more: Any, **options: Any) -> Any:
+        begun.append(guess)
+        found = correct(system, guess, *more, **options)
+        return replace(found, outcome=Outcome.STALLED) if len(begun) == 1 else found
+
+    monkeypatch.setattr("hbm.events.finer_orbits.correct", lost_at_first)
+    coarse = orbit(problem, BESIDE)
+
+    assert orbits.finer(coarse, MANY) is not None
+
+    assert not np.array_equal(begun[0], begun[1])
+    np.testing.assert_array_equal(begun[1][: coarse.size - 1], coarse[:-1])

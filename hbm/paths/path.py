@@ -50,6 +50,9 @@ class Path(Protocol):
     def unit(self, parameter: float) -> float:
         """Return the change that counts as one unit of arc."""
 
+    def measure(self, vibration: float, parameter: float) -> float:
+        """Return the change that counts as one unit of arc of a vibration."""
+
     def motions(self, parameter: float) -> SmallMotions:
         """Return the structure for small motions."""
 
@@ -111,6 +114,10 @@ class AlongFrequency:
     def unit(self, parameter: float) -> float:  # noqa: ARG002
         """Return a tenth of the range."""
         return self.range / 10.0
+
+    def measure(self, vibration: float, parameter: float) -> float:  # noqa: ARG002
+        """Return the vibration itself."""
+        return vibration
 
     def motions(self, parameter: float) -> SmallMotions:  # noqa: ARG002
         """Return the structure for small motions."""

@@ -37,7 +37,7 @@ def moving(problem: RelativeProblem, frequency: float) -> NDArray[np.bool_]:
     still = np.zeros((PROBE.coefficients, problem.rank))
     still[0] = problem.rest
     at_rest = contact(still, frequency)
-    amplitude = _stuck(problem, frequency)
+    amplitude = linear_amplitude(problem, frequency)
     faint = FAINT * largest(problem.force[1])
     driven = [_large(_load(problem, share * frequency), faint) for share in BESIDE]
     active = np.zeros(still.shape, dtype=bool)
@@ -101,7 +101,7 @@ def _load(problem: RelativeProblem, frequency: float) -> ComplexArray:
     return seen
 
 
-def _stuck(problem: RelativeProblem, frequency: float) -> float:
+def linear_amplitude(problem: RelativeProblem, frequency: float) -> float:
     """Return the amplitude of the linear response about rest [m].
 
     It is taken a little below the frequency: at an undamped resonance, as of a mode,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from hbm.continuation.arc import Metric, tangent, turn
 from hbm.continuation.arc_step import next_point
+from hbm.continuation.border import border
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.correction import Correction
 from hbm.continuation.linearised import SingularError, System
@@ -89,7 +90,7 @@ def trace(
         candidate, went = next_point(system, past, step, control, settler)
         sharp = _sharp(sharp, past, candidate, went, control)
         if not limits[0] < candidate.point[-1] < limits[1]:
-            yield _border(accepted, candidate, limits, at)
+            yield border(accepted, candidate, limits, at, scale)
             return
         if number >= FEWEST and _passes(first, accepted, candidate, scale):
             yield replace(at(first.point), tangent=first.tangent)
@@ -166,21 +167,3 @@ def _passes(
     aside = float(np.linalg.norm(away - share * step))
     same = float((first.along / scale) @ step) > 0.5 * length
     return 0.0 < share <= 1.0 and aside < ASIDE * length and same
-
-
-def _border(
-    accepted: Correction,
-    candidate: Correction,
-    limits: tuple[float, float],
-    corrected: Callable[[Array], Correction],
-) -> Correction:
-    """Return the point exactly on the limit that lies between two points."""
-    limit = limits[0] if candidate.point[-1] <= limits[0] else limits[1]
-    before, after = accepted.point[-1], candidate.point[-1]
-    share = (limit - before) / (after - before)
-    guess = accepted.point + share * (candidate.point - accepted.point)
-    guess[-1] = limit
-    found = corrected(guess)
-    point = found.point.copy()
-    point[-1] = limit  # not what rounding makes of it
-    return replace(found, point=point, tangent=candidate.tangent)

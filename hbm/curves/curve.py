@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 TURN = 2.0 * np.pi
 ASIDE = 0.05
 """distance of complex multipliers from the unit circle at which there is no torus"""
+ROUNDED = 1e-12
+"""of the larger limit, by which a parameter may be beyond it"""
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
 
@@ -48,14 +50,25 @@ class Curve:
     """what finds them, if they are wanted"""
     residual_range: ResidualRange | None
     """what finds that of amplitudes, if it is wanted"""
+    limits: tuple[float, float]
+    """of the parameter"""
 
     def followed(
         self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
     ) -> Iterator[PeriodicResponse]:
         """Yield the response at each point, and at each event between two points.
 
-        ``beginning`` is what the first point is marked as.
+        More harmonics may have one beyond the limits: it is left out. ``beginning``
+        marks the first point.
         """
+        slack = ROUNDED * max(map(abs, self.limits))
+        least, most = self.limits[0] - slack, self.limits[1] + slack
+        made = self._all(corrections, metric, beginning)
+        return (each for each in made if least <= each.parameter <= most)
+
+    def _all(
+        self, corrections: Iterable[Correction], metric: Metric, beginning: str
+    ) -> Iterator[PeriodicResponse]:
         before: Settled | None = None
         summits = Summits(self.problem.probes.rows)
         for correction in corrections:

@@ -1,4 +1,7 @@
-"""Single periodic responses: to another resolution, a stated error, or stability."""
+"""Single periodic responses: to another resolution, a stated error, or stability.
+
+What a symmetry keeps still is left out where the response that is known keeps it.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ from hbm.errors import hertz, placed
 from hbm.forces.fourier import FourierBasis
 from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
-from hbm.paths.path import along_frequency
+from hbm.paths.path import AlongFrequency, along_frequency
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
@@ -49,6 +52,7 @@ def periodic_response(
     path = along_frequency(
         small, still, guess.frequency, guess.frequency, pruned=pruned
     )
+    path = _holding(path, problem, guess)
     balance = path.balance(FourierBasis(harmonics, samples))
     rows = path.problem.map_from(problem.interface.displacement)
     start = pushed(balance, balance.point(guess.seen(rows), guess.frequency))
@@ -66,8 +70,9 @@ def settled_response(
 ) -> PeriodicResponse:
     """Return the response at the frequency of ``guess`` to a stated error.
 
-    Harmonics and samples grow from one harmonic of the guess until the estimated
-    relative error of the amplitude is below ``error``, or until there are no more.
+    Harmonics and samples grow from one harmonic of the guess, or from all of one that
+    breaks a symmetry, until the estimated relative error of the amplitude is
+    below ``error``, or until there are no more.
 
     Raises
     ------
@@ -76,13 +81,17 @@ def settled_response(
     """
     frequency = guess.frequency
     small, still, shapes = dense_problem(problem, rest, RESOLVED * frequency)
-    path = along_frequency(small, still, frequency, frequency)
+    symmetric = along_frequency(small, still, frequency, frequency)
+    path = _holding(symmetric, problem, guess)
     around = CurveOptions(frequency, 2.0 * frequency, error=error, stability=False)
     tracer = Tracer(small, path, around)
     rows = path.problem.map_from(problem.interface.displacement)
-    first = guess.seen(rows)[:3].ravel()
+    known = guess.seen(rows)[:3].ravel()
+    if path is not symmetric:
+        known = guess.seen(rows).ravel()[: tracer.system.size - 1]
+        tracer.system.restart(guess.harmonics)
     start = np.zeros(tracer.system.size)
-    start[: first.size], start[-1] = first, frequency
+    start[: known.size], start[-1] = known, frequency
     with one_thread(), placed(hertz):
         found = correct_at(tracer.system, start, tracer.control, tracer.system)
         made = next(tracer.curve.followed([found], tracer.pieces.metric))
@@ -109,7 +118,16 @@ def with_multipliers(
     """
     small, still, _ = dense_problem(problem, rest, resolved_up_to(options))
     path = along_frequency(small, still, options.start, options.end)
+    path = _holding(path, problem, response)
     tracer = Tracer(small, path, replace(options, stability=True))
     point = tracer.guess(response, path.problem.selection)
     with one_thread():
         return tracer.curve.examined(response, point)
+
+
+def _holding(
+    path: AlongFrequency, problem: Problem, response: PeriodicResponse
+) -> AlongFrequency:
+    """Return a path that has room for a response of the whole problem."""
+    rows = path.every.map_from(problem.interface.displacement)
+    return path.holding(response.seen(rows))

@@ -72,6 +72,7 @@ class Tracer:
             _residual_range(problem, resolution, self.control)
             if options.residual_range
             else None,
+            (least, most),
         )
         self.pieces = Pieces(
             path,

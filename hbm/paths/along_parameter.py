@@ -9,7 +9,7 @@ from copy import copy
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.balance.active import extended, moving, symmetric
+from hbm.balance.active import extended, linear_amplitude, moving, symmetric
 from hbm.balance.parametric import ParametricBalance
 from hbm.balance.relative import RelativeProblem
 from hbm.balance.relative_problem import relative_problem
@@ -17,13 +17,15 @@ from hbm.balance.rigid import with_pushes
 from hbm.errors import PLACE, ContinuationError
 from hbm.forces.fourier import FourierBasis
 from hbm.stability.stability import SmallMotions, small_motions
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState, static_equilibrium
 
 WIDE = 10.0
 """ratio of two values from which equal ratios, not differences, count as equal"""
+FAINT = 0.1
+"""of the largest drive, below which vibrations count as they do there"""
 PAST = 8
 """problems that are remembered"""
 
@@ -57,7 +59,11 @@ class AlongParameter:
         self._basis: Array | None = None
         self._past: dict[float, RelativeProblem] = {}
         values = (start, 0.5 * (start + end), end)
-        seen = [moving(self._whole(value), frequency) for value in values]
+        seen, self._loudest = [], (0.0, 0.0)
+        for problem in map(self._whole, values):
+            seen.append(moving(problem, frequency))
+            loud = largest(problem.force[1]), linear_amplitude(problem, frequency)
+            self._loudest = max(self._loudest, loud)
         active = np.logical_or.reduce(seen)
         self._kept, self._odd = symmetric(active)
         self._active = active[:, self._kept]
@@ -103,6 +109,20 @@ class AlongParameter:
         if low > 0.0 and high > WIDE * low:
             return max(parameter, 0.1 * low) * math.log(high / low) / 10.0
         return (high - low) / 10.0
+
+    def measure(self, vibration: float, parameter: float) -> float:
+        """Return a vibration, or about that under a faint drive where it is less.
+
+        As the drive vanishes all does: steps by shares of it would not come to an end.
+        """
+        drive, amplitude = self._loudest
+        problem, _ = self.at(parameter)
+        share = largest(problem.force[1]) / drive if drive > 0.0 else 1.0
+        if share >= FAINT:
+            return vibration
+        if share > 0.0:  # it may be less than the linear one
+            amplitude = min(amplitude, vibration / share)
+        return max(vibration, FAINT * amplitude)
 
     def motions(self, parameter: float) -> SmallMotions:
         """Return the structure for small motions."""

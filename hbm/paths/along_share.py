@@ -82,6 +82,10 @@ class AlongShare:
         """Return the change that counts as one unit of arc."""
         return UNIT
 
+    def measure(self, vibration: float, parameter: float) -> float:  # noqa: ARG002
+        """Return the vibration itself."""
+        return vibration
+
     def motions(self, parameter: float) -> SmallMotions:  # noqa: ARG002
         """Return the structure for small motions."""
         return self.path.motions(self.place)

@@ -17,9 +17,12 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.balance.rigid import with_pushes
 from hbm.forces.fourier import FourierBasis
 from hbm.stability.stability import SmallMotions, small_motions
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import StaticState
+
+BROKEN = 1e-6
+"""of a motion: what it has where a symmetry keeps still, beyond rounding"""
 
 
 class Path(Protocol):
@@ -46,6 +49,9 @@ class Path(Protocol):
 
     def unit(self, parameter: float) -> float:
         """Return the change that counts as one unit of arc."""
+
+    def measure(self, vibration: float, parameter: float) -> float:
+        """Return the change that counts as one unit of arc of a vibration."""
 
     def motions(self, parameter: float) -> SmallMotions:
         """Return the structure for small motions."""
@@ -89,6 +95,18 @@ class AlongFrequency:
             return self, np.arange(self.rank)
         return _in_all(self.whole, self.every, self.range), self.kept
 
+    def holding(self, motion: Array) -> AlongFrequency:
+        """Return this path, or that in all if a motion breaks the symmetry.
+
+        ``motion`` holds all coordinates, shape (2 harmonics + 1, rank of all).
+        """
+        moved = motion.copy()
+        moved[0] -= self.every.rest
+        moving = np.zeros(motion.shape, dtype=bool)
+        moving[:, self.kept] = self.mask(len(motion) // 2)
+        broken = largest(moved[~moving]) > BROKEN * largest(moved)
+        return self.in_all()[0] if broken else self
+
     def balance(self, fourier: FourierBasis) -> HarmonicBalance:
         """Return harmonic balance at one resolution."""
         return HarmonicBalance(self.problem, fourier, self.mask(fourier.harmonics))
@@ -96,6 +114,10 @@ class AlongFrequency:
     def unit(self, parameter: float) -> float:  # noqa: ARG002
         """Return a tenth of the range."""
         return self.range / 10.0
+
+    def measure(self, vibration: float, parameter: float) -> float:  # noqa: ARG002
+        """Return the vibration itself."""
+        return vibration
 
     def motions(self, parameter: float) -> SmallMotions:  # noqa: ARG002
         """Return the structure for small motions."""

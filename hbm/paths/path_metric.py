@@ -20,7 +20,8 @@ def path_metric(path: Path, point: Array) -> Array:
     are smaller than it count like it. Pushes on rigid contacts count less.
     """
     means = path.rank
-    vibration = float(np.linalg.norm(point[means:-1])) + 1e-15
+    vibration = float(np.linalg.norm(point[means:-1]))
+    vibration = path.measure(vibration, float(point[-1])) + 1e-15
     scale = np.full(point.size, vibration)
     scale[:means] = max(float(np.linalg.norm(point[:means])), vibration)
     tractions = path.at(float(point[-1]))[0].tractions

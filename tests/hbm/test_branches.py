@@ -1,12 +1,17 @@
 """Branches of curves; Duffing's against time integration by a general solver."""
 
 import functools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import scipy.integrate
 
-from hbm.curves.periodic_response import periodic_response
+from hbm.curves.periodic_response import (
+    periodic_response,
+    settled_response,
+    with_multipliers,
+)
 from hbm.options import CurveOptions
 from hbm.solve import branches, frequency_response
 from microslip_mechanics.arrays import Array
@@ -177,8 +182,28 @@ def test_a_branch_whose_first_step_lands_on_its_mirror_image_goes_on() -> None:
     means = [abs(float(each.coefficients[0, 0])) for each in branch]
     assert means[-1] > 10.0 * means[1] > 0.0
     for each in branch[1:6]:  # with 15 harmonics its foot is elsewhere; measured 2e-3
-        resolution = {"harmonics": 127, "samples": 4096}
-        finer = periodic_response(problem, rest, each, **resolution, pruned=False)
+        finer = periodic_response(problem, rest, each, harmonics=127, samples=4096)
         assert finer.coefficients[0, 0] == pytest.approx(
             each.coefficients[0, 0], rel=4e-3
         )
+
+
+def test_one_orbit_of_a_branch_stays_on_it() -> None:
+    # what the symmetry keeps still was left out, and the symmetric orbit returned
+    problem = cubic_oscillator(damping=DAMPING, drive=DRIVE)
+    rest = static_equilibrium(problem)
+    known = max(curves()[1], key=lambda each: abs(each.coefficients[0, 0]))
+
+    settled = settled_response(problem, rest, known, error=1e-6)
+    examined = with_multipliers(
+        problem, rest, replace(known, multipliers=np.empty(0, complex)), OPTIONS
+    )
+    again = periodic_response(problem, rest, known, harmonics=31, samples=512)
+
+    assert abs(known.coefficients[0, 0]) > 0.1
+    for found in (settled, again):
+        np.testing.assert_allclose(
+            found.coefficients[:7], known.coefficients[:7], atol=1e-5
+        )
+    np.testing.assert_allclose(examined.multipliers, known.multipliers, atol=1e-5)
+    assert away(again, marched(again, 1)) < 1e-5

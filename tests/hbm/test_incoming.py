@@ -1,5 +1,7 @@
 """What comes in from beyond a range that begins or ends between two folds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -108,3 +110,40 @@ def test_what_comes_in_at_a_sharp_fold_is_found_again_with_as_many_harmonics() -
     shot = [compared(problem, each) for each in starts]
     assert [each.as_estimated for each in shot] == [True] * 3
     assert max(each.difference for each in shot) < 2e-3
+
+
+@pytest.mark.parametrize("end", [2.206, 2.21])  # the fold is at 2.2113
+def test_a_range_is_left_where_the_curve_passes_its_end_first(end: float) -> None:
+    options = CurveOptions(1.0, end)
+
+    found = list(frequency_response(PROBLEM, static_equilibrium(PROBLEM), options))
+
+    first = found[: [each.event for each in found].index("restart")]
+    ends = sorted(amplitude(each) for each in found if each.frequency == end)
+    assert [first[-1].frequency, first[-1].unstable] == [end, 0]
+    assert amplitude(first[-1]) == ends[-1]
+    assert len(ends) == 3
+    # a peak beyond the end is none of the range
+    assert all(1.0 <= each.frequency <= end for each in found)
+
+
+def test_a_fold_that_more_harmonics_have_beyond_the_end_is_none_of_the_range() -> None:
+    stop = UnilateralSpring(stiffness=2215.0, gap=5e-4)
+    problem = system(
+        mass=[1.0],
+        stiffness=[1000.0],
+        damping_ratio=0.00786,
+        elements=[Element(stop, ("x1", "ground"))],
+        drive={"x1": 0.377},
+    )
+    rest = static_equilibrium(problem)
+    options = CurveOptions(6.0, 60.0, error=2e-3, stability=False)
+    folds = [
+        each.frequency
+        for each in frequency_response(problem, rest, options)
+        if each.event == "fold" and each.frequency < 20.0
+    ]
+
+    for end in (share * fold for fold in folds for share in (0.99999, 0.9999)):
+        found = list(frequency_response(problem, rest, replace(options, end=end)))
+        assert max(each.frequency for each in found) == end

@@ -52,6 +52,30 @@ def test_contact_points_that_a_parameter_moves_see_their_own_motion() -> None:
         np.testing.assert_allclose(found, expected, atol=1e-6 * np.abs(expected).max())
 
 
+@pytest.mark.parametrize("ends", [(3.0, 0.0), (0.0, 3.0)])
+def test_few_points_of_a_curve_lie_where_the_drive_vanishes(
+    ends: tuple[float, float],
+) -> None:
+    frequency, damping = 0.6, 0.2
+
+    found = list(
+        parameter_response(
+            lambda drive: cubic_oscillator(damping=damping, drive=drive),
+            frequency,
+            CurveOptions(*ends, harmonics=1, samples=64),
+        )
+    )
+
+    faint = [each for each in found if each.parameter < 0.3]
+    assert (found[0].parameter, found[-1].parameter) == ends
+    assert 4 <= len(faint) <= 12
+    for each in faint:
+        size = float(np.hypot(*each.coefficients[1:3, 0]))
+        # one harmonic has three quarters of the cubic force
+        stiffness = 1.0 + 0.75 * size**2 - frequency**2 + 1j * damping * frequency
+        assert size * abs(stiffness) == pytest.approx(each.parameter, abs=1e-6)
+
+
 def test_a_curve_that_ends_without_drive_keeps_its_tolerance() -> None:
     unit = 1e-8
     made = cubic_oscillator(damping=0.2, drive=6.0)

@@ -172,6 +172,41 @@ def test_poles_of_a_scene_without_elements_are_those_of_its_structure(
     assert f"{damped:.4f} (10.000)" in output
 
 
+def test_lines_of_limits_that_cross_keep_their_names(tmp_path: Path) -> None:
+    scene = tmp_path / "two.toml"
+    scene.write_text(
+        """
+        scene = "system"
+        [structure]
+        names = ["x", "y"]
+        mass = [1, 1]
+        stiffness = [[1e4, 0], [0, 1.25e4]]
+        damping_ratio = 0.005
+        [[element]]
+        name = "slider"
+        law = "jenkins"
+        between = ["x", "ground"]
+        stiffness = 1000
+        limit = 1
+        [drive]
+        x = 0.5
+        y = 0.1
+        [curve]
+        lowest = 14
+        highest = 22
+        """
+    )
+    stiffness = np.array([1000.0, 2000.0, 4000.0, 6000.0])
+    question = Question(str(scene), (), "element.slider.stiffness")
+    found = list(linearised(question, [str(each) for each in stiffness]))
+
+    stuck = limit_lines(found, "stuck", limits_of(question.at("1000")))
+
+    tied = np.sqrt((1e4 + stiffness) * (1.0 - 0.005**2)) / (2.0 * np.pi)
+    alone = np.full(4, np.sqrt(1.25e4 * (1.0 - 0.005**2)) / (2.0 * np.pi))
+    np.testing.assert_allclose(frequencies(stuck), np.c_[tied, alone], rtol=1e-4)
+
+
 def test_the_frequency_of_the_response_may_be_given(run: Run, tmp_path: Path) -> None:
     status, output, _ = run(
         *("poles", "two-blades", "friction", "0.3", "--set", "model=A"),

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from microslip.files.record_file import RecordFile
+from microslip.files.record_layout import Layout
 from microslip.files.whole_file import write_whole
 
 
@@ -71,3 +73,19 @@ def test_what_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
         write_whole(tmp_path / "folder", b"content")
 
     assert [each.name for each in tmp_path.iterdir()] == ["folder"]
+
+
+def test_the_file_of_a_march_under_way_is_left_to_it(tmp_path: Path) -> None:
+    path = tmp_path / "a.nc"
+    march = RecordFile(path, Layout(b"header", {}, {}, 8, 8), goes_on=False)
+    before = path.read_bytes()
+
+    with pytest.raises(OSError, match="another command is writing it"):
+        write_whole(path, b"a curve")
+    left = path.read_bytes()
+    march.close()
+    write_whole(path, b"a curve")
+
+    assert left == before
+    assert path.read_bytes() == b"a curve"
+    assert list(tmp_path.iterdir()) == [path]

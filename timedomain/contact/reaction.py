@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.memory import add_traction
 from microslip_mechanics.contact.points import ELASTIC, RIGID, ContactPoints
+from microslip_mechanics.contact.spread import spread_force
 from microslip_mechanics.jit import bare_kernel
 from timedomain.contact.dense import dot
 from timedomain.contact.operators import Operators
@@ -23,7 +23,10 @@ def react(
     tangent: Array,
     tangents: Array,
 ) -> None:
-    """Write the contact force on y, and its derivative by the acceleration."""
+    """Write the contact force on y, and its derivative by the acceleration.
+
+    ``tangents``, shape ``(5, 3, 3)``, is work.
+    """
     basis = operators.basis
     reaction[:] = 0.0
     tangent[:] = 0.0
@@ -32,14 +35,14 @@ def react(
         for axis in range(3):
             state.gaps[point, axis] = dot(rows[axis], displacement)
             state.slips[point, axis] = dot(rows[axis], velocity)
-        contact_force(
+        spread_force(
             points,
             point,
+            operators.step,
             state.gaps[point],
             state.slips[point],
             state.forces[point],
-            tangents[0],
-            tangents[1],
+            tangents,
         )
         if ELASTIC <= points.friction[point] < RIGID:
             add_traction(

@@ -8,10 +8,10 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.interface import Interface
-from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.loop_gradient import Waves, loop_gradient
 from microslip_mechanics.contact.memory import pressed, remembers
 from microslip_mechanics.contact.points import ContactPoints
+from microslip_mechanics.contact.spread import spread_force
 from microslip_mechanics.contact.steady_loop import steady_loop
 from microslip_mechanics.floating import floating
 from microslip_mechanics.jit import kernel
@@ -100,11 +100,16 @@ def on_orbit(problem: Problem, response: PeriodicResponse) -> Start:
     return Start(displacement[0], velocity[0], tractions)
 
 
-def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
-    """Return the state whose acceleration balances all forces at time zero."""
+def first_state(
+    problem: Problem, history: LoadHistory, start: Start, step: float = 0.0
+) -> State:
+    """Return the state whose acceleration balances all forces at time zero.
+
+    ``step`` is that of a march over which forces that jump are spread [s].
+    """
     structure, interface = problem.structure, problem.interface
     basis, _ = interface.relative_motion()
-    moved, moving, forces, past = _contacts(interface, start)
+    moved, moving, forces, past = _contacts(interface, start, step)
     loads = problem.loads
     factors = factors_over(history.segments(), np.zeros(1), len(loads))[0]
     unbalanced = (
@@ -126,7 +131,9 @@ def first_state(problem: Problem, history: LoadHistory, start: Start) -> State:
     )
 
 
-def _contacts(interface: Interface, start: Start) -> tuple[Array, Array, Array, Array]:
+def _contacts(
+    interface: Interface, start: Start, step: float
+) -> tuple[Array, Array, Array, Array]:
     """Return displacement, velocity, force and past of the contact points.
 
     Of shape ``(points, 3)`` each, the past ``(points, 4, 2)`` as
@@ -134,14 +141,15 @@ def _contacts(interface: Interface, start: Start) -> tuple[Array, Array, Array, 
     """
     moved = (interface.displacement @ start.displacement).reshape(-1, 3)
     moving = (interface.displacement @ start.velocity).reshape(-1, 3)
-    forces, unused = np.zeros_like(moved), np.zeros((2, 3, 3))
+    forces, unused = np.zeros_like(moved), np.zeros((5, 3, 3))
     past = np.zeros((interface.count, 4, 2))
     past[:, 0], past[:, 2] = moved[:, 1:], moving[:, 1:]
     for point in range(interface.count):
         _press(interface.points, point, moved[point, 0], moving[point, 0], past[point])
-        contact_force(
-            interface.points, point, moved[point], moving[point], forces[point], *unused
-        )
+        spread_force(
+            interface.points, point, step, moved[point], moving[point], forces[point],
+            unused,
+        )  # fmt: skip
     if start.traction is not None:
         past[:, 1] = start.traction
         forces[:, 1:] += start.traction

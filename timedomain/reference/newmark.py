@@ -51,7 +51,7 @@ def march(
     The step that failed, or the number of steps; and Newton iterations.
     """
     steps, stride = factors.shape[0], factors.shape[0] // rows.shape[0]
-    tangents = np.zeros((2, 3, 3))
+    tangents = np.zeros((5, 3, 3))
     predicted = np.zeros(2 * state.displacement.size)
     iterations = 0
     for step in range(first, steps):

@@ -111,7 +111,7 @@ def _assemble(
         start[1] + half * made.acceleration,
         smooth,
         tangent,
-        np.zeros((2, 3, 3)),
+        np.zeros((5, 3, 3)),
     )
     matrix, residual = made.matrix, made.residual
     matrix[:] = 0.0

@@ -23,7 +23,7 @@ ROUNDING = 1e-13
 """of a state"""
 LEAP = 1e-3
 """largest change, over the vibration, that may be left where none brings end and
-beginning closer together: forces that jump as faces touch make a march of steps leap"""
+beginning closer together: friction limits that jump as faces touch make a march leap"""
 CHORD = 0.1
 """of the gap: what a step leaves, up to which its derivative serves again"""
 
@@ -54,10 +54,8 @@ class ClosedMarch:
             return sensitivity_of(self.map, self.period).monodromy
 
 
-def closed(carried: PeriodMap, state: Array, leap: float = LEAP) -> ClosedMarch:
+def closed(carried: PeriodMap, state: Array) -> ClosedMarch:
     """Return the orbit of one number of steps by Newton's iteration.
-
-    ``leap`` is the largest change that may be left where steps leap, see :data:`LEAP`.
 
     Sliders that never slip carry no mean traction, or as little as their limits admit.
     Directions in which nothing pins the state, such as the mean position of a body
@@ -82,7 +80,7 @@ def closed(carried: PeriodMap, state: Array, leap: float = LEAP) -> ClosedMarch:
             return _held(found)
         closer = _closer(found, change, gap, HALVINGS if own else 1)
         if closer is None and own:
-            if size <= leap * unit:
+            if size <= LEAP * unit:
                 return replace(found, left=size / unit)
             raise ShootingError(
                 f"{_at(carried)}: Newton's change does not bring end and beginning "

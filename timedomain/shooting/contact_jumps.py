@@ -35,7 +35,6 @@ def contact_jumps(period_map: PeriodMap, period: Period) -> list[ContactJump]:
     """
     points, basis = period_map.problem.interface.points, period_map.sliders.basis
     moved, moving = period_map.points(period.displacement, period.velocity)
-    length = 2.0 * np.pi / (period_map.frequency * period_map.steps)
     found = []
     for step, point in np.argwhere(passes(points, moved)):
         if not sudden(points, point):
@@ -48,7 +47,9 @@ def contact_jumps(period_map: PeriodMap, period: Period) -> list[ContactJump]:
             continue
         jump = contact_jump(points, int(point), velocity, BESIDE * abs(way))
         rows = basis[3 * point : 3 * point + 3]
-        elastic = np.outer(rows.T @ jump, rows[0]) / (abs(velocity[0]) * length)
+        elastic = np.outer(rows.T @ jump, rows[0]) / (
+            abs(velocity[0]) * period_map.length
+        )
         made = np.hstack([elastic, np.zeros_like(elastic)])
         found.append(ContactJump(int(step), share, made))
     return found

@@ -73,6 +73,11 @@ class PeriodMap:
         return cls(problem, structure, frequency, whole, sliders)
 
     @property
+    def length(self) -> float:
+        """Length of a step [s]."""
+        return 2.0 * np.pi / (self.frequency * self.steps)
+
+    @property
     def unit(self) -> Array:
         """Traction [N] that counts as one unit of a state, shape (sliders,).
 
@@ -141,9 +146,7 @@ class PeriodMap:
         dofs = self.problem.structure.dofs
         seen = Probes(tuple(str(place) for place in range(dofs)), np.eye(dofs))
         duration, start = 2.0 * np.pi / self.frequency, self.start(state)
-        options = MarchOptions(
-            duration / self.steps, 1, method="reference", residual=TOLERANCE
-        )
+        options = MarchOptions(self.length, 1, method="reference", residual=TOLERANCE)
         (history,) = integrate(
             replace(self.problem, probes=seen),
             Dwell(self.frequency, duration),
@@ -177,11 +180,13 @@ class PeriodMap:
         made = np.linalg.solve(implicit, np.hstack([explicit, pushed]))
         return made[:, : 2 * modes], made[:, 2 * modes :]
 
-    def tangents(self, displacement: Array, velocity: Array) -> Array:
-        """Return D by (y, ẏ/ω), shape (times, rank, 2 rank), at the points' motion."""
-        elastic, viscous = contact_tangents(
-            self.problem.interface.points, self.sliders.basis, displacement, velocity
-        )
+    def tangents(self, motion: tuple[Array, Array], step: float) -> Array:
+        """Return D by (y, ẏ/ω), shape (times, rank, 2 rank), at the points' motion.
+
+        Forces that jump are spread over a ``step`` [s], 0 if they are not.
+        """
+        points, basis = self.problem.interface.points, self.sliders.basis
+        elastic, viscous = contact_tangents(points, basis, *motion, step)
         return np.concatenate([elastic, self.frequency * viscous], axis=2)
 
     def points(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:

@@ -38,7 +38,7 @@ def sensitivity_of(period_map: PeriodMap, period: Period) -> Sensitivity:
         whole = _without_memory(period_map, period)
         return Sensitivity(whole, np.zeros((0, len(whole))))
     tangents = period_map.tangents(
-        *period_map.points(period.displacement, period.velocity)
+        period_map.points(period.displacement, period.velocity), period_map.length
     )
     return carried_state(period_map, period, tangents)
 
@@ -86,7 +86,7 @@ def _without_memory(period_map: PeriodMap, period: Period) -> Array:
     if (period_map.problem.interface.points.friction == RIGID).any():
         return _differences(period_map, period)
     tangents = period_map.tangents(
-        *period_map.points(period.displacement, period.velocity)
+        period_map.points(period.displacement, period.velocity), period_map.length
     )
     return monodromy_of(period_map, tangents)
 

@@ -10,15 +10,12 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import TINY, Array, ComplexArray
 from timedomain.record.start import Start
 from timedomain.shooting.closed_march import ClosedMarch
-from timedomain.shooting.contact_jumps import contact_jumps
 from timedomain.shooting.floquet import extrapolated_multipliers
 from timedomain.shooting.period_sensitivity import loose_monodromy
 from timedomain.shooting.small_motions import small_motions
 
 SHARE = 8
 """steps of the coarser march in a cycle of the highest harmonic"""
-LONE = 4.0
-"""times the change from one march to the next, where forces jump and no other tells"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,33 +82,13 @@ def extrapolated(coarse: ClosedMarch, fine: ClosedMarch, error: float) -> Period
     )
 
 
-def amplitude_error(
-    before: ClosedMarch | None, coarse: ClosedMarch, fine: ClosedMarch
-) -> float:
+def amplitude_error(coarse: ClosedMarch, fine: ClosedMarch) -> float:
     """Return the estimated error of extrapolated amplitudes, over the largest one.
 
     How far they are from those of half the steps, three times as much as extrapolation
     moves them: it gains nothing where friction turns over within a step. To that comes
     three times what is left where a march leaps.
-
-    Where a force jumps as faces touch, errors are of first order and go up and down
-    with where in a step that is: two marches may be wrong alike. Twice the change then,
-    or that from the march ``before``, of half the steps of the coarse one; without
-    that march there is a margin.
     """
-    error = _change(coarse, fine)
-    if not jumps(fine):
-        return error
-    return max(2.0 * error, _change(before, coarse)) if before else LONE * error
-
-
-def jumps(marched: ClosedMarch) -> bool:
-    """Return whether a force jumps somewhere in a period."""
-    return bool(contact_jumps(marched.map, marched.period))
-
-
-def _change(coarse: ClosedMarch, fine: ClosedMarch) -> float:
-    """Return by how much amplitudes change with the steps, over the largest one."""
     rows, (coefficients, moved) = (
         fine.map.problem.probes.rows,
         _coefficients_of(coarse, fine),

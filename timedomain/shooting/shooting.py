@@ -8,28 +8,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from microslip_mechanics.arrays import TINY, Array
-from microslip_mechanics.contact.law import sudden
 from microslip_mechanics.contact.memory import beyond_motion, remembers
 from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.record.start import Start
-from timedomain.shooting.closed_march import LEAP, ClosedMarch, ShootingError, closed
+from timedomain.shooting.closed_march import ClosedMarch, ShootingError, closed
 from timedomain.shooting.period_map import BLOCK, PeriodMap
 from timedomain.shooting.periodic_orbit import (
     PeriodicOrbit,
     amplitude_error,
     extrapolated,
     first_harmonic,
-    jumps,
 )
 from timedomain.shooting.whole_orbit import whole_orbit
 
 ASTRAY = 0.1
 """change of the first harmonic, relative, from which an orbit may be another one, …"""
-LEAPS = (LEAP, 10.0 * LEAP, 50.0 * LEAP)
-"""changes that may be left where steps leap, tried in turn: near a fold a leap of some
-ten thousandths of the motion asks for a change a hundred times as large"""
 DOUBT = 3.0
 """… unless it is below so many times the error, if known, of the response beside it"""
 
@@ -69,8 +64,7 @@ def periodic_orbit(
     """Return the periodic motion near a start, stable or not.
 
     Two orbits, the second with twice the steps, give the extrapolated motion; the
-    difference of the two is the error that is reported. Where forces jump as faces
-    touch, an orbit before them has a say in it (:func:`amplitude_error`).
+    difference of the two is the error that is reported (:func:`amplitude_error`).
 
     Parameters
     ----------
@@ -104,41 +98,21 @@ def periodic_orbit(
     chosen = options or ShootingOptions()
     if beyond_motion(points):
         near = None
-    failed: list[ShootingError] = []
-    leaps = any(sudden(points, point) for point in range(points.load.size))
-    for leap in LEAPS if leaps else LEAPS[:1]:
-        try:
-            return _refined(problem, frequency, start, chosen, near, leap)
-        except ShootingError as error:
-            failed.append(error)
-    raise failed[0]
-
-
-def _refined(
-    problem: Problem,
-    frequency: float,
-    start: Start,
-    chosen: ShootingOptions,
-    near: PeriodicResponse | None,
-    leap: float,
-) -> PeriodicOrbit:
-    """Return the periodic motion near a start, with steps doubled as is chosen."""
-    before, coarse = None, _first(problem, frequency, start, chosen, near, leap)
+    coarse = _first(problem, frequency, start, chosen, near)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
         try:
-            fine = _found(finer, coarse.state, near, leap)
+            fine = _found(finer, coarse.state, near)
         except ShootingError:
             if 4 * finer.steps > chosen.most:
                 raise
             more = replace(chosen, steps=2 * finer.steps)
-            before, coarse = None, _first(problem, frequency, start, more, near, leap)
+            coarse = _first(problem, frequency, start, more, near)
             continue
-        error = amplitude_error(before, coarse, fine)
-        sure = before is not None or not jumps(fine)
-        if (sure and error <= chosen.error) or 2 * finer.steps > chosen.most:
+        error = amplitude_error(coarse, fine)
+        if error <= chosen.error or 2 * finer.steps > chosen.most:
             return extrapolated(coarse, fine, error)
-        before, coarse = coarse, fine
+        coarse = fine
 
 
 def _first(
@@ -147,7 +121,6 @@ def _first(
     start: Start,
     chosen: ShootingOptions,
     near: PeriodicResponse | None,
-    leap: float,
 ) -> ClosedMarch:
     """Return the orbit of the fewest steps that have one, and close to ``near``.
 
@@ -159,7 +132,7 @@ def _first(
         carried = PeriodMap.of(problem, frequency, steps)
         last = 4 * steps > chosen.most
         try:
-            found = _found(carried, carried.state(start), near, leap)
+            found = _found(carried, carried.state(start), near)
             if near is None or not _astray(found, near):
                 return found
             astray = astray or found
@@ -172,7 +145,7 @@ def _first(
 
 
 def _found(
-    carried: PeriodMap, state: Array, near: PeriodicResponse | None, leap: float
+    carried: PeriodMap, state: Array, near: PeriodicResponse | None
 ) -> ClosedMarch:
     """Return the orbit of one number of steps, marched or all steps at once.
 
@@ -180,7 +153,7 @@ def _found(
     too fast on none.
     """
     try:
-        marched = closed(carried, state, leap)
+        marched = closed(carried, state)
     except ShootingError as error:
         if near is None:
             raise

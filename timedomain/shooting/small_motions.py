@@ -50,7 +50,8 @@ def _mean_tangents(
     Each half of the steps ``passed`` has the mean over itself instead.
     """
     motion = period.displacement, period.velocity
-    own = period_map.tangents(*period_map.points(*(each[:-1] for each in motion)))
+    samples = period_map.points(*(each[:-1] for each in motion))
+    own = period_map.tangents(samples, 0.0)
     halves = own / 2.0, np.roll(own, -1, axis=0) / 2.0
     shares = np.split((np.arange(PARTS) + 0.5) / PARTS, 2)
     for half, parts in zip(halves, shares, strict=True):
@@ -61,7 +62,7 @@ def _mean_tangents(
             )
             for each in motion
         ]
-        found = period_map.tangents(*period_map.points(*between))
+        found = period_map.tangents(period_map.points(*between), 0.0)
         half[passed] = found.reshape(parts.size, passed.size, *own.shape[1:]).sum(0)
         half[passed] /= PARTS
     for step, share, stiffness in contact_jumps(period_map, period):

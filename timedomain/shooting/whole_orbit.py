@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.slides import slides_of
+from microslip_mechanics.contact.spread import spread_force
 from microslip_mechanics.jit import kernel
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.loads.segments import factors_over
@@ -116,7 +116,7 @@ class _Steps:
     def change(self, states: Array, left: Array) -> Array:
         """Return Newton's change of all states."""
         motion = self._motion(states)
-        tangents = self.carried.tangents(*self._points(motion))
+        tangents = self.carried.tangents(self._points(motion), self.carried.length)
         try:
             with np.errstate(over="raise", invalid="raise"):
                 return whole_change(
@@ -151,22 +151,27 @@ class _Steps:
     def _forces(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
         """Return φ, (times, rank), and the power that friction takes, (times,)."""
         forces = np.zeros_like(displacement)
-        _write(self.carried.problem.interface.points, displacement, velocity, forces)
+        points, step = self.carried.problem.interface.points, self.carried.length
+        _write(points, step, displacement, velocity, forces)
         power = (forces * velocity)[:, :, 1:].sum(axis=(1, 2))
         return forces.reshape(len(forces), -1) @ self.carried.sliders.basis, power
 
 
 @kernel
 def _write(
-    points: ContactPoints, displacement: Array, velocity: Array, forces: Array
+    points: ContactPoints,
+    step: float,
+    displacement: Array,
+    velocity: Array,
+    forces: Array,
 ) -> None:
     """Write the forces of all points at all times."""
-    stiff, viscous = np.zeros((3, 3)), np.zeros((3, 3))
+    tangents = np.zeros((5, 3, 3))
     for place in range(forces.shape[0]):
         for point in range(forces.shape[1]):
-            contact_force(
-                points, point, displacement[place, point], velocity[place, point],
-                forces[place, point], stiff, viscous,
+            spread_force(
+                points, point, step, displacement[place, point],
+                velocity[place, point], forces[place, point], tangents,
             )  # fmt: skip
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import io
 import os
 import struct
@@ -11,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from microslip.files.lock import lock
 from microslip.files.record_layout import Layout
 from microslip_mechanics.arrays import Array
 
@@ -96,13 +96,8 @@ def _alone(path: Path, create: int) -> io.FileIO:
         path, "r+", opener=lambda name, flags: os.open(name, flags | create, 0o666)
     )
     try:
-        import fcntl
-
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
+        lock(file)
+    except OSError:
         file.close()
-        reason = "another command is writing it: wait for it, or give another name"
-        raise OSError(errno.EWOULDBLOCK, reason) from None
-    except (ImportError, OSError):  # a system, or a disk, that knows no locks
-        pass
+        raise
     return file

@@ -15,7 +15,7 @@ from hbm.one_harmonic import (
     one_harmonic_error,
     one_harmonic_response,
 )
-from hbm.structure.poles import NONE, followed, poles
+from hbm.structure.poles import NONE, followed
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
 from microslip.studies.pole_question import Question
@@ -40,10 +40,10 @@ class Linear:
     """against more harmonics"""
     outside: bool
     """whether its amplitude is the largest of the range, and at an end of it"""
-    free: ComplexArray
-    """poles on the normal contacts at rest, without friction [rad/s]"""
-    stuck: ComplexArray
-    """and without sliding [rad/s]"""
+    free: Structure
+    """on the normal contacts at rest, without friction"""
+    stuck: Structure | None
+    """and without sliding; None if nothing can move"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,6 @@ def _linear(
     *,
     outside: bool,
 ) -> Linear:
-    stuck = stuck_structure(problem, rest)
     amplitude = float(response.amplitudes(problem.probes.rows).max(initial=0.0))
     return Linear(
         equivalent_contact(problem, response).joined(problem),
@@ -105,8 +104,8 @@ def _linear(
         amplitude,
         error,
         outside and amplitude > 0.0,
-        poles(free_structure(problem, rest)).values,
-        np.empty(0, complex) if stuck is None else poles(stuck).values,
+        free_structure(problem, rest),
+        stuck_structure(problem, rest),
     )
 
 
@@ -125,12 +124,8 @@ def branches(found: Sequence[Linearised], limits: tuple[float, float]) -> Comple
     [rad/s], shape ``(values, branches)``; NaN where there is no response, or no such
     pole any more.
     """
-    places = [place for place, each in enumerate(found) if each.linear is not None]
-    table = followed([each.linear.structure for each in found if each.linear])
-    table = table[:, within(table, limits).any(axis=0)]
-    whole = np.full((len(found), table.shape[1]), NONE)
-    whole[places] = table
-    return whole
+    structures = [each.linear.structure if each.linear else None for each in found]
+    return _followed(structures, limits)
 
 
 def limit_lines(
@@ -138,16 +133,24 @@ def limit_lines(
 ) -> ComplexArray:
     """Return the limits' poles within a range: ``name`` is "free" or "stuck".
 
-    Shape ``(values, poles)``, in the order of their frequencies; NaN where there are
-    less.
+    They are followed, and have the shape, as in :func:`branches`.
     """
-    nothing = np.empty(0, complex)
-    ends = [getattr(each.linear, name) if each.linear else nothing for each in found]
-    kept = [values[within(values, limits)] for values in ends]
-    lines = np.full((len(kept), max(map(len, kept), default=0)), NONE)
-    for row, values in zip(lines, kept, strict=True):
-        row[: values.size] = values
-    return lines
+    structures = [getattr(each.linear, name, None) for each in found]
+    return _followed(structures, limits)
+
+
+def _followed(
+    structures: Sequence[Structure | None], limits: tuple[float, float]
+) -> ComplexArray:
+    """Return the poles of structures that are within a range somewhere."""
+    places = [place for place, each in enumerate(structures) if each is not None]
+    if not places:
+        return np.full((len(structures), 0), NONE)
+    table = followed([each for each in structures if each is not None])
+    table = table[:, within(table, limits).any(axis=0)]
+    whole = np.full((len(structures), table.shape[1]), NONE)
+    whole[places] = table
+    return whole
 
 
 def within(values: ComplexArray, limits: tuple[float, float]) -> NDArray[np.bool_]:

@@ -5,13 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from microslip_mechanics.arrays import Array
-from microslip_mechanics.contact.law import contact_force
 from microslip_mechanics.contact.points import ContactPoints
+from microslip_mechanics.contact.spread import spread_force
 from microslip_mechanics.jit import kernel
 
 
 def contact_tangents(
-    points: ContactPoints, basis: Array, displacement: Array, velocity: Array
+    points: ContactPoints,
+    basis: Array,
+    displacement: Array,
+    velocity: Array,
+    step: float = 0.0,
 ) -> tuple[Array, Array]:
     """Return contact stiffness and damping on the relative coordinates.
 
@@ -23,6 +27,8 @@ def contact_tangents(
         Relative displacements of the points from the coordinates, (3 points, rank).
     displacement, velocity
         Of the points, relative, each of shape ``(times, points, 3)``.
+    step
+        Of a march [s], over which forces that jump are spread; 0 without one.
 
     Returns
     -------
@@ -30,7 +36,7 @@ def contact_tangents(
         ∂φ/∂y [N/m] and ∂φ/∂ẏ [N s/m], each of shape ``(times, rank, rank)``.
     """
     stiffness, damping = np.zeros((2, len(displacement), *2 * basis.shape[1:]))
-    _tangents(points, basis, displacement, velocity, stiffness, damping)
+    _tangents(points, basis, displacement, velocity, step, stiffness, damping)
     return stiffness, damping
 
 
@@ -40,17 +46,19 @@ def _tangents(
     basis: Array,
     displacement: Array,
     velocity: Array,
+    step: float,
     stiffness: Array,
     damping: Array,
 ) -> None:
-    force, stiff, viscous = np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3))
+    force, tangents = np.zeros(3), np.zeros((5, 3, 3))
+    stiff, viscous = tangents[0], tangents[1]
     moved, moving, rank = np.zeros(3), np.zeros(3), basis.shape[1]
     for phase in range(displacement.shape[0]):
         for point in range(displacement.shape[1]):
             for axis in range(3):
                 moved[axis] = displacement[phase, point, axis]
                 moving[axis] = velocity[phase, point, axis]
-            contact_force(points, point, moved, moving, force, stiff, viscous)
+            spread_force(points, point, step, moved, moving, force, tangents)
             for entry in range(9):
                 one, two = 3 * point + entry // 3, 3 * point + entry % 3
                 for i in range(rank):

@@ -83,19 +83,26 @@ class _Across:
     def settled(self) -> tuple[Correction, bool]:
         """Return a point, settled if it is close to the prediction, and whether.
 
-        If settling moves it far away, to another branch perhaps, and the system that
-        this has made finer has a point close to the prediction, that one is taken.
+        If settling moves it far away, to another branch perhaps, the point close to the
+        prediction that the system has now that it is finer is taken. None of a long
+        step is, if there is no such point.
         """
         predicted = self.past.predict(self.step)
         candidate, close = self._found(predicted)
         if not close:
             return self._directed(candidate), False
         settled = self._kept(candidate)
-        far = max(NEAR * self.step, self.control.shift)
-        if distance(settled.point, predicted, self.past.scale) > far:
+        if self._strays(settled, predicted):
             again, close = self._found(predicted)
             settled = self._kept(again) if close else settled
+            if self._strays(settled, predicted) and self.step > self.control.narrowest:
+                return settled, False
         return self._straight(settled)
+
+    def _strays(self, settled: Correction, predicted: Array) -> bool:
+        """Return whether settling has moved a point far from its prediction."""
+        far = max(NEAR * self.step, self.control.shift)
+        return distance(settled.point, predicted, self.past.scale) > far
 
     def _straight(self, settled: Correction) -> tuple[Correction, bool]:
         """Return a point whose tangent more harmonics have too, and whether it is one.

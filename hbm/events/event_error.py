@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from hbm.continuation.arc import Metric
+from hbm.continuation.arc import Metric, distance
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import PRECISION, Segment, folds
 from hbm.events.amplitude_growth import AmplitudeGrowth
@@ -14,6 +14,8 @@ from microslip_mechanics.arrays import Array
 AROUND = (0.5, 1.5)
 """distances from a fold, over the step, to whose sides its curve has slopes of both
 signs: the second if not the first, …"""
+CLOSER = (1.0, 0.5, 0.25)
+"""of such a distance, where the plane across the curve meets another part of it"""
 FLATTER = 0.75
 """of the steepest slope about a fold, that the nearest to it has at the most"""
 FARTHER, WIDEST = 10.0, 1e-2
@@ -47,10 +49,10 @@ def fold_error(
     if segment.after.turns:
         return error + abs(folds(fold) * segment.length)
     with system.resolved(fourier):
-        doubt = _turns(segment, point, step, near)
+        at = segment.across(point, near)
+        doubt = _turns(segment, at.point if at else point, step, near)
         if doubt is None:
             return None
-        at = segment.across(point, near)
     return error + doubt + folds(at) ** 2 / bend if at else math.inf
 
 
@@ -62,20 +64,37 @@ def _turns(segment: Segment, point: Array, step: Array, near: float) -> float | 
     """
     slopes: dict[float, float] = {}
     lost = 0.0
-    for distance in _distances(segment.length):
-        for place in (-distance, distance):
-            at = segment.across(point + place * step, near)
-            if at:
-                slopes[place] = folds(at)
-            elif slopes.keys() <= {-distance}:
+    for away in _distances(segment.length):
+        for place in (-away, away):
+            slope = _slope(segment, point, place * step, near)
+            if slope is not None:
+                slopes[place] = slope
+            elif slopes.keys() <= {-away}:
                 return 0.0
             else:
                 lost = lost or place
         if min(slopes.values()) <= 0.0 <= max(slopes.values()):
-            far = distance > AROUND[-1]
-            return _steepest(slopes) * distance * segment.length if far else 0.0
+            far = away > AROUND[-1]
+            return _steepest(slopes) * away * segment.length if far else 0.0
     upright = bool(lost) and _flattens(slopes, lost)
     return _steepest(slopes) * abs(lost) * segment.length if upright else None
+
+
+def _slope(segment: Segment, fold: Array, aside: Array, near: float) -> float | None:
+    """Return the slope of the curve beside a fold; None where the curve is lost.
+
+    What lies farther from a guess than that from the fold is another part of the curve,
+    which the plane across meets too: the nearer the fold, the less.
+    """
+    for closer in CLOSER:
+        guess = fold + closer * aside
+        at = segment.across(guess, near)
+        if at is None:
+            return None
+        away = distance(guess, fold, segment.scale)
+        if distance(at.point, guess, segment.scale) < away:
+            return folds(at)
+    return None
 
 
 def _steepest(slopes: dict[float, float]) -> float:

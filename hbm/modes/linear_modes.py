@@ -11,14 +11,15 @@ from hbm.balance.relative import RelativeProblem
 from hbm.forces.fourier import FourierBasis
 from hbm.structure.poles import eigenpairs
 from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.by_value import ByValue
 from microslip_mechanics.problem import Problem
 
 SEEN = 1e-6
 """part of a shape of unit length that the probes see at least"""
 
 
-@dataclass(frozen=True, slots=True)
-class FreeDecay:
+@dataclass(frozen=True, slots=True, eq=False)
+class FreeDecay(ByValue):
     """A free motion that oscillates and decays."""
 
     pole: complex
@@ -42,7 +43,7 @@ class FreeDecay:
         )
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class LinearMode(FreeDecay):
     """Re φ exp(st): a motion so small that the contacts are springs and dashpots."""
 

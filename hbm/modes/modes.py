@@ -37,7 +37,7 @@ SHARPEST = 0.9
 """cosine of the sharpest turn in a step: strands of a narrow fold are told apart"""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class NonlinearMode(FreeDecay):
     """A free decaying motion of one amplitude."""
 

@@ -198,7 +198,7 @@ MALFORMED: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     ),
     "no time step": (
         edited('time_step = "25 us"', "time_step = 0"),
-        ("[march] time_step = 0", "at least 1e-18 and at most 1 s"),
+        ("[march] time_step = 0", "at least 1e-18 and at most 1e+12 s"),
     ),
     "missing scene key": (
         edited('scene = "two-blades"', ""),

@@ -1,7 +1,10 @@
 """What a notebook asks for beside a curve: parameters, modes, marches by tolerance."""
 
+import copy
 import math
+import pickle
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +15,7 @@ from figure_checks import check_labels
 from microslip.studies.follow import follow
 from microslip.studies.parameter import parameter
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.time_history import TimeHistory
 
 CUBIC, MASS, STIFFNESS = 3.0, 1.0, 30.0
 
@@ -111,6 +115,44 @@ def test_a_sweep_whose_energies_do_not_balance_is_not_complete() -> None:
     assert history.ending.startswith("the energy balance does not close")
 
 
+@pytest.mark.parametrize("unit", [1e-6, 1e6])
+def test_the_unit_of_time_says_nothing(unit: float) -> None:
+    """From 2.5 µHz, at steps of an hour, to 2.5 MHz."""
+
+    def marched(second: float) -> TimeHistory:
+        hardening = microslip.CubicSpring(cubic=CUBIC / second**2)
+        problem = microslip.system(
+            mass=[MASS],
+            stiffness=[STIFFNESS / second**2],
+            damping_ratio=0.01,
+            drive={"x1": 1.0 / second**2},
+            elements=[microslip.Element(hardening, ("x1", "ground"), name="cubic")],
+        )
+        return microslip.sweep(
+            problem,
+            0.5 / second,
+            1.5 / second,
+            duration=20.0 * second,
+            time_step=0.01 * second,
+        )
+
+    usual, other = marched(1.0), marched(unit)
+
+    assert other.ending == "complete"
+    np.testing.assert_allclose(other.displacement, usual.displacement, atol=1e-10)
+
+
+@pytest.mark.parametrize("which", [0, -1])
+def test_modes_are_equal_if_all_that_they_hold_is(which: int) -> None:
+    (mode,) = microslip.modes(spring(), 0.5, 1.5, smallest=0.1, largest=1.0)
+
+    assert pickle.loads(pickle.dumps(mode)) == copy.deepcopy(mode) == mode
+    points = list(mode.points)
+    points[which] = replace(points[which], damping_error=1.0)
+    assert replace(mode, points=tuple(points)) != mode
+    assert points[which] != mode.points[which]
+
+
 def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
     return lambda: getattr(microslip, name)(*given, **more)
 
@@ -171,7 +213,7 @@ def call(name: str, *given: Any, **more: Any) -> Callable[[], object]:
         ),
         (call("sweep", spring(), 1, 2, duration=1, time_step=0.1, tolerance=2), "sw"),
         (call("figure", (3,)), r"figure: \(3,\): give what microslip.modes, "),
-        (call("figure", ()), "figure: no mode has a point"),
+        (call("figure", ()), r"figure: \(\): give what microslip\.modes, "),
     ],
 )
 def test_what_makes_no_sense_is_told(made: Callable[[], object], text: str) -> None:

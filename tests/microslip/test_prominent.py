@@ -164,6 +164,54 @@ def test_a_branch_point_that_may_be_a_fold_is_none(aside: float, told: bool) -> 
     assert "fold" in events
 
 
+@pytest.mark.parametrize(("behind", "told"), [(1.5, False), (0.5, True)])
+def test_what_alone_crosses_for_a_fold_is_no_branch_point(
+    behind: float, told: bool
+) -> None:
+    """The multiplier passes +1 a step before the curve of few harmonics folds."""
+    points = folded([1.0, 1.5, 1.9, 2.0, 1.8, 1.0], [3])
+    multipliers = [0.5, 1.0, 1.5, 1.0, behind, behind]
+    points = [
+        replace(each, multipliers=np.array([value], complex))
+        for each, value in zip(points, multipliers, strict=True)
+    ]
+    points[1] = replace(points[1], event="branch point")
+
+    events = [each.event for each in prominent(oscillator(), points)]
+
+    assert ("branch point" in events) == told
+    assert "fold" in events
+
+
+@pytest.mark.parametrize("larger", [1e-4, 0.1])
+def test_a_branch_point_on_a_fold_is_none_however_many_points_lie_between(
+    larger: float,
+) -> None:
+    points = folded([1.0, 2.0, 1.99, 2.001, 1.99, 2.0, 1.0], [5])
+    sizes = curve([1.0, 1.0, 1.0, 1.0, 1.0, 1.0 + larger, 1.0], [])
+    points = [
+        replace(each, error=ERROR, coefficients=size.coefficients)
+        for each, size in zip(points, sizes, strict=True)
+    ]
+    points[1] = replace(points[1], event="branch point")
+
+    events = [each.event for each in prominent(oscillator(), points)]
+
+    assert ("branch point" in events) == (larger > 2.0 * ERROR)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_peak_told_at_the_point_before_a_fold_hides_no_fold(side: float) -> None:
+    """The fold is reported a little behind the points beside it (a ripple of them)."""
+    places = [1.0, 1.99, 2.0005, 2.0005, 2.0, 2.0004, 1.9, 1.0, 3.0]
+    points = folded([side * place for place in places], [4, 7])
+    points[3] = replace(points[3], event="peak")
+
+    events = [each.event for each in prominent(oscillator(), points)]
+
+    assert events.count("fold") == 2
+
+
 def test_other_pieces_of_a_curve_say_nothing() -> None:
     points = curve([1.0, 1.1, 1.0999, 1.2, 1.0], [1])
     points[3] = replace(points[3], event="restart")

@@ -86,6 +86,16 @@ def test_a_picture_has_axes_of_its_own(duffing: Any) -> None:
         microslip.figure(march, 3)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("labels", [5, "ab", ["a"], ["a", "b", "c"]])
+def test_curves_have_a_label_each(duffing: Any, labels: Any) -> None:
+    curve = microslip.curve(duffing, 4.0, 4.2, harmonics=1)
+
+    with pytest.raises(
+        microslip.MicroslipError, match=r"labels = .*: give a list of 2 texts"
+    ):
+        microslip.figure([curve, curve], labels=labels)
+
+
 def test_a_picture_is_not_what_is_saved(duffing: Any, tmp_path: Path) -> None:
     march = microslip.sweep(duffing, 4.0, 5.0, duration=0.1, time_step=1e-2)
 

@@ -6,6 +6,7 @@ import contextlib
 import math
 from collections.abc import Iterator, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from microslip.errors import GivenError
@@ -39,6 +40,23 @@ def texts_of(function: str, source: object, overrides: object) -> Sequence[str]:
             'as "drive.x=0.2"'
         )
     return several
+
+
+def path_of(function: str, path: str | PathLike[str]) -> Path:
+    """Return a path.
+
+    Raises
+    ------
+    GivenError
+        If it is none, or has a character that no path has.
+    """
+    try:
+        place = Path(path)
+    except TypeError:
+        place = Path("\0")
+    if "\0" in str(place):
+        raise GivenError(f"{function}: path = {path!r}: give the path of a file")
+    return place
 
 
 @contextlib.contextmanager

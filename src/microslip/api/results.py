@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
+
+from microslip.api.arguments import path_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,7 +47,7 @@ def save(result: Result, path: str | PathLike[str]) -> None:
     from microslip.files import store
 
     _check(result, "microslip.save", SAVED)
-    place = _path(path, "microslip.save")
+    place = path_of("microslip.save", path)
     ending = place.suffix.lower()
     if ending in PICTURES + OTHERS:
         drawn = "; microslip.figure(result).savefig(path) writes a picture"
@@ -66,7 +68,7 @@ def load(path: str | PathLike[str]) -> Result:
     """
     from microslip.files import result_file
 
-    return result_file.load(_path(path, "microslip.load")).result
+    return result_file.load(path_of("microslip.load", path)).result
 
 
 def figure(
@@ -86,7 +88,7 @@ def figure(
     title
         Above the picture.
     labels
-        What several curves are called, one for each; their numbers if left out.
+        What several curves are called; their numbers if left out.
 
     Raises
     ------
@@ -132,8 +134,9 @@ def _compared(
     from microslip.errors import GivenError
     from microslip.figures.compared import compared_figure
 
-    names = list(labels) or [str(number) for number in range(1, len(curves) + 1)]
-    if isinstance(labels, str) or len(names) != len(curves):
+    several = isinstance(labels, Iterable) and not isinstance(labels, str)
+    names = [str(each) for each in labels] if several else []
+    if not several or len(names) not in (0, len(curves)):
         raise GivenError(
             f"microslip.figure: labels = {labels!r}: give a list of {len(curves)} "
             "texts, one for each curve"
@@ -144,7 +147,8 @@ def _compared(
             f"microslip.figure: curves along {' and '.join(sorted(set(ways)))}: give "
             "those along one of them"
         )
-    return compared_figure(curves, [str(each) for each in names], title)
+    numbers = [str(number) for number in range(1, len(curves) + 1)]
+    return compared_figure(curves, names or numbers, title)
 
 
 def _modes(result: Sequence[FollowedMode | ResponseCurve], title: str) -> Figure:
@@ -161,31 +165,12 @@ def _modes(result: Sequence[FollowedMode | ResponseCurve], title: str) -> Figure
     from microslip.studies.modes import FollowedMode
 
     modes = [each for each in result if isinstance(each, FollowedMode)]
-    if len(modes) < len(result):
+    if len(modes) < len(result) or not modes:
         raise GivenError(f"microslip.figure: {result!r}: give what {DRAWN} returns")
     lines = mode_lines(modes)
     if not lines:
         raise GivenError("microslip.figure: no mode has a point: see their endings")
     return modes_figure(lines, title)
-
-
-def _path(path: str | PathLike[str], function: str) -> Path:
-    """Return a path.
-
-    Raises
-    ------
-    GivenError
-        If it is none, or has a character that no path has.
-    """
-    from microslip.errors import GivenError
-
-    try:
-        place = Path(path)
-    except TypeError:
-        place = Path("\0")
-    if "\0" in str(place):
-        raise GivenError(f"{function}: path = {path!r}: give the path of a file")
-    return place
 
 
 def _check(result: Result, function: str, known: str) -> None:

@@ -57,7 +57,7 @@ class Curve(Resolution):
 class March:
     """Time integration."""
 
-    time_step: float = quantity("s", lowest=1e-18, highest=1.0)
+    time_step: float = quantity("s", lowest=1e-18, highest=LONGEST)
     store_every: int = quantity(lowest=1, highest=10**6, default=1)
 
 

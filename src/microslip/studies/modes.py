@@ -15,6 +15,7 @@ from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.scenes.quantity import SceneError
 from microslip.studies.mode_beginning import ALIKE, begun, likeness
+from microslip_mechanics.by_value import ByValue
 from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
@@ -31,8 +32,8 @@ class ModeError(MicroslipError):
     """A scene without a point of a mode; the text says why."""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class FollowedMode:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class FollowedMode(ByValue):
     """A mode, as far as it was followed."""
 
     linear: LinearMode

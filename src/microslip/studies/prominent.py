@@ -32,7 +32,8 @@ def prominent(
     parameter from a fold at which it is largest, and upside down. Where no point is
     higher, or the error of an event is not known, it stays. A fold may lie aside by as
     much as a point beside it is beyond, with the amplitude of that; a branch point that
-    may be the fold next to it is no other event. Where more harmonics take a curve up a
+    may be the fold next to it is no other event, as where its multiplier is all that
+    crosses for the fold. Where more harmonics take a curve up a
     step back, without a fold, it goes on from where it passes the peak again. What does
     not hang together is looked at piece by piece.
     """
@@ -41,7 +42,9 @@ def prominent(
     return [
         each
         for first, last in itertools.pairwise(bounds)
-        for each in _standing_out(problem, _apart(_wide(problem, points[first:last])))
+        for each in _standing_out(
+            problem, _apart(problem, _wide(problem, points[first:last]))
+        )
     ]
 
 
@@ -67,19 +70,49 @@ def _wide(
     return wide
 
 
-def _apart(piece: Sequence[PeriodicResponse]) -> list[PeriodicResponse]:
+def _apart(
+    problem: Problem, piece: Sequence[PeriodicResponse]
+) -> list[PeriodicResponse]:
     """Return a piece without branch points that may be the fold next to them."""
-    left = set(range(len(piece)))
+    left = list(range(len(piece)))
     for at, each in enumerate(piece):
         if each.event == "fold":
-            near = [
-                other
-                for other in range(max(at - NEAR, 0), min(at + NEAR + 1, len(piece)))
-                if piece[other].event == "branch point"
-                and abs(piece[other].parameter - each.parameter) <= each.parameter_error
-            ]
-            left.difference_update(near[:1])
-    return [piece[at] for at in sorted(left)]
+            same = [other for other in left if _may_be(problem, piece, at, other)]
+            if same:
+                left.remove(min(same, key=lambda other: abs(other - at)))
+    return [piece[at] for at in left]
+
+
+def _may_be(
+    problem: Problem, piece: Sequence[PeriodicResponse], at: int, other: int
+) -> bool:
+    """Return whether a point is a branch point that may be the fold at another one.
+
+    If it is near, and no other multiplier crosses for the fold, or the parameters are
+    the same but for the error; farther away, if the amplitudes are as well.
+    """
+    fold, beside = piece[at], piece[other]
+    if beside.event != "branch point":
+        return False
+    near = abs(other - at) <= NEAR
+    same = abs(beside.parameter - fold.parameter) <= fold.parameter_error
+    if near or not same:
+        return near and (same or _uncrossed(at, piece))
+    rows, doubt = problem.probes.rows, fold.error + beside.error
+    sizes = [each.amplitudes(rows).max(initial=0.0) for each in (fold, beside)]
+    return math.isfinite(doubt) and abs(sizes[1] - sizes[0]) <= doubt * sizes[0]
+
+
+def _uncrossed(at: int, piece: Sequence[PeriodicResponse]) -> bool:
+    """Return whether as many multipliers are known to be outside on both sides.
+
+    What crosses at +1 for a fold has crossed in another step then.
+    """
+    sides = piece[:at][::-1], piece[at + 1 :]
+    known = [
+        next((each.unstable for each in side if not each.event), -1) for side in sides
+    ]
+    return known[0] == known[1] >= 0
 
 
 def _standing_out(
@@ -132,14 +165,20 @@ def _outwards(at: int, place: Array) -> float:
     Where it lies between the points beside it, or these turn back without it, those
     before and behind them tell.
     """
-    before, after = place[max(at - 1, 0)], place[min(at + 1, len(place) - 1)]
+    ways = _places(place[:at][::-1]), _places(place[at + 1 :])
+    before, after = (float([*way, place[at]][0]) for way in ways)
     bend = 2.0 * place[at] - before - after
-    if 2 <= at < len(place) - 2:
-        arriving, leaving = before - place[at - 2], place[at + 2] - after
+    if min(map(len, ways)) > 1:
+        arriving, leaving = before - ways[0][1], ways[1][1] - after
         between = (place[at] - before) * (after - place[at]) > 0.0
         if between or arriving * leaving < 0.0:
             bend = arriving - leaving
     return 1.0 if bend >= 0.0 else -1.0
+
+
+def _places(way: Array) -> list[float]:
+    """Return the first two places on a way; what is told at a point is at its place."""
+    return [float(each) for each, _ in itertools.groupby(way)][:2]
 
 
 def _descends(at: int, heights: Array, doubts: Array) -> bool:

@@ -9,23 +9,21 @@ from functools import partial
 import numpy as np
 
 from hbm.balance.relative import RelativeProblem
-from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
-from hbm.continuation.corrected import correct_at
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.curves.fine_arcs import fine_arcs
-from hbm.curves.grown import Resolved
+from hbm.curves.followed import followed
+from hbm.curves.grown import Resolved, grown
+from hbm.curves.parted import parted, parts
 from hbm.curves.share_arc import along_an_arc
-from hbm.curves.stiffened import stiffening
-from hbm.errors import ContinuationError
+from hbm.curves.stiffened import soft, stiffening
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.along_share import LEAST, AlongShare, Easier, arrived, driven
 from hbm.paths.path import Path
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.points import ONE_SIDED
 
-SMALLEST_STEP = 1e-3
 PATIENCE = 1000
 """evaluations after which an arc of drives is given up; those that arrive take some
 300"""
@@ -35,6 +33,9 @@ SMOOTH = 1e4
 """times the threshold velocity with which a homotopy begins"""
 LOUD = 10.0
 """times the drive with which a drive begins that falls"""
+GROWN = 1500
+"""evaluations after which a drive that grows is given up where harmonics are what each
+one asks for"""
 STOPPED, FALLEN = 15000, 4000
 """evaluations after which stops that stiffen, or a drive that falls, are given up where
 harmonics are what each share asks for"""
@@ -61,85 +62,79 @@ def approaches(
     a large value, or friction grows from nothing, or faces that just touch are pressed
     together and then let go, at coarse resolutions in turn; beside much more drive
     friction is little, so that the drive also falls; at last, if ``folded``, the drive
-    grows along an arc, through folds and through zero. Some of what is found may
-    exist at its resolution alone, or be the same again. ``effort`` counts what it
-    takes; ``metric`` measures steps of Newton's iteration. With what makes systems
-    ``resolved`` stops also stiffen, and the drive falls, at fine resolutions.
+    grows along an arc, through folds and through zero. What is pressed together at rest
+    is softened and stiffened again: first of all where the drive parts it, else after
+    all others. Some of what is found may exist at its resolution alone, or be the same
+    again. ``effort`` counts what it takes; ``metric`` measures steps of Newton's
+    iteration. With what makes systems ``resolved`` stops also stiffen, and the drive
+    falls, at fine resolutions.
     """
-
-    def followed(easier: Easier, fourier: FourierBasis) -> Array:
-        return _followed(path, parameter, easier, fourier, control, effort, metric)
-
-    def finely(easier: Easier, *, stops: bool) -> Iterator[Array]:
-        if resolved is not None:
-            shares = AlongShare(path, parameter, easier, 0.0, free=not stops)
-            yield from fine_arcs(
-                shares,
-                resolved,
-                control,
-                effort,
-                metric,
-                patience=STOPPED if stops else FALLEN,
-                finest=stops,
-            )
-
     problem, frequency = path.at(parameter)
-    stiffer = stiffening(problem, frequency)
-    if stiffer is not None:
-        coarse = FOURIERS if resolved is None else FOURIERS[:1]
-        yield from arrived(partial(followed, stiffer, each) for each in coarse)
-        yield from finely(stiffer, stops=True)
-    ways = _ways(problem, frequency)
-    yield from arrived(
-        partial(followed, easier, each) for each in FOURIERS for easier in ways
-    )
-    if _rubs(problem):
-        yield from finely(_louder, stops=False)
-    if folded:
-        drives = AlongShare(path, parameter)
-        yield from arrived(
-            partial(
-                along_an_arc, drives, LEAST, each, PATIENCE, control, effort, metric
-            )
-            for each in FOURIERS
-        )
+    seen = control, effort, metric
+    arcs = 1 if resolved is None else 2
+    parting = parted(path, parameter, *seen, arcs=arcs)
+    others = _others(path, parameter, *seen, folded=folded, resolved=resolved)
+    yield from _stiffened(path, parameter, *seen, resolved=resolved)
+    yield from parting if parts(problem, frequency) else others
+    yield from others
+    yield from parting
 
 
-def _followed(
+def _stiffened(
     path: Path,
     parameter: float,
-    easier: Easier,
-    fourier: FourierBasis,
     control: StepControl,
     effort: Effort,
     metric: Metric,
-) -> Array:
-    """Return the coefficients at the end of a homotopy, shape (2H + 1, rank).
-
-    Raises
-    ------
-    ContinuationError
-        If it does not arrive.
-    """
+    *,
+    resolved: Resolved | None,
+) -> Iterator[Array]:
+    """Yield those to which stops lead that may begin soft."""
     problem, frequency = path.at(parameter)
-    mask = path.mask(fourier.harmonics)
-    place, step = 0.0, 0.25
-    point = HarmonicBalance(problem, fourier, mask).point(
-        problem.rest[None, :], frequency
+    seen = control, effort, metric
+    stiffer = stiffening(problem, frequency, soft(problem))
+    if stiffer is None:
+        return
+    coarse = FOURIERS if resolved is None else FOURIERS[:1]
+    yield from arrived(
+        partial(followed, path, parameter, stiffer, each, *seen) for each in coarse
     )
-    while place < 1.0:
-        target = min(1.0, place + step)
-        balance = HarmonicBalance(easier(problem, target), fourier, mask)
-        try:
-            counted = effort.counted(balance, fourier.harmonics)
-            found = correct_at(counted, point, control, metric=metric).point
-        except ContinuationError:
-            step *= 0.5
-            if step < SMALLEST_STEP:
-                raise
-            continue
-        point, place, step = found, target, 1.5 * step
-    return point[:-1].reshape(fourier.coefficients, problem.rank)
+    if resolved is not None:
+        shares = AlongShare(path, parameter, stiffer, 0.0)
+        yield from fine_arcs(shares, resolved, *seen, patience=STOPPED, finest=True)
+
+
+def _others(
+    path: Path,
+    parameter: float,
+    control: StepControl,
+    effort: Effort,
+    metric: Metric,
+    *,
+    folded: bool,
+    resolved: Resolved | None,
+) -> Iterator[Array]:
+    """Yield those to which drive, friction and what just touches lead."""
+    problem, frequency = path.at(parameter)
+    seen, drives = (control, effort, metric), AlongShare(path, parameter)
+    ways = _ways(problem, frequency)
+    yield from arrived(
+        partial(followed, path, parameter, easier, each, *seen)
+        for each in FOURIERS
+        for easier in ways
+    )
+    if resolved is not None and _rubs(problem):
+        louder = AlongShare(path, parameter, _louder, 0.0, free=True)
+        yield from fine_arcs(louder, resolved, *seen, patience=FALLEN, finest=False)
+    if folded:
+        yield from arrived(
+            partial(along_an_arc, drives, LEAST, each, PATIENCE, *seen)
+            for each in FOURIERS
+        )
+    if resolved is not None:
+        yield from arrived(
+            [partial(grown, drives, LEAST, resolved, GROWN, control, effort)]
+        )
 
 
 def _ways(problem: RelativeProblem, frequency: float) -> list[Easier]:

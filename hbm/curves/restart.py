@@ -14,10 +14,9 @@ from hbm.continuation.corrected import correct_at
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
-from hbm.curves.grown import Resolved, grown
+from hbm.curves.grown import Resolved
 from hbm.curves.homotopy import approaches
 from hbm.errors import ContinuationError
-from hbm.paths.along_share import LEAST, AlongShare
 from hbm.paths.path import Path
 from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array, largest
@@ -34,8 +33,6 @@ BACK = (1, 3, 6, 9, 12, 16, 24, 32)
 """points of the way at which more harmonics are tried, counted from the last one"""
 ALIKE = 0.03
 """relative difference up to which two points at one place are one"""
-PATIENCE = 1500
-"""evaluations after which a drive that grows is given up"""
 TENTHS = 10
 """units of a parameter in its range, or in the logarithm of that"""
 
@@ -86,9 +83,6 @@ class Restart:
                 settled = self.settled(coefficients, parameter)
                 if settled is not None:
                     return settled
-            settled = self._grown(parameter) if leap == 0.0 else None
-            if settled is not None:
-                return settled
         return None
 
     def finer(
@@ -147,6 +141,7 @@ class Restart:
             )
         except ContinuationError:
             return None
+        self.system.fourier = self.system.settled  # with less it may not be found again
         return found.point
 
     def besides(self, guess: Array, known: Sequence[Array]) -> Array | None:
@@ -174,19 +169,6 @@ class Restart:
             return True
         residual, _ = self.system(0.5 * (one + other))
         return largest(residual) <= self.control.tolerance
-
-    def _grown(self, parameter: float) -> Array | None:
-        """Return a point to which the drive has grown; None if it does not."""
-        if self.resolved is None:
-            return None
-        try:
-            drives = AlongShare(self.path, parameter)
-            coefficients = grown(
-                drives, LEAST, self.resolved, PATIENCE, self.control, self.effort
-            )
-        except ContinuationError:
-            return None
-        return self.settled(coefficients, parameter)
 
     def still(self, parameter: float) -> Array:
         """Return the point at rest."""

@@ -42,6 +42,8 @@ class AlongShare:
     """least share; from minus the whole drive to the whole"""
     free: bool = False
     """whether it begins with the motion without contacts, not at rest"""
+    known: Array | None = None
+    """coefficients to begin with instead, shape (2H + 1, rank), if they are known"""
 
     @property
     def rank(self) -> int:
@@ -54,7 +56,9 @@ class AlongShare:
         return self.easier(problem, parameter), frequency
 
     def begins(self, parameter: float) -> Array:
-        """Return coefficients to begin with at a share, shape (3, rank)."""
+        """Return coefficients to begin with at a share, shape (3, rank) or more."""
+        if self.known is not None:
+            return self.known
         problem, frequency = self.at(parameter)
         still = np.zeros((3, problem.rank))
         still[0] = problem.rest

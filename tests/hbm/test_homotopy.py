@@ -1,6 +1,6 @@
 """Easier problems from which a first point is reached."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import hbm.curves.homotopy
 from hbm.curves.homotopy import FOURIERS, approaches
 from hbm.options import CurveOptions
-from hbm.paths.along_share import AlongShare, driven
+from hbm.paths.along_share import driven
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
@@ -21,6 +21,7 @@ from microslip_mechanics.system import system
 from small_problems import between_stops
 
 
+@pytest.mark.parametrize("parts", [False, True])
 @pytest.mark.parametrize(
     ("friction", "stop", "tried"),
     [
@@ -30,29 +31,45 @@ from small_problems import between_stops
     ],
 )
 def test_what_a_problem_has_makes_it_easier(
-    friction: float, stop: bool, tried: list[str], monkeypatch: pytest.MonkeyPatch
+    friction: float,
+    stop: bool,
+    tried: list[str],
+    parts: bool,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     found: list[str] = []
+
+    def noted(name: str) -> Callable[..., Array]:
+        def made(*_: Any) -> Array:
+            found.append(name)
+            return np.zeros((1, 1))
+
+        return made
+
+    def yielded(name: Callable[..., str]) -> Callable[..., Iterator[Array]]:
+        def made(*given: Any, **options: Any) -> Iterator[Array]:
+            found.append(name(*given, **options))
+            yield np.zeros((1, 1))
+
+        return made
 
     def followed(_path: Any, _parameter: Any, easier: Any, *_: Any) -> Array:
         found.append(easier.__name__)
         return np.zeros((1, 1))
 
-    def along(*_: Any) -> Array:
-        found.append("arc")
-        return np.zeros((1, 1))
-
-    def fine_arcs(shares: AlongShare, *_: Any, **__: Any) -> Iterator[Array]:
-        found.append(f"fine {shares.easier.__name__}")
-        yield np.zeros((1, 1))
-
-    monkeypatch.setattr(hbm.curves.homotopy, "_touches", lambda *_: False)
-    monkeypatch.setattr(
-        hbm.curves.homotopy, "stiffening", lambda *_: driven if stop else None
-    )
-    monkeypatch.setattr(hbm.curves.homotopy, "fine_arcs", fine_arcs)
-    monkeypatch.setattr(hbm.curves.homotopy, "_followed", followed)
-    monkeypatch.setattr(hbm.curves.homotopy, "along_an_arc", along)
+    replaced = {
+        "_touches": lambda *_: False,
+        "stiffening": lambda *_: driven if stop else None,
+        "soft": lambda *_: np.array([stop]),
+        "parts": lambda *_: parts,
+        "followed": followed,
+        "fine_arcs": yielded(lambda shares, *_, **__: f"fine {shares.easier.__name__}"),
+        "parted": yielded(lambda *_, arcs: f"parted {arcs}"),
+        "grown": noted("grown"),
+        "along_an_arc": noted("arc"),
+    }
+    for name, made in replaced.items():
+        monkeypatch.setattr(hbm.curves.homotopy, name, made)
     laws = np.array([friction])
     points = SimpleNamespace(dynamic=laws, static=laws)
     problem = SimpleNamespace(points=points, apart=lambda _: np.zeros(3))
@@ -61,15 +78,18 @@ def test_what_a_problem_has_makes_it_easier(
 
     list(approaches(path, 1.0, nothing, nothing, nothing))
 
-    # what may take long comes last, stops before anything else
+    # what may take long comes last, stops before anything else, and so what parts
     stops, all_of = ["driven"] * stop, len(FOURIERS)
-    assert found == stops * all_of + tried * all_of + ["arc"] * all_of
+    ways, parting = tried * all_of + ["arc"] * all_of, ["parted 1"]
+    assert found == stops * all_of + (parting + ways if parts else ways + parting)
 
     found.clear()
     given: Any = object()
     list(approaches(path, 1.0, nothing, nothing, nothing, folded=False, resolved=given))
     stops = ["driven", "fine driven"] * stop
-    assert found == [*stops, *tried * all_of, *["fine _louder"] * (friction > 0.0)]
+    ways = [*tried * all_of, *["fine _louder"] * (friction > 0.0), "grown"]
+    parting = ["parted 2"]
+    assert found == stops + (parting + ways if parts else ways + parting)
 
 
 def test_a_curve_begins_where_its_arc_of_drives_passes_zero() -> None:

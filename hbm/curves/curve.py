@@ -18,6 +18,7 @@ from hbm.events.events import Events
 from hbm.events.multipliers import Multipliers
 from hbm.events.settled import Settled
 from hbm.events.summits import Summits
+from hbm.events.told_events import ToldEvents
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path_resolution import PathResolution
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -70,7 +71,7 @@ class Curve:
         self, corrections: Iterable[Correction], metric: Metric, beginning: str
     ) -> Iterator[PeriodicResponse]:
         before: Settled | None = None
-        summits = Summits(self.problem.probes.rows)
+        summits, told = Summits(self.problem.probes.rows), ToldEvents()
         for correction in corrections:
             mark = beginning if before is None else "restart"
             if self.residual_range and not correction.joined:
@@ -80,7 +81,7 @@ class Curve:
                 after = self.events.directed(after, metric)
             if self.events and before is not None and correction.joined:
                 found = list(self._between(before, after, metric))
-                yield from summits.among(found, made)
+                yield from told.fresh(summits.among(found, made))
                 changed = crossings(before.multipliers, after.multipliers)
                 folds = any(each.event == "fold" for each in found)
                 after = after._replace(owes=folds and not changed)

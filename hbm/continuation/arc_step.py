@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +26,9 @@ ASKEW = 0.7
 """cosine between the tangents of a step to a point with more harmonics, by which the
 curve turns where fewer have just begun to mislead; one that turns more is at a corner
 """
+NEARER = 0.75
+"""times as far from its prediction, that more harmonics move the point of half a step
+if what they have moved that of the whole step to is another branch"""
 THROWN = 10.0
 """times its length by which a step moves a point that it throws beyond a corner"""
 
@@ -42,10 +47,10 @@ def next_point(
     ContinuationError
         If the shortest step does not converge either.
     """
-    failures = 0
+    failures, strayed = 0, math.inf
     while True:
         across = _Across(system, past, step, control, settler)
-        candidate, close = across.settled()
+        candidate, close, strayed = across.settled(strayed)
         if candidate.outcome is Outcome.CONVERGED:
             smooth = turn(candidate, past.tangent, past.scale) > control.sharpest_turn
             overlooked = settler.overlooks(candidate.point, past.scale, step)
@@ -80,29 +85,32 @@ class _Across:
     control: StepControl
     settler: Settler
 
-    def settled(self) -> tuple[Correction, bool]:
+    def settled(self, strayed: float) -> tuple[Correction, bool, float]:
         """Return a point, settled if it is close to the prediction, and whether.
 
         If settling moves it far away, to another branch perhaps, the point close to the
         prediction that the system has now that it is finer is taken. None of a long
-        step is, if there is no such point.
+        step is, if there is no such point, unless half a step is no better: the last of
+        what is returned is how far it has ``strayed``, which was that of a longer step.
         """
         predicted = self.past.predict(self.step)
         candidate, close = self._found(predicted)
         if not close:
-            return self._directed(candidate), False
+            return self._directed(candidate), False, strayed
         settled = self._kept(candidate)
-        if self._strays(settled, predicted):
+        far, away = max(NEAR * self.step, self.control.shift), self._away(predicted)
+        if away(settled) > far:
             again, close = self._found(predicted)
             settled = self._kept(again) if close else settled
-            if self._strays(settled, predicted) and self.step > self.control.narrowest:
-                return settled, False
-        return self._straight(settled)
+            strays = far < away(settled) < NEARER * strayed
+            if strays and self.step > self.control.narrowest:
+                return settled, False, away(settled)
+        return *self._straight(settled), strayed
 
-    def _strays(self, settled: Correction, predicted: Array) -> bool:
-        """Return whether settling has moved a point far from its prediction."""
-        far = max(NEAR * self.step, self.control.shift)
-        return distance(settled.point, predicted, self.past.scale) > far
+    def _away(self, predicted: Array) -> Callable[[Correction], float]:
+        """Return what says how far points are from a prediction."""
+        scale = self.past.scale
+        return lambda settled: distance(settled.point, predicted, scale)
 
     def _straight(self, settled: Correction) -> tuple[Correction, bool]:
         """Return a point whose tangent more harmonics have too, and whether it is one.

@@ -106,15 +106,24 @@ class AlongParameter:
     def unit(self, parameter: float) -> float:
         """Return a tenth of the range, or the same share of its logarithm."""
         low, high = self._limits
-        if low > 0.0 and high > WIDE * low:
+        if self._by_ratios:
             return max(parameter, 0.1 * low) * math.log(high / low) / 10.0
         return (high - low) / 10.0
+
+    @property
+    def _by_ratios(self) -> bool:
+        """Whether equal ratios of the parameter count as equal, not differences."""
+        low, high = self._limits
+        return low > 0.0 and high > WIDE * low
 
     def measure(self, vibration: float, parameter: float) -> float:
         """Return a vibration, or about that under a faint drive where it is less.
 
-        As the drive vanishes all does: steps by shares of it would not come to an end.
+        As the drive vanishes all does: steps by shares of it would not come to an end,
+        unless the parameter is followed by shares as well.
         """
+        if self._by_ratios:
+            return vibration
         drive, amplitude = self._loudest
         problem, _ = self.at(parameter)
         share = largest(problem.force[1]) / drive if drive > 0.0 else 1.0

@@ -18,6 +18,8 @@ from microslip_mechanics.arrays import Array
 
 NEAR = 0.5
 """of a step, by which a correction may leave the prediction"""
+ELSEWHERE = 0.5
+"""distance from the prediction at which a settled point is on another branch"""
 SHORT = 0.1
 """of the longest step: where a shorter one fails, earlier points mislead"""
 ASKEW = 0.7
@@ -84,25 +86,22 @@ class _Across:
         """Return a point, settled if it is close to the prediction, and whether.
 
         If settling moves it far away, to another branch perhaps, the point close to the
-        prediction that the system has now that it is finer is taken. None of a long
-        step is, if there is no such point.
+        prediction that the system has now that it is finer is taken. If there is none,
+        and the branch is another one for certain, the step is too long.
         """
         predicted = self.past.predict(self.step)
         candidate, close = self._found(predicted)
         if not close:
             return self._directed(candidate), False
         settled = self._kept(candidate)
-        if self._strays(settled, predicted):
+        far = max(NEAR * self.step, self.control.shift)
+        if distance(settled.point, predicted, self.past.scale) > far:
             again, close = self._found(predicted)
             settled = self._kept(again) if close else settled
-            if self._strays(settled, predicted) and self.step > self.control.narrowest:
+            elsewhere = distance(settled.point, predicted, self.past.scale) > ELSEWHERE
+            if elsewhere and self.step > self.control.narrowest:
                 return settled, False
         return self._straight(settled)
-
-    def _strays(self, settled: Correction, predicted: Array) -> bool:
-        """Return whether settling has moved a point far from its prediction."""
-        far = max(NEAR * self.step, self.control.shift)
-        return distance(settled.point, predicted, self.past.scale) > far
 
     def _straight(self, settled: Correction) -> tuple[Correction, bool]:
         """Return a point whose tangent more harmonics have too, and whether it is one.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,15 +18,14 @@ from microslip_mechanics.arrays import Array
 
 NEAR = 0.5
 """of a step, by which a correction may leave the prediction"""
+ELSEWHERE = 0.5
+"""distance from the prediction at which a settled point is on another branch"""
 SHORT = 0.1
 """of the longest step: where a shorter one fails, earlier points mislead"""
 ASKEW = 0.7
 """cosine between the tangents of a step to a point with more harmonics, by which the
 curve turns where fewer have just begun to mislead; one that turns more is at a corner
 """
-NEARER = 0.75
-"""times as far from its prediction, that more harmonics move the point of half a step
-if what they have moved that of the whole step to is another branch"""
 THROWN = 10.0
 """times its length by which a step moves a point that it throws beyond a corner"""
 
@@ -47,10 +44,10 @@ def next_point(
     ContinuationError
         If the shortest step does not converge either.
     """
-    failures, strayed = 0, math.inf
+    failures = 0
     while True:
         across = _Across(system, past, step, control, settler)
-        candidate, close, strayed = across.settled(strayed)
+        candidate, close = across.settled()
         if candidate.outcome is Outcome.CONVERGED:
             smooth = turn(candidate, past.tangent, past.scale) > control.sharpest_turn
             overlooked = settler.overlooks(candidate.point, past.scale, step)
@@ -85,32 +82,26 @@ class _Across:
     control: StepControl
     settler: Settler
 
-    def settled(self, strayed: float) -> tuple[Correction, bool, float]:
+    def settled(self) -> tuple[Correction, bool]:
         """Return a point, settled if it is close to the prediction, and whether.
 
         If settling moves it far away, to another branch perhaps, the point close to the
-        prediction that the system has now that it is finer is taken. None of a long
-        step is, if there is no such point, unless half a step is no better: the last of
-        what is returned is how far it has ``strayed``, which was that of a longer step.
+        prediction that the system has now that it is finer is taken. If there is none,
+        and the branch is another one for certain, the step is too long.
         """
         predicted = self.past.predict(self.step)
         candidate, close = self._found(predicted)
         if not close:
-            return self._directed(candidate), False, strayed
+            return self._directed(candidate), False
         settled = self._kept(candidate)
-        far, away = max(NEAR * self.step, self.control.shift), self._away(predicted)
-        if away(settled) > far:
+        far = max(NEAR * self.step, self.control.shift)
+        if distance(settled.point, predicted, self.past.scale) > far:
             again, close = self._found(predicted)
             settled = self._kept(again) if close else settled
-            strays = far < away(settled) < NEARER * strayed
-            if strays and self.step > self.control.narrowest:
-                return settled, False, away(settled)
-        return *self._straight(settled), strayed
-
-    def _away(self, predicted: Array) -> Callable[[Correction], float]:
-        """Return what says how far points are from a prediction."""
-        scale = self.past.scale
-        return lambda settled: distance(settled.point, predicted, scale)
+            elsewhere = distance(settled.point, predicted, self.past.scale) > ELSEWHERE
+            if elsewhere and self.step > self.control.narrowest:
+                return settled, False
+        return self._straight(settled)
 
     def _straight(self, settled: Correction) -> tuple[Correction, bool]:
         """Return a point whose tangent more harmonics have too, and whether it is one.

@@ -183,6 +183,31 @@ def test_what_alone_crosses_for_a_fold_is_no_branch_point(
     assert "fold" in events
 
 
+@pytest.mark.parametrize("step", [1, -1])
+@pytest.mark.parametrize(
+    ("outside", "back", "told"),
+    [
+        ([0, 1, 1, 0, 0, 0], "", False),  # to and fro, and only to is told
+        ([0, 1, 1, 0, 0, 0], "Neimark-Sacker", True),
+        ([0, 1, 1, 1, 1, 0], "", True),
+    ],
+)
+def test_what_comes_undone_without_a_word_is_no_branch_point(
+    outside: list[int], back: str, told: bool, step: int
+) -> None:
+    events = ["", "branch point", "", back, "", ""]
+    points = [
+        replace(each, event=event, multipliers=np.array([0.5 + count], complex))
+        for each, event, count in zip(
+            folded([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], []), events, outside, strict=True
+        )
+    ]
+
+    found = prominent(oscillator(), points[::step])
+
+    assert ("branch point" in [each.event for each in found]) == told
+
+
 @pytest.mark.parametrize("larger", [1e-4, 0.1])
 def test_a_branch_point_on_a_fold_is_none_however_many_points_lie_between(
     larger: float,

@@ -14,12 +14,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from microslip.studies.branching import branching
 from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import BEGINNINGS, PeriodicResponse
-
-NEAR = 2
-"""points between a fold and a branch point that may be it"""
 
 
 def prominent(
@@ -43,7 +41,7 @@ def prominent(
         each
         for first, last in itertools.pairwise(bounds)
         for each in _standing_out(
-            problem, _apart(problem, _wide(problem, points[first:last]))
+            problem, branching(problem, _wide(problem, points[first:last]))
         )
     ]
 
@@ -68,51 +66,6 @@ def _wide(
                 error = max(each.error, abs(other - size) / max(size, TINY))
                 wide[at] = replace(each, parameter_error=beyond, error=error)
     return wide
-
-
-def _apart(
-    problem: Problem, piece: Sequence[PeriodicResponse]
-) -> list[PeriodicResponse]:
-    """Return a piece without branch points that may be the fold next to them."""
-    left = list(range(len(piece)))
-    for at, each in enumerate(piece):
-        if each.event == "fold":
-            same = [other for other in left if _may_be(problem, piece, at, other)]
-            if same:
-                left.remove(min(same, key=lambda other: abs(other - at)))
-    return [piece[at] for at in left]
-
-
-def _may_be(
-    problem: Problem, piece: Sequence[PeriodicResponse], at: int, other: int
-) -> bool:
-    """Return whether a point is a branch point that may be the fold at another one.
-
-    If it is near, and no other multiplier crosses for the fold, or the parameters are
-    the same but for the error; farther away, if the amplitudes are as well.
-    """
-    fold, beside = piece[at], piece[other]
-    if beside.event != "branch point":
-        return False
-    near = abs(other - at) <= NEAR
-    same = abs(beside.parameter - fold.parameter) <= fold.parameter_error
-    if near or not same:
-        return near and (same or _uncrossed(at, piece))
-    rows, doubt = problem.probes.rows, fold.error + beside.error
-    sizes = [each.amplitudes(rows).max(initial=0.0) for each in (fold, beside)]
-    return math.isfinite(doubt) and abs(sizes[1] - sizes[0]) <= doubt * sizes[0]
-
-
-def _uncrossed(at: int, piece: Sequence[PeriodicResponse]) -> bool:
-    """Return whether as many multipliers are known to be outside on both sides.
-
-    What crosses at +1 for a fold has crossed in another step then.
-    """
-    sides = piece[:at][::-1], piece[at + 1 :]
-    known = [
-        next((each.unstable for each in side if not each.event), -1) for side in sides
-    ]
-    return known[0] == known[1] >= 0
 
 
 def _standing_out(

@@ -15,7 +15,7 @@ from hbm.continuation.step_control import StepControl
 from hbm.curves.fine_arcs import fine_arcs
 from hbm.curves.followed import followed
 from hbm.curves.grown import Resolved, grown
-from hbm.curves.parted import parted, parts
+from hbm.curves.parted import parted
 from hbm.curves.share_arc import along_an_arc
 from hbm.curves.stiffened import soft, stiffening
 from hbm.forces.fourier import FourierBasis
@@ -61,23 +61,17 @@ def approaches(
     Then the drive grows from nothing, or the threshold velocity of friction falls from
     a large value, or friction grows from nothing, or faces that just touch are pressed
     together and then let go, at coarse resolutions in turn; beside much more drive
-    friction is little, so that the drive also falls; at last, if ``folded``, the drive
-    grows along an arc, through folds and through zero. What is pressed together at rest
-    is softened and stiffened again: first of all where the drive parts it, else after
-    all others. Some of what is found may exist at its resolution alone, or be the same
-    again. ``effort`` counts what it takes; ``metric`` measures steps of Newton's
-    iteration. With what makes systems ``resolved`` stops also stiffen, and the drive
-    falls, at fine resolutions.
+    friction is little, so that the drive also falls; then, if ``folded``, the drive
+    grows along an arc, through folds and through zero; at last what is pressed together
+    at rest is softened and stiffened again. Some of what is found may exist at its
+    resolution alone, or be the same again. ``effort`` counts what it takes; ``metric``
+    measures steps of Newton's iteration. With what makes systems ``resolved`` stops
+    also stiffen, and the drive falls, at fine resolutions.
     """
-    problem, frequency = path.at(parameter)
     seen = control, effort, metric
-    arcs = 1 if resolved is None else 2
-    parting = parted(path, parameter, *seen, arcs=arcs)
-    others = _others(path, parameter, *seen, folded=folded, resolved=resolved)
     yield from _stiffened(path, parameter, *seen, resolved=resolved)
-    yield from parting if parts(problem, frequency) else others
-    yield from others
-    yield from parting
+    yield from _others(path, parameter, *seen, folded=folded, resolved=resolved)
+    yield from parted(path, parameter, *seen, arcs=1 if resolved is None else 2)
 
 
 def _stiffened(

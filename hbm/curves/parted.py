@@ -10,15 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-import numpy as np
-
 from hbm.balance.relative import RelativeProblem
 from hbm.continuation.arc import Metric
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.curves.followed import followed
 from hbm.curves.share_arc import along_an_arc
-from hbm.curves.stiffened import pressed, soft, stiffening, stops
+from hbm.curves.stiffened import soft, stiffening, stops
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.along_share import AlongShare, Easier, arrived, driven
 from hbm.paths.path import Path
@@ -57,13 +55,6 @@ def parted(
             partial(along_an_arc, shares, 0.0, fourier, patience, *seen)
             for fourier, patience in ARCS[:arcs]
         )
-
-
-def parts(problem: RelativeProblem, frequency: float) -> bool:
-    """Return whether faces pressed at rest move farther without contacts than that."""
-    depth = pressed(problem)
-    moved = float(np.abs(problem.apart(frequency)[::3]).max(initial=0.0))
-    return bool((stops(problem) & (depth > 0.0) & (depth < moved)).any())
 
 
 def _softest(stiffer: Easier) -> Easier:

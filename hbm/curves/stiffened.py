@@ -29,7 +29,7 @@ def stiffening(
 ) -> Easier | None:
     """Return what makes stops softer; None if there is none that ``may`` begin soft.
 
-    A stop keeps its damping ratio, and so does what an impact leaves.
+    A stop keeps its damping ratio, so that an impact leaves as much of its speed.
     """
     if not may.any():
         return None
@@ -76,13 +76,7 @@ def soft(problem: RelativeProblem) -> NDArray[np.bool_]:
     friction is to hold.
     """
     points = problem.points
+    depth = (problem.basis @ problem.rest + problem.offset)[::3] - points.gap
     smooth = points.friction == FRICTIONLESS
-    found: NDArray[np.bool_] = stops(problem) & ((pressed(problem) < 0.0) | smooth)
+    found: NDArray[np.bool_] = stops(problem) & ((depth < 0.0) | smooth)
     return found
-
-
-def pressed(problem: RelativeProblem) -> Array:
-    """Return how deep faces are pressed at rest [m], shape (points,)."""
-    place = problem.basis @ problem.rest + problem.offset
-    depth: Array = place[::3] - problem.points.gap
-    return depth

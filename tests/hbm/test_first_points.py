@@ -79,6 +79,22 @@ def test_a_curve_of_few_harmonics_goes_on_from_a_response_of_more(
     np.testing.assert_array_equal(found[3:-1], 0.0)
 
 
+def test_a_curve_begins_with_the_harmonics_that_its_first_point_has_settled_with() -> (
+    None
+):
+    # what follows from an error far below the tolerance may be too few to find it again
+    problem = problem_of(load_scene("duffing", ["drive.x=0.5"]))
+    start, end = TURN * 6.8, TURN * 9.0
+    path = along_frequency(problem, static_equilibrium(problem), start, end)
+    tracer = Tracer(problem, path, CurveOptions(start, end, stability=False))
+
+    found = tracer.pieces.restart.settled(np.zeros((31, 1)), start)
+
+    assert found is not None
+    assert tracer.system.settled.harmonics == 15
+    assert tracer.system.fourier == tracer.system.settled
+
+
 def test_a_rig_whose_coarse_responses_differ_has_a_first_point() -> None:
     """Model B that slides by 4 mm with friction that falls with speed."""
     problem = rig_problem(

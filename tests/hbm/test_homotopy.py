@@ -21,7 +21,6 @@ from microslip_mechanics.system import system
 from small_problems import between_stops
 
 
-@pytest.mark.parametrize("parts", [False, True])
 @pytest.mark.parametrize(
     ("friction", "stop", "tried"),
     [
@@ -34,7 +33,6 @@ def test_what_a_problem_has_makes_it_easier(
     friction: float,
     stop: bool,
     tried: list[str],
-    parts: bool,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     found: list[str] = []
@@ -61,7 +59,6 @@ def test_what_a_problem_has_makes_it_easier(
         "_touches": lambda *_: False,
         "stiffening": lambda *_: driven if stop else None,
         "soft": lambda *_: np.array([stop]),
-        "parts": lambda *_: parts,
         "followed": followed,
         "fine_arcs": yielded(lambda shares, *_, **__: f"fine {shares.easier.__name__}"),
         "parted": yielded(lambda *_, arcs: f"parted {arcs}"),
@@ -78,18 +75,17 @@ def test_what_a_problem_has_makes_it_easier(
 
     list(approaches(path, 1.0, nothing, nothing, nothing))
 
-    # what may take long comes last, stops before anything else, and so what parts
+    # what may take long comes last, stops before anything else
     stops, all_of = ["driven"] * stop, len(FOURIERS)
-    ways, parting = tried * all_of + ["arc"] * all_of, ["parted 1"]
-    assert found == stops * all_of + (parting + ways if parts else ways + parting)
+    ways = stops * all_of + tried * all_of + ["arc"] * all_of
+    assert found == [*ways, "parted 1"]
 
     found.clear()
     given: Any = object()
     list(approaches(path, 1.0, nothing, nothing, nothing, folded=False, resolved=given))
     stops = ["driven", "fine driven"] * stop
-    ways = [*tried * all_of, *["fine _louder"] * (friction > 0.0), "grown"]
-    parting = ["parted 2"]
-    assert found == stops + (parting + ways if parts else ways + parting)
+    louder = ["fine _louder"] * (friction > 0.0)
+    assert found == [*stops, *tried * all_of, *louder, "grown", "parted 2"]
 
 
 def test_a_curve_begins_where_its_arc_of_drives_passes_zero() -> None:

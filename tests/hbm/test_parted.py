@@ -70,7 +70,7 @@ def test_a_mass_that_is_lifted_off_what_may_rub_has_a_first_point(
     assert found.as_stable
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_an_element_that_rattles_without_friction_has_a_first_point() -> None:
     """The full rig, whose element a hundred times the preload drives off its faces."""
     problem = rig_problem(

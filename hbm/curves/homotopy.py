@@ -17,12 +17,11 @@ from hbm.curves.followed import followed
 from hbm.curves.grown import Resolved, grown
 from hbm.curves.parted import parted
 from hbm.curves.share_arc import along_an_arc
-from hbm.curves.stiffened import soft, stiffening
+from hbm.curves.stiffened import depths, soft, stiffening, stops
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.along_share import LEAST, AlongShare, Easier, arrived, driven
 from hbm.paths.path import Path
 from microslip_mechanics.arrays import Array, largest
-from microslip_mechanics.contact.points import ONE_SIDED
 
 PATIENCE = 1000
 """evaluations after which an arc of drives is given up; those that arrive take some
@@ -178,7 +177,5 @@ def _pressed(problem: RelativeProblem, depth: float, share: float) -> RelativePr
 
 def _touches(problem: RelativeProblem, motion: float) -> bool:
     """Return whether faces just touch at rest, in comparison with a motion [m]."""
-    points = problem.points
-    opens = (points.normal == ONE_SIDED) & (points.stiffness > 0.0)
-    depth = (problem.basis @ problem.rest + problem.offset)[::3] - points.gap
-    return bool((opens & (np.abs(depth) <= TOUCHING * motion)).any())
+    near = np.abs(depths(problem)) <= TOUCHING * motion
+    return bool((stops(problem) & near).any())

@@ -75,8 +75,13 @@ def soft(problem: RelativeProblem) -> NDArray[np.bool_]:
     Those on which nothing rubs, or that are open at rest: others press together what
     friction is to hold.
     """
-    points = problem.points
-    depth = (problem.basis @ problem.rest + problem.offset)[::3] - points.gap
-    smooth = points.friction == FRICTIONLESS
-    found: NDArray[np.bool_] = stops(problem) & ((depth < 0.0) | smooth)
+    smooth = problem.points.friction == FRICTIONLESS
+    found: NDArray[np.bool_] = stops(problem) & ((depths(problem) < 0.0) | smooth)
     return found
+
+
+def depths(problem: RelativeProblem) -> Array:
+    """Return how deep faces are pressed together at rest [m], shape (points,)."""
+    place = problem.basis @ problem.rest + problem.offset
+    depth: Array = place[::3] - problem.points.gap
+    return depth

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,6 +27,9 @@ ASKEW = 0.7
 """cosine between the tangents of a step to a point with more harmonics, by which the
 curve turns where fewer have just begun to mislead; one that turns more is at a corner
 """
+NEARER = 0.75
+"""times as far from its prediction is where half a step leads, if a shorter step is to
+leave the other branch"""
 THROWN = 10.0
 """times its length by which a step moves a point that it throws beyond a corner"""
 
@@ -44,10 +48,10 @@ def next_point(
     ContinuationError
         If the shortest step does not converge either.
     """
-    failures = 0
+    failures, strayed = 0, math.inf
     while True:
         across = _Across(system, past, step, control, settler)
-        candidate, close = across.settled()
+        candidate, close, strayed = across.settled(strayed)
         if candidate.outcome is Outcome.CONVERGED:
             smooth = turn(candidate, past.tangent, past.scale) > control.sharpest_turn
             overlooked = settler.overlooks(candidate.point, past.scale, step)
@@ -82,26 +86,29 @@ class _Across:
     control: StepControl
     settler: Settler
 
-    def settled(self) -> tuple[Correction, bool]:
+    def settled(self, strayed: float) -> tuple[Correction, bool, float]:
         """Return a point, settled if it is close to the prediction, and whether.
 
         If settling moves it far away, to another branch perhaps, the point close to the
         prediction that the system has now that it is finer is taken. If there is none,
-        and the branch is another one for certain, the step is too long.
+        and the branch is another one for certain, the step is too long, unless half of
+        it was no better: the last of what is returned is how far such a step has
+        ``strayed``, which is that of the step before.
         """
-        predicted = self.past.predict(self.step)
+        predicted, scale = self.past.predict(self.step), self.past.scale
         candidate, close = self._found(predicted)
         if not close:
-            return self._directed(candidate), False
+            return self._directed(candidate), False, strayed
         settled = self._kept(candidate)
         far = max(NEAR * self.step, self.control.shift)
-        if distance(settled.point, predicted, self.past.scale) > far:
+        if distance(settled.point, predicted, scale) > far:
             again, close = self._found(predicted)
             settled = self._kept(again) if close else settled
-            elsewhere = distance(settled.point, predicted, self.past.scale) > ELSEWHERE
+            away = distance(settled.point, predicted, scale)
+            elsewhere = ELSEWHERE < away < NEARER * strayed
             if elsewhere and self.step > self.control.narrowest:
-                return settled, False
-        return self._straight(settled)
+                return settled, False, away
+        return *self._straight(settled), strayed
 
     def _straight(self, settled: Correction) -> tuple[Correction, bool]:
         """Return a point whose tangent more harmonics have too, and whether it is one.

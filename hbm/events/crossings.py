@@ -81,6 +81,8 @@ class Crossings:
             located = self._among(segment, moving, finer, before, after, precision)
         if located is None:
             located = self._along(segment, moving, finer, precision)
+        if not self._has(located, told):
+            told = finer
         if told != finer and _at_end(segment, located):
             moving = MovingMultiplier(which, before.multipliers, after.multipliers)
             again = self._along(segment, moving, told, precision)
@@ -142,6 +144,12 @@ class Crossings:
         return segment.locate(
             lambda each: self._growth(moving, each, finer), moving.ends, precision
         )
+
+    def _has(self, located: Correction | None, told: FourierBasis | None) -> bool:
+        """Return whether what was located has an orbit of that resolution, if any."""
+        if located is None or told is None:
+            return True
+        return self.multipliers.orbits.finer(located.point, told) is not None
 
     def _astray(
         self,

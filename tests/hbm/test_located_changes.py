@@ -3,10 +3,16 @@
 import itertools
 import math
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 
+from hbm.continuation.segment import ROUGH
+from hbm.events import crossings
+from hbm.events.crossings import Crossing, Crossings
+from hbm.events.finer_orbits import FinerOrbits
+from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.problem import Problem
@@ -39,6 +45,31 @@ def test_a_mass_between_stops_has_a_branch_point_where_its_stability_changes(
     assert told.event == "branch point"
     assert np.abs(told.multipliers - 1.0).min() < 1e-3
     assert sorted([*below, *above]) == [0, 1]
+
+
+def test_orbits_that_are_not_to_be_had_are_not_sought_at_every_place(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = between_stops()
+    finest, asked = FourierBasis(255, 2048), list[FourierBasis]()
+    between = Crossings.between
+
+    def lost(*arguments: Any) -> None:
+        asked.append(arguments[-1])
+
+    def without(*arguments: Any) -> Iterator[Crossing]:
+        with monkeypatch.context() as patch:
+            patch.setattr(FinerOrbits, "finer", lost)
+            yield from list(between(*arguments))
+
+    monkeypatch.setattr(Crossings, "between", without)
+    monkeypatch.setattr(Crossings, "_asked", lambda *_: (finest, None, ROUGH))
+    monkeypatch.setattr(crossings, "ASTRAY", 0.0)
+
+    changed = changes(problem, CurveOptions(4.0 * HERTZ, 7.0 * HERTZ))
+
+    assert [each.event for each in changed] == ["branch point"]
+    assert asked == 2 * [finest]  # where it is located, and for its error
 
 
 def until_restart(curve: Iterable[PeriodicResponse]) -> Iterator[PeriodicResponse]:

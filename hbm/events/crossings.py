@@ -16,6 +16,7 @@ from hbm.events.multipliers import HARMONICS, Multipliers
 from hbm.events.settled import Settled
 from hbm.forces.fourier import FourierBasis, by_harmonics
 from hbm.resolution.adaptive import AdaptiveBalance
+from microslip_mechanics.arrays import Array
 
 LOCATING = FourierBasis(31, 256)
 """most that is taken at first, if the curve has no more, to locate a change of
@@ -81,9 +82,7 @@ class Crossings:
             located = self._among(segment, moving, finer, before, after, precision)
         if located is None:
             located = self._along(segment, moving, finer, precision)
-        if not self._has(located, told):
-            told = finer
-        if told != finer and _at_end(segment, located):
+        if told != finer and self._ends(segment, located, told):
             moving = MovingMultiplier(which, before.multipliers, after.multipliers)
             again = self._along(segment, moving, told, precision)
             located, finer = (again, told) if again else (located, finer)
@@ -121,10 +120,10 @@ class Crossings:
                 return None
 
         def error() -> float:
-            orbit = self.multipliers.orbits.finer(located.point, other)
+            orbit = self._orbit(located, other)
             if orbit is None:
                 return math.nan
-            doubt = moving.growth(self.multipliers.at(orbit, other))
+            doubt = moving.growth(self.multipliers.at(*orbit))
             doubt -= self._growth(moving, located, finer)
             return crossing_error(segment, located, moving.ends, abs(doubt), precision)
 
@@ -145,11 +144,23 @@ class Crossings:
             lambda each: self._growth(moving, each, finer), moving.ends, precision
         )
 
-    def _has(self, located: Correction | None, told: FourierBasis | None) -> bool:
-        """Return whether what was located has an orbit of that resolution, if any."""
-        if located is None or told is None:
-            return True
-        return self.multipliers.orbits.finer(located.point, told) is not None
+    def _ends(
+        self,
+        segment: Segment,
+        located: Correction | None,
+        told: FourierBasis | None,
+    ) -> bool:
+        """Return whether what was located lies about at an end of its step.
+
+        Orbits with fewer harmonics than those at the ends may cross beyond it. Where
+        there are none with so many nothing is asked for again.
+        """
+        if located is None:
+            return False
+        place = segment.place(located.point) / segment.length
+        if NEAR < place < 1.0 - NEAR:
+            return False
+        return self._orbit(located, told) is not None
 
     def _astray(
         self,
@@ -160,15 +171,18 @@ class Crossings:
     ) -> bool:
         """Return whether no branch point is confirmed by the orbit as it is reported.
 
-        Where the curve folds a multiplier crosses in any case, and nothing is asked for
-        again.
+        Where the curve folds a multiplier crosses in any case, and where there is no
+        such orbit none confirms it elsewhere: nothing is asked for again.
         """
         if _name(moving) != BRANCH:
             return False
         folded = segment.after.turns or folds(segment.before) * folds(segment.after) < 0
         if located is None or folded or self.recalls:
             return False
-        return bool(abs(self._growth(moving, located, told)) > ASTRAY)
+        orbit = self._orbit(located, told)
+        if orbit is None:
+            return False
+        return bool(abs(moving.growth(self.multipliers.at(*orbit))) > ASTRAY)
 
     def _among(
         self,
@@ -235,22 +249,21 @@ class Crossings:
 
         Or of the point's own, if there is none.
         """
-        point, fourier = correction.point, self.system.fourier
-        if finer is not None:
-            found = self.multipliers.orbits.finer(point, finer)
-            point, fourier = (point, fourier) if found is None else (found, finer)
+        orbit = self._orbit(correction, finer)
+        point, fourier = orbit or (correction.point, self.system.fourier)
         return moving.growth(self.multipliers.at(point, fourier))
 
+    def _orbit(
+        self, correction: Correction, finer: FourierBasis | None
+    ) -> tuple[Array, FourierBasis] | None:
+        """Return the orbit with a finer resolution at a point, and which; if found.
 
-def _at_end(segment: Segment, located: Correction | None) -> bool:
-    """Return whether what was located lies about at an end of its step.
-
-    Orbits with fewer harmonics than those at the ends may cross beyond it.
-    """
-    if located is None:
-        return False
-    place = segment.place(located.point) / segment.length
-    return not NEAR < place < 1.0 - NEAR
+        The point itself, if no other is asked for.
+        """
+        if finer is None:
+            return correction.point, self.system.fourier
+        found = self.multipliers.orbits.finer(correction.point, finer)
+        return None if found is None else (found, finer)
 
 
 def _name(moving: MovingMultiplier) -> str:

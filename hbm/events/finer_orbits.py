@@ -47,8 +47,9 @@ class FinerOrbits:
             _within(point, change, normal, way) for change in self._likely(fourier)
         ]
         balance = self.resolution.at(fourier)
-        found = self._corrected(balance, _best(balance, [point, *beside]), normal)
-        if found.outcome is not Outcome.CONVERGED and beside:
+        guess = _best(balance, [point, *beside])
+        found = self._corrected(balance, guess, normal)
+        if found.outcome is not Outcome.CONVERGED and guess is not point:
             found = self._corrected(balance, point, normal)
         if found.outcome is not Outcome.CONVERGED or self._another(point, found.point):
             return None

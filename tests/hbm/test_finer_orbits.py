@@ -25,6 +25,8 @@ COARSE, REPORTED, MANY = (
 )
 STRIKING, BESIDE = 15.0, 15.03
 """frequencies at which the mass strikes both stops [rad/s]"""
+QUIET = 100.0
+"""one at which it touches neither [rad/s]"""
 
 
 def orbits_of(problem: Problem) -> FinerOrbits:
@@ -112,3 +114,25 @@ def test_where_that_leads_nowhere_the_orbit_itself_is_the_beginning(
 
     assert not np.array_equal(begun[0], begun[1])
     np.testing.assert_array_equal(begun[1][: coarse.size - 1], coarse[:-1])
+
+
+def test_a_beginning_that_leads_nowhere_is_not_tried_twice(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    problem = between_stops()
+    begun: list[Array] = []
+    orbits = orbits_of(problem)
+    orbits.finer(orbit(problem, STRIKING), MANY)
+
+    def lost(system: Any, guess: Array, *more: Any, **options: Any) -> Any:
+        begun.append(guess)
+        found = correct(system, guess, *more, **options)
+        return replace(found, outcome=Outcome.STALLED)
+
+    monkeypatch.setattr("hbm.events.finer_orbits.correct", lost)
+    coarse = orbit(problem, QUIET)  # the last change would lead away from it
+
+    assert orbits.finer(coarse, MANY) is None
+
+    assert len(begun) == 1
+    np.testing.assert_array_equal(begun[0][: coarse.size - 1], coarse[:-1])

@@ -8,15 +8,15 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from hbm.continuation.correction import Correction
-from hbm.continuation.segment import PRECISION, ROUGH, ROUGHER, Segment, folds
+from hbm.continuation.segment import PRECISION, ROUGH, ROUGHER, Segment
 from hbm.events.crossed import BRANCH, crossed, crossings, turns
 from hbm.events.crossing_error import crossing_error, witness
 from hbm.events.moving_multiplier import MovingMultiplier
 from hbm.events.multipliers import HARMONICS, Multipliers
 from hbm.events.settled import Settled
+from hbm.events.step_orbits import StepOrbits
 from hbm.forces.fourier import FourierBasis, by_harmonics
 from hbm.resolution.adaptive import AdaptiveBalance
-from microslip_mechanics.arrays import Array
 
 LOCATING = FourierBasis(31, 256)
 """most that is taken at first, if the curve has no more, to locate a change of
@@ -24,8 +24,6 @@ stability"""
 ASTRAY = 0.01
 """distance of a multiplier from +1 at which an orbit as it is reported is no branch
 point: the crossing is located again with all harmonics, then more precisely"""
-NEAR = 0.01
-"""of a step, from its ends"""
 LEAP = 0.1
 """of the change of a multiplier between two points: what is left of its excess where it
 is located, from which on it leaps"""
@@ -57,17 +55,18 @@ class Crossings:
         paired = False
         if before.multipliers.size != after.multipliers.size:
             return  # one of the two has none that are known
+        orbits = StepOrbits(self.system, self.multipliers, segment)
         for which in crossings(before.multipliers, after.multipliers):
             if paired:  # a conjugate crosses where the one before it does
                 paired = False
                 continue
-            crossing, multiplier = self._crossing(segment, which, before, after)
+            crossing, multiplier = self._crossing(orbits, which, before, after)
             paired = turns(multiplier)
             if crossing is not None:
                 yield crossing
 
     def _crossing(
-        self, segment: Segment, which: int, before: Settled, after: Settled
+        self, orbits: StepOrbits, which: int, before: Settled, after: Settled
     ) -> tuple[Crossing | None, complex]:
         """Return where a multiplier crosses the unit circle, if it does, and its value.
 
@@ -79,30 +78,30 @@ class Crossings:
         moving = MovingMultiplier(which, before.multipliers, after.multipliers)
         located = None
         if finer is not None:
-            located = self._among(segment, moving, finer, before, after, precision)
+            located = orbits.among(moving, finer, (before, after), precision)
         if located is None:
-            located = self._along(segment, moving, finer, precision)
-        if told != finer and self._ends(segment, located, told):
+            located = orbits.along(moving, finer, precision)
+        if told != finer and _beyond(orbits, located, told):
             moving = MovingMultiplier(which, before.multipliers, after.multipliers)
-            again = self._along(segment, moving, told, precision)
+            again = orbits.along(moving, told, precision)
             located, finer = (again, told) if again else (located, finer)
         for each in (precision, PRECISION):
-            if not self._astray(segment, located, moving, told):
+            if not self._astray(orbits, located, moving, told):
                 break
             moving = MovingMultiplier(which, before.multipliers, after.multipliers)
-            located, finer = self._along(segment, moving, told, each), told
+            located, finer = orbits.along(moving, told, each), told
             precision = each
         multiplier = moving.outside
         if located is None:
             return None, multiplier
         used = finer or self.system.fourier
         other = witness(used, told or used)
-        made = self._made(segment, located, moving, finer, other, precision)
+        made = self._made(orbits, located, moving, finer, other, precision)
         return made, multiplier
 
     def _made(
         self,
-        segment: Segment,
+        orbits: StepOrbits,
         located: Correction,
         moving: MovingMultiplier,
         finer: FourierBasis | None,
@@ -115,56 +114,25 @@ class Crossings:
         """
         name, (first, last) = _name(moving), moving.ends
         if self.recalls:
-            left = abs(self._growth(moving, located, finer))
+            left = abs(orbits.growth(moving, located, finer))
             if left > LEAP * abs(last - first):
                 return None
 
         def error() -> float:
-            orbit = self._orbit(located, other)
+            orbit = orbits.at(located, other)
             if orbit is None:
                 return math.nan
             doubt = moving.growth(self.multipliers.at(*orbit))
-            doubt -= self._growth(moving, located, finer)
-            return crossing_error(segment, located, moving.ends, abs(doubt), precision)
+            doubt = abs(doubt - orbits.growth(moving, located, finer))
+            return crossing_error(
+                orbits.segment, located, moving.ends, doubt, precision
+            )
 
         return Crossing(name, located, error)
 
-    def _along(
-        self,
-        segment: Segment,
-        moving: MovingMultiplier,
-        finer: FourierBasis | None,
-        precision: float,
-    ) -> Correction | None:
-        """Return where a multiplier crosses of the orbits at the frequencies of a step.
-
-        They have the finer resolution, if there is one.
-        """
-        return segment.locate(
-            lambda each: self._growth(moving, each, finer), moving.ends, precision
-        )
-
-    def _ends(
-        self,
-        segment: Segment,
-        located: Correction | None,
-        told: FourierBasis | None,
-    ) -> bool:
-        """Return whether what was located lies about at an end of its step.
-
-        Orbits with fewer harmonics than those at the ends may cross beyond it. Where
-        there are none with so many nothing is asked for again.
-        """
-        if located is None:
-            return False
-        place = segment.place(located.point) / segment.length
-        if NEAR < place < 1.0 - NEAR:
-            return False
-        return self._orbit(located, told) is not None
-
     def _astray(
         self,
-        segment: Segment,
+        orbits: StepOrbits,
         located: Correction | None,
         moving: MovingMultiplier,
         told: FourierBasis | None,
@@ -174,49 +142,12 @@ class Crossings:
         Where the curve folds a multiplier crosses in any case, and where there is no
         such orbit none confirms it elsewhere: nothing is asked for again.
         """
-        if _name(moving) != BRANCH:
+        if located is None or self.recalls or orbits.folded or _name(moving) != BRANCH:
             return False
-        folded = segment.after.turns or folds(segment.before) * folds(segment.after) < 0
-        if located is None or folded or self.recalls:
-            return False
-        orbit = self._orbit(located, told)
+        orbit = orbits.at(located, told)
         if orbit is None:
             return False
         return bool(abs(moving.growth(self.multipliers.at(*orbit))) > ASTRAY)
-
-    def _among(
-        self,
-        segment: Segment,
-        moving: MovingMultiplier,
-        finer: FourierBasis,
-        before: Settled,
-        after: Settled,
-        precision: float,
-    ) -> Correction | None:
-        """Return where a multiplier of orbits with a finer resolution crosses.
-
-        They are found between those that are reported; None if one is not, or if points
-        have no room for so many.
-        """
-        if finer.coefficients * self.multipliers.resolution.rank >= self.system.size:
-            return None
-        system = self.multipliers.resolution.at(finer)
-        ends = before.reported, after.reported
-        orbits = replace(
-            segment, system=system, before=ends[0], after=ends[1], tangents=False
-        )
-        located = orbits.locate(
-            lambda each: moving.growth(self.multipliers.at(each.point, finer)),
-            moving.ends,
-            precision,
-        )
-        if located is None:
-            return None
-        guess = located.point.copy()
-        guess[
-            self.system.fourier.coefficients * self.multipliers.resolution.rank : -1
-        ] = 0.0
-        return segment.across(guess, precision * segment.length)
 
     def _asked(
         self, before: Settled, after: Settled
@@ -239,31 +170,18 @@ class Crossings:
         )
         return first, second, precision
 
-    def _growth(
-        self,
-        moving: MovingMultiplier,
-        correction: Correction,
-        finer: FourierBasis | None,
-    ) -> float:
-        """Return that of a multiplier of the orbit with a finer resolution at a point.
 
-        Or of the point's own, if there is none.
-        """
-        orbit = self._orbit(correction, finer)
-        point, fourier = orbit or (correction.point, self.system.fourier)
-        return moving.growth(self.multipliers.at(point, fourier))
+def _beyond(
+    orbits: StepOrbits, located: Correction | None, told: FourierBasis | None
+) -> bool:
+    """Return whether orbits as they are reported may cross beyond what was located.
 
-    def _orbit(
-        self, correction: Correction, finer: FourierBasis | None
-    ) -> tuple[Array, FourierBasis] | None:
-        """Return the orbit with a finer resolution at a point, and which; if found.
-
-        The point itself, if no other is asked for.
-        """
-        if finer is None:
-            return correction.point, self.system.fourier
-        found = self.multipliers.orbits.finer(correction.point, finer)
-        return None if found is None else (found, finer)
+    Fewer harmonics than at the ends of a step may end where it does. Where there are no
+    orbits with so many nothing is asked for again.
+    """
+    if located is None or not orbits.ends(located):
+        return False
+    return orbits.at(located, told) is not None
 
 
 def _name(moving: MovingMultiplier) -> str:

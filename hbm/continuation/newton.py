@@ -22,6 +22,8 @@ STUCK = 10.0
 taken to meet a small jump of it, and is good enough where iterations run out"""
 LOWERS = 1e-4
 """share of a residual by which a whole step lowers it at least"""
+HARDLY = 0.9
+"""share of a residual, more of which idle steps leave together"""
 CHORD = 0.1
 """contraction that shows that the Jacobian has hardly changed"""
 
@@ -44,6 +46,7 @@ def correct(
     small: Small | None = None,
     max_iterations: int = 25,
     chord: float = CHORD,
+    idle: int | None = None,
 ) -> Correction:
     """Bring a predicted point to the curve, within the plane normal to ``normal``.
 
@@ -64,6 +67,9 @@ def correct(
         Newton steps before the correction gives up.
     chord
         Share of the residual that a step leaves, below which its factors serve again.
+    idle
+        Newton steps in a row that may hardly lower the residual; any number if left
+        out.
 
     Notes
     -----
@@ -78,7 +84,7 @@ def correct(
         return Correction(point, residual, linearised, outcome, tuple(sizes))
 
     while True:
-        outcome = _outcome(sizes, tolerance, max_iterations, stuck)
+        outcome = _outcome(sizes, tolerance, max_iterations, stuck, idle)
         if outcome is not None:
             return ended(outcome)
         try:
@@ -132,7 +138,11 @@ def _lowered(
 
 
 def _outcome(
-    sizes: list[float], tolerance: float, max_iterations: int, stuck: bool
+    sizes: list[float],
+    tolerance: float,
+    max_iterations: int,
+    stuck: bool,
+    idle: int | None,
 ) -> Outcome | None:
     """Return how a correction has ended; None if it has not.
 
@@ -142,6 +152,8 @@ def _outcome(
         return Outcome.OVERFLOW
     if sizes[-1] <= tolerance:
         return Outcome.CONVERGED
+    if idle and len(sizes) > idle and sizes[-1] > HARDLY * sizes[-1 - idle]:
+        return Outcome.STALLED
     if len(sizes) <= max_iterations:
         return None
     return Outcome.CONVERGED if stuck else Outcome.EXHAUSTED

@@ -18,6 +18,8 @@ ASIDE = 0.02
 CHORD = 0.5
 """share of the residual that a Newton step leaves, below which its factors serve again:
 so many harmonics take longer to factor than many steps"""
+IDLE = 4
+"""Newton steps in a row that may hardly lower the residual: more lead nowhere"""
 SMALL = 1e-6
 """relative change of the motion that Newton's iteration may neglect"""
 
@@ -78,6 +80,7 @@ class FinerOrbits:
             tolerance=self._control.tolerance,
             small=Small(lambda _: changes, self._control.loose),
             chord=CHORD,
+            idle=IDLE,
         )
 
     def _with_room(self, point: Array, fourier: FourierBasis) -> Array:

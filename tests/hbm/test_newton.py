@@ -154,6 +154,32 @@ def test_a_correction_stalls_at_a_minimum_of_the_residual() -> None:
     assert correction.point[0] == 1e-3
 
 
+@pytest.mark.parametrize(
+    ("idle", "outcome", "steps"),
+    [
+        (None, Outcome.CONVERGED, 7),
+        (8, Outcome.CONVERGED, 7),
+        (4, Outcome.STALLED, 4),
+    ],
+)
+def test_idle_steps_end_a_correction(
+    idle: int | None, outcome: Outcome, steps: int
+) -> None:
+    def slow_at_first(point: Array) -> tuple[Array, Dense]:
+        x, _ = point
+        return point[:1], Dense([[100.0 if x > 0.95 else 1.0, 0.0]])
+
+    found = correct(
+        slow_at_first,
+        np.array([1.0, 0.0]),
+        AT_ITS_PARAMETER,
+        tolerance=1e-12,
+        idle=idle,
+    )
+
+    assert (found.outcome, found.iterations) == (outcome, steps)
+
+
 def test_a_singular_jacobian_ends_a_correction() -> None:
     correction = corrected(without_root, 0.0)
 

@@ -308,7 +308,7 @@ def test_a_folder_that_cannot_be_made_is_told_in_a_line(
     status, output, error = run("report", str(quick_scene), "-o", "no/such/folder")
 
     assert (status, output) == (2, "")
-    assert error.startswith("microslip: there is no folder no/such/folder to write to")
+    assert error.startswith("microslip: the folder no/such/folder cannot be made: ")
 
 
 def test_left_out_sections_show_no_time() -> None:

@@ -93,9 +93,7 @@ def _folder(options: argparse.Namespace) -> Path:
         chosen.mkdir(exist_ok=True)
     except OSError as error:
         reason = error.strerror or error
-        raise OutputError(
-            f"there is no folder {chosen} to write to: {reason}"
-        ) from None
+        raise OutputError(f"the folder {chosen} cannot be made: {reason}") from None
     demand_place(chosen / PAGE)
     return chosen
 

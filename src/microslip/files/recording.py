@@ -9,6 +9,7 @@ from microslip.files.result_file import end_of
 from microslip.files.schema import Growing
 from microslip.files.store import WrongFileError, begin, told
 from microslip.files.stream import Head, Stream, rows_of
+from microslip.scenes.file_content import without_files
 from microslip.scenes.quantity import SceneError
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.cycle_rows import parted
@@ -99,7 +100,13 @@ def last_state(path: Path, scene: str) -> tuple[Checkpoint, float]:
 
 
 def _demand_same(path: Path, head: Head, scene: str) -> None:
-    if head.text("scene") != scene:
+    own = head.text("scene")
+    if own != scene and without_files(own) == without_files(scene):
+        raise SceneError(
+            f"{path} was marched with other content of the files that the scene names: "
+            "put back what they held, or march anew"
+        )
+    if own != scene:
         raise SceneError(
             f"{path} is the march of another scene: give the scene and the overrides "
             f"of its command, {head.text('command')}"

@@ -182,7 +182,7 @@ def test_what_cannot_go_on_is_told_in_one_line(
         (
             ["--resume", "done.nc"],
             2,
-            "is complete: there is nothing to resume, leave --resume out",
+            "is complete: there is nothing to resume, microslip plot draws it",
         ),
         (["--resume", "part.nc"], 2, "another scene"),
         ([*LONG, "--resume", "part.nc", "--envelope"], 2, "rows in time"),

@@ -73,7 +73,7 @@ def resumed(path: Path, scene: str) -> tuple[Recording, Growing]:
     _demand_same(path, head, scene)
     if end.ending == "complete":
         raise WrongFileError(
-            f"{path} is complete: there is nothing to resume, leave --resume out"
+            f"{path} is complete: there is nothing to resume, microslip plot draws it"
         )
     return Recording(path, scene, head.text("command"), head), end
 

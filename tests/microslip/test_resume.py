@@ -240,7 +240,8 @@ def test_work_of_a_block_that_a_full_disk_refused_is_not_counted(
         first.keep(history)
         with monkeypatch.context() as disk:
             disk.setattr(RecordFile, "append", full)
-            with pytest.raises(StoreError, match="no space"):
+            stays = f"no space: its {history.time.size} rows so far stay"
+            with pytest.raises(StoreError, match=stays):
                 first.keep(history)
 
     kept = load(path).result

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from microslip.files.result_file import end_of
 from microslip.files.schema import Growing
-from microslip.files.store import WrongFileError, begin, told
+from microslip.files.store import StoreError, WrongFileError, begin, told
 from microslip.files.stream import Head, Stream, rows_of
 from microslip.scenes.file_content import without_files
 from microslip.scenes.quantity import SceneError
@@ -40,11 +40,24 @@ class Recording:
         return self.stream.rows if self.stream else 0
 
     def keep(self, block: Growing) -> None:
-        """Write a block; the first one opens the file."""
+        """Write a block; the first one opens the file.
+
+        Raises
+        ------
+        StoreError
+            If it cannot be written, with what of the march stays in the file.
+        """
         if self.stream is None:
             self.stream = self._opened(block)
-        with told(self.path):
-            self.stream.append(block)
+        try:
+            with told(self.path):
+                self.stream.append(block)
+        except StoreError as error:
+            if not self.rows:
+                raise
+            raise StoreError(
+                f"{error}: its {self.rows} rows so far stay, microslip plot draws them"
+            ) from None
 
     def end(self, ending: str) -> None:
         """Write how the march ended."""

@@ -12,7 +12,7 @@ import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from scipy.interpolate import BarycentricInterpolator
+from scipy.interpolate import KroghInterpolator
 from scipy.optimize import brentq
 
 from hbm.continuation.arc import plane_across, tangent
@@ -134,7 +134,7 @@ class Segment:
         points = {at: known.point for at, known in (ends | solved).items()}
         near = sorted(points, key=lambda at: abs(at - place))[:NEAREST]
         if len(near) == NEAREST:
-            return BarycentricInterpolator(near, [points[at] for at in near])(place)
+            return KroghInterpolator(near, [points[at] for at in near])(place)
         start, direction = self.before.point, self.before.along
         bend = self.after.point - start - length * direction
         guess: Array = start + place * direction + (place / length) ** 2 * bend

@@ -117,6 +117,16 @@ def test_cuts_between_blocks_leave_no_trace(edges: list[int]) -> None:
             )
 
 
+def test_what_comes_before_the_end_of_the_first_cycle_comes_with_it() -> None:
+    first, *rest = enveloped(cut(history(), [17, 18, 9000]), LOADS.segments())
+
+    assert first.time.size > 1
+    assert sum(each.iterations for each in (first, *rest)) == ROWS
+    slow = SineTest(0.0, 0.0, (Tone(0.1, 0.1, 4.0),), 0.0).segments()
+    (alone,) = enveloped(cut(history(), [17]), slow)
+    assert (alone.time.size, alone.iterations) == (1, ROWS)
+
+
 def test_a_stopped_envelope_goes_on() -> None:
     whole = of(cut(history(), []))
     before, after = list(cut(history(), [12_345]))

@@ -184,10 +184,9 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
         {"rayleigh_damping": (0.1,)},
         ("rayleigh_damping = (0.1,)", "give two numbers"),
     ),
-    "booleans for masses": (
-        {"mass": [True, True]},
-        ("mass is no matrix of numbers",),
-    ),
+    "booleans for masses": ({"mass": [True, True]}, ("mass holds a truth value",)),
+    "one boolean": ({"mass": [1.0, True]}, ("mass holds a truth value",)),
+    "400 digits": ({"mass": [1.0, 10**400]}, ("mass holds a number above 1e+50",)),
     "structural damping in a list": (
         {"stiffness": [[2e4 + 40j, -1e4], [-1e4, 1e4]]},
         ("stiffness is complex", "loss_factor"),

@@ -146,3 +146,13 @@ def test_a_body_that_only_a_dashpot_holds_is_told_as_an_error_of_microslip() -> 
 
 def test_problems_tell_what_they_are_in_a_line(duffing: Any) -> None:
     assert repr(duffing) == "<Problem: 1 degree of freedom; contacts cubic; probes x>"
+
+
+def test_a_curve_takes_no_number_from_numpy_s_global_generator() -> None:
+    before = np.random.get_state(legacy=False)  # noqa: NPY002
+
+    curve = microslip.curve(microslip.scene("jenkins"), 18.0, 19.0)
+
+    assert "peak" in curve.event
+    after = np.random.get_state(legacy=False)  # noqa: NPY002
+    np.testing.assert_equal(after, before)

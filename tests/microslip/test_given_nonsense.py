@@ -1,6 +1,7 @@
 """What is no result, no element, no drive, and output that has no place."""
 
 import os
+import shlex
 import subprocess
 import sys
 from collections.abc import Callable
@@ -50,6 +51,18 @@ def test_output_to_a_full_disk_ends_with_one_line() -> None:
     assert done.stderr == (
         f"microslip: the output cannot be written: {os.strerror(28)}\n"
     )
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no shell that closes outputs")
+@pytest.mark.parametrize(
+    ("closed", "told"), [(">&-", b""), ("2>&-", b"duffing"), (">&- 2>&- <&-", b"")]
+)
+def test_outputs_that_are_closed_end_nothing(closed: str, told: bytes) -> None:
+    words = f"{shlex.quote(sys.executable)} -m microslip scenes {closed}"
+    done = subprocess.run(["sh", "-c", words], capture_output=True, check=False)
+
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert told in done.stdout
 
 
 def test_a_folder_that_is_none_is_refused(run: Run) -> None:

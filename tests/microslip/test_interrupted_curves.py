@@ -55,12 +55,21 @@ def test_track_keeps_the_curve_and_begins_no_other(
 
     assert (status, error, curves.curves) == (130, KEPT, 1)
     assert "the curve is not whole: interrupted" in output
-    assert (tmp_path / "quick-track.csv").is_file()
+    assert "largest" not in output
+    (row,) = rows_of(tmp_path / "quick-track.csv")
+    assert (row["excitation.force"], row["event"]) == ("0.5", "")
+    assert (row["amplitude_m"], row["ending"]) == ("nan", "interrupted")
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    """Return the rows of a table."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
 
 
 @pytest.mark.usefixtures("no_picture")
 def test_track_goes_on_behind_a_curve_that_is_stuck_and_says_so(
-    run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch
+    run: Run, quick_scene: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     curves = solver(monkeypatch, ContinuationError("stuck: try less"))
 
@@ -72,6 +81,11 @@ def test_track_goes_on_behind_a_curve_that_is_stuck_and_says_so(
     assert "the curve is not whole: stuck: try less" in output
     told = "microslip: 1 of 2 curves are not whole; what was computed is kept\n"
     assert error == told
+    endings = {
+        row["excitation.force"]: row["ending"]
+        for row in rows_of(tmp_path / "quick-track.csv")
+    }
+    assert endings == {"0.5": "stuck: try less", "1": "complete"}
 
 
 def test_grid_keeps_the_attempts_that_have_ended(

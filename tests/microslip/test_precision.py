@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from microslip.cli import main
+from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import load_scene
 from microslip.studies.precision import precision
 from microslip.studies.precision.case import Case, case_of
@@ -24,7 +25,7 @@ PHASE = 2.0 * np.pi * np.arange(PHASES) / PHASES
 
 
 def orbit(motion: Array, energy: float = 2.0) -> Orbit:
-    return Orbit(motion[:, None], energy)
+    return Orbit(motion[:, None], energy, 1.5 * energy)
 
 
 def run(seconds: float, error: float, ending: str = "complete") -> Run:
@@ -48,7 +49,7 @@ def test_errors_are_relative_and_know_no_mean() -> None:
 def test_the_peak_is_that_of_a_probe_that_moves() -> None:
     rounding = np.array([1e-17, 0.0])
     exact, other = (
-        Orbit(np.outer(np.sin(PHASE), [rest, size]), 2.0)
+        Orbit(np.outer(np.sin(PHASE), [rest, size]), 2.0, 2.0)
         for rest, size in zip(rounding, (1.0, 1.02), strict=True)
     )
 
@@ -89,6 +90,29 @@ def test_the_reference_has_the_energy_of_the_closed_loop() -> None:
     # the parallelogram of a slider of 1 N behind 5 kN/m
     assert exact.orbit.energy == pytest.approx(4.0 * (largest - 1.0 / 5e3), rel=1e-3)
     assert max(exact.spread) < 1e-5
+
+
+def test_where_a_contact_sticks_the_energy_is_that_of_all_damping() -> None:
+    scene = load_scene("jenkins")
+    damper = problem_of(scene).structure.damping[0, 0]  # N s/m
+    speed = math.tau * 15.0
+
+    exact = reference(case_of(scene, 15.0), 0.5)
+
+    assert not exact.orbit.rubs
+    taken = math.pi * damper * speed * exact.orbit.peak**2
+    assert exact.orbit.energy == pytest.approx(taken, rel=1e-6)
+    assert max(exact.spread) < 1e-6
+
+
+def test_an_error_of_the_energy_is_that_of_what_the_reference_counts() -> None:
+    motion = np.sin(PHASE)[:, None]
+    rounding, stuck = Orbit(motion, 3e-18, 1.1), Orbit(motion, 1e-18, 1.0)
+    slides, loose = Orbit(motion, 0.5, 1.0), Orbit(motion, 0.4, 1.0)
+
+    assert rounding.errors(stuck)[1] == pytest.approx(0.1)
+    assert loose.errors(slides)[1] == pytest.approx(0.2)
+    assert (stuck.energy, slides.energy) == (1.0, 0.5)
 
 
 def chosen(case: Case, exact: Reference, method: str) -> Iterator[Run]:

@@ -2,6 +2,7 @@
 
 import argparse
 import base64
+import errno
 import importlib
 import re
 from collections.abc import Callable
@@ -308,7 +309,32 @@ def test_a_folder_that_cannot_be_made_is_told_in_a_line(
     status, output, error = run("report", str(quick_scene), "-o", "no/such/folder")
 
     assert (status, output) == (2, "")
-    assert error.startswith("microslip: there is no folder no/such/folder to write to")
+    assert error.startswith("microslip: the folder no/such/folder cannot be made: ")
+
+
+def test_a_full_disk_leaves_the_page_that_was_there(
+    run: Run,
+    quick_scene: Path,
+    tmp_path: Path,
+    only: Callable[..., None],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def full(path: Path, content: bytes) -> int:
+        with path.open("wb") as file:
+            file.write(content[:10])
+        raise OSError(errno.ENOSPC, "no space")
+
+    only("tables")
+    there = tmp_path / "page" / "index.html"
+    there.parent.mkdir()
+    there.write_text("whole", encoding="utf-8")
+    monkeypatch.setattr(Path, "write_bytes", full)
+
+    status, _, error = run("report", str(quick_scene), "--quick", "-o", "page")
+
+    assert status == 1
+    assert error == "microslip: page/index.html cannot be written: no space\n"
+    assert there.read_text(encoding="utf-8") == "whole"
 
 
 def test_left_out_sections_show_no_time() -> None:

@@ -1,7 +1,9 @@
 """A sweep that was stopped can be read, drawn, and continued to the same end."""
 
 import dataclasses
+import errno
 import itertools
+import re
 import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -10,11 +12,12 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
+from microslip.files.record_file import RecordFile
 from microslip.files.recording import Recording, last_state
 from microslip.files.result_file import load
 from microslip.files.store import StoreError
 from microslip.scenes.rigs import problem_of
-from microslip.scenes.scene_file import load_scene
+from microslip.scenes.scene_file import built_in_text, load_scene
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.envelope import Envelope
 from microslip_mechanics.results.time_history import TimeHistory
@@ -179,7 +182,7 @@ def test_what_cannot_go_on_is_told_in_one_line(
         (
             ["--resume", "done.nc"],
             2,
-            "is complete: there is nothing to resume, leave --resume out",
+            "is complete: there is nothing to resume, microslip plot draws it",
         ),
         (["--resume", "part.nc"], 2, "another scene"),
         ([*LONG, "--resume", "part.nc", "--envelope"], 2, "rows in time"),
@@ -194,6 +197,56 @@ def test_what_cannot_go_on_is_told_in_one_line(
     part = load(tmp_path / "part.nc").result
     assert not isinstance(part, str)
     assert part.ending == "interrupted"
+
+
+def with_matrices(folder: Path, name: str, stiffness: float) -> Path:
+    """Write an oscillator whose matrices stand in a file beside it."""
+    np.savez(folder / "blade.npz", M=[[1.0]], K=[[stiffness]])
+    text = built_in_text("duffing").replace("mass = [1]", 'mass = "blade.npz"')
+    path = folder / name
+    text = re.sub(r"\nstiffness = \[[^\n]*", '\nstiffness = "blade.npz"', text, count=1)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.usefixtures("no_picture")
+def test_a_march_goes_on_with_the_matrices_that_it_began_with(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = with_matrices(tmp_path, "own.toml", 1e3)
+    words = ("sweep", str(scene), *LONG)
+    with monkeypatch.context() as stop:
+        stop.setattr(MARCH, stopped(3))
+        run(*words, "-o", "part")
+
+    with_matrices(tmp_path, "own.toml", 1.3e3)
+    status, _, error = run(*words, "--resume", "part.nc")
+    assert status == 2
+    assert error.startswith("microslip: part.nc was marched with other content of the")
+
+    with_matrices(tmp_path, "own.toml", 1e3)
+    assert run(*words, "--resume", "part.nc")[0] == 0
+
+
+def test_work_of_a_block_that_a_full_disk_refused_is_not_counted(
+    small_history: TimeHistory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> int:
+        raise OSError(errno.ENOSPC, "no space")
+
+    history = dataclasses.replace(small_history, iterations=7, divided=3)
+    path = tmp_path / "march.nc"
+    with Recording(path, "", "first") as first:
+        first.keep(history)
+        with monkeypatch.context() as disk:
+            disk.setattr(RecordFile, "append", full)
+            stays = f"no space: its {history.time.size} rows so far stay"
+            with pytest.raises(StoreError, match=stays):
+                first.keep(history)
+
+    kept = load(path).result
+    assert isinstance(kept, TimeHistory)
+    assert (kept.iterations, kept.divided) == (7, 3)
 
 
 def test_a_file_that_another_command_writes_is_left_to_it(

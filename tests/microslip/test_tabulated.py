@@ -8,7 +8,9 @@ from typing import TypeAlias
 
 import numpy as np
 import pytest
+from scipy.io import netcdf_file
 
+from microslip.files.result_file import load
 from microslip.files.schema import Result
 from microslip.files.store import Stored, save
 from microslip.files.tabulated import tabulated
@@ -110,3 +112,17 @@ def test_a_table_that_cannot_be_written_is_told_before_anything_is(
     assert words in error
     assert len(error.splitlines()) == 1
     assert [each.name for each in tmp_path.iterdir()] == ["result.nc"]
+
+
+def test_the_unit_of_a_parameter_may_have_any_letters(
+    small_curve: ResponseCurve, tmp_path: Path
+) -> None:
+    path = tmp_path / "result.nc"
+    along = dataclasses.replace(small_curve, along="Weg ü [µm]")
+
+    save(path, Stored(along, "", ""))
+
+    assert load(path).result == along
+    with netcdf_file(path, "r", mmap=False) as file:
+        assert getattr(file.variables["parameter"], "units") == "µm".encode()  # noqa: B009
+    assert "parameter of Weg ü [µm]" in columns(along)

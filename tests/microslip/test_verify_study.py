@@ -16,7 +16,10 @@ from microslip.scenes.scene_file import load_scene
 from microslip.studies.curve import Traced, trace_curve
 from microslip.studies.sweep import march_whole, swept_sine
 from microslip.studies.verify.orbits import spread
-from microslip.studies.verify.quasi_static import quasi_static_energy
+from microslip.studies.verify.quasi_static import (
+    compared_energies,
+    quasi_static_energy,
+)
 from microslip.studies.verify.verify import (
     SweepAgreement,
     falls,
@@ -25,6 +28,7 @@ from microslip.studies.verify.verify import (
     sweep_agreement,
 )
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.time_history import TimeHistory
 from scene_texts import unswept
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -340,6 +344,21 @@ def test_sweeps_approach_the_curve_of_the_built_in_scene(model: str, run: Run) -
 
     assert (status, error) == (0, "")
     assert "DISAGREE" not in output
+
+
+def test_energies_are_compared_where_friction_takes_out_some_along_the_curve(
+    small_history: TimeHistory,
+) -> None:
+    rows = len(small_history.time)
+    flows = np.linspace(0.0, 1.0, rows)[:, None] * np.array([2.0, 0.5])
+    history = dataclasses.replace(
+        small_history, energies=("input", "friction"), energy=flows
+    )
+    span = float(history.time[0]), float(history.time[-1])
+
+    assert compared_energies(history, span, 0.4, 2.0) == pytest.approx((0.25, 0.4))
+    # what a slider that sticks stores at the end, beside rounding along the curve
+    assert compared_energies(history, span, -1e-19, 2.0) == (0.0, 0.0)
 
 
 def test_quasi_static_energy_of_the_rate_does_not_depend_on_slowness() -> None:

@@ -38,6 +38,13 @@ def swept(slower: float, energy: float) -> SweepAgreement:
     return SweepAgreement(slower, energy, energy, 0.1 / slower, 1e-6, none, none)
 
 
+def test_small_energies_keep_their_digits() -> None:
+    small, large = sweep_rows([swept(1.0, 2.34e-8)]), sweep_rows([swept(1.0, 0.25)])
+
+    assert small.count(" 2.340e-08 ") == 2
+    assert large.count(" 0.250000 ") == 2
+
+
 def test_marches_from_unstable_orbits_prove_nothing_and_refute_nothing() -> None:
     said, stays = marches_said([left(0.5, 1), left(0.9, 2)], ["x"], 1e-3)
 

@@ -93,9 +93,7 @@ def _folder(options: argparse.Namespace) -> Path:
         chosen.mkdir(exist_ok=True)
     except OSError as error:
         reason = error.strerror or error
-        raise OutputError(
-            f"there is no folder {chosen} to write to: {reason}"
-        ) from None
+        raise OutputError(f"the folder {chosen} cannot be made: {reason}") from None
     demand_place(chosen / PAGE)
     return chosen
 
@@ -161,13 +159,12 @@ def _write(folder: Path, options: argparse.Namespace, sections: list[Section]) -
         If it cannot be written.
     """
     from microslip.files.store import told
+    from microslip.files.whole_file import write_whole
 
     path = folder / PAGE
     made = time.strftime("%Y-%m-%d %H:%M %Z")
     about = f"microslip report, {made}"
+    text = page(arguments.title(options), about, options.command, sections)
     with told(path):
-        path.write_text(
-            page(arguments.title(options), about, options.command, sections),
-            encoding="utf-8",
-        )
+        write_whole(path, text.encode())
     return path

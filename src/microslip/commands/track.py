@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 COLUMNS = (
     *(KEY, "event", "frequency_hz", "frequency_error_hz", "amplitude_m", "error"),
+    "ending",
 )
 HEADER = (
     "value           event             frequency [Hz]           amplitude [mm]    error"
@@ -115,21 +116,26 @@ def _keep(
     """Write table and picture."""
     from microslip.files.store import save_table
 
+    rows = [row for each in found for row in _rows(each)]
+    save_table(table, keyed(COLUMNS, options.key), rows)
+    with written(f"table in {table}", picture):
+        _draw(options, found, picture)
+
+
+def _rows(each: Tracked) -> list[tuple[object, ...]]:
+    """Return what the table says of each event of a curve; one row if it has none."""
     rows = [
         (
-            each.value,
             event.name,
             event.frequency / math.tau,
             event.frequency_error / math.tau,
             event.amplitude,
             event.error,
         )
-        for each in found
         for event in each.events
     ]
-    save_table(table, keyed(COLUMNS, options.key), rows)
-    with written(f"table in {table}", picture):
-        _draw(options, found, picture)
+    nothing = ("", math.nan, math.nan, math.nan, math.nan)
+    return [(each.value, *row, each.ending) for row in rows or [nothing]]
 
 
 def _draw(options: argparse.Namespace, found: list[Tracked], picture: Path) -> None:

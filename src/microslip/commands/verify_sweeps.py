@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from microslip.commands.columns import hertz
+from microslip.commands.columns import even, hertz
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,10 +28,12 @@ def sweep_rows(sweeps: Sequence[SweepAgreement]) -> str:
 
     rubs = any(sweep.rubs for sweep in sweeps)
     lines = [SWEEPS, SLOWER + (ENERGY if rubs else "") + ENVELOPE]
-    for sweep in sweeps:
+    taken = even([sweep.energy for sweep in sweeps], 6, 24)
+    predicted = even([sweep.quasi_static for sweep in sweeps], 6, 14)
+    for sweep, mine, curve in zip(sweeps, taken, predicted, strict=True):
         energy = (
-            f" {sweep.energy:24.6f} {_about(sweep.estimated)}"
-            f" {sweep.quasi_static:14.6f} {100.0 * sweep.energy_error:9.2f} %"
+            f" {mine} {_about(sweep.estimated)} {curve}"
+            f" {100.0 * sweep.energy_error:9.2f} %"
         )
         lines.append(
             f"{sweep.slower:8g}{energy if rubs else ''}"

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from microslip.files.result_file import end_of
 from microslip.files.schema import Growing
-from microslip.files.store import WrongFileError, begin, told
+from microslip.files.store import StoreError, WrongFileError, begin, told
 from microslip.files.stream import Head, Stream, rows_of
+from microslip.scenes.file_content import without_files
 from microslip.scenes.quantity import SceneError
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.cycle_rows import parted
@@ -39,11 +40,24 @@ class Recording:
         return self.stream.rows if self.stream else 0
 
     def keep(self, block: Growing) -> None:
-        """Write a block; the first one opens the file."""
+        """Write a block; the first one opens the file.
+
+        Raises
+        ------
+        StoreError
+            If it cannot be written, with what of the march stays in the file.
+        """
         if self.stream is None:
             self.stream = self._opened(block)
-        with told(self.path):
-            self.stream.append(block)
+        try:
+            with told(self.path):
+                self.stream.append(block)
+        except StoreError as error:
+            if not self.rows:
+                raise
+            raise StoreError(
+                f"{error}: its {self.rows} rows so far stay, microslip plot draws them"
+            ) from None
 
     def end(self, ending: str) -> None:
         """Write how the march ended."""
@@ -72,7 +86,7 @@ def resumed(path: Path, scene: str) -> tuple[Recording, Growing]:
     _demand_same(path, head, scene)
     if end.ending == "complete":
         raise WrongFileError(
-            f"{path} is complete: there is nothing to resume, leave --resume out"
+            f"{path} is complete: there is nothing to resume, microslip plot draws it"
         )
     return Recording(path, scene, head.text("command"), head), end
 
@@ -99,7 +113,13 @@ def last_state(path: Path, scene: str) -> tuple[Checkpoint, float]:
 
 
 def _demand_same(path: Path, head: Head, scene: str) -> None:
-    if head.text("scene") != scene:
+    own = head.text("scene")
+    if own != scene and without_files(own) == without_files(scene):
+        raise SceneError(
+            f"{path} was marched with other content of the files that the scene names: "
+            "put back what they held, or march anew"
+        )
+    if own != scene:
         raise SceneError(
             f"{path} is the march of another scene: give the scene and the overrides "
             f"of its command, {head.text('command')}"

@@ -86,7 +86,7 @@ def _curve_file(curve: ResponseCurve, *, scene: str, command: str) -> bytes:
             variable = file.createVariable(name, values.dtype, dimensions)
             variable[:] = values
             setattr(variable, "long_name", meaning)  # noqa: B010  (an attribute of the file)
-            setattr(variable, "units", unit)  # noqa: B010
+            setattr(variable, "units", unit.encode())  # noqa: B010
         file.flush()
         return made.getvalue()
 

@@ -147,10 +147,6 @@ class Stream:
 
     def append(self, block: Growing) -> None:
         """Write the rows of a block, and where its march can go on."""
-        for name in self._work:
-            self._work[name] += getattr(block, name)
-            number = min(self._work[name], 2**31 - 1)
-            self._file.put_attribute(name, number.to_bytes(4, "big"))
         count = len(block.time)
         rows = [
             getattr(block, name).reshape(count, self._head.width(name))
@@ -161,6 +157,10 @@ class Stream:
             behind = flat(block.checkpoint, self.rows + count)
             state = behind.astype(">f8").tobytes()
         self.rows = self._file.append(self.rows, rows, state)
+        for name in self._work:  # of rows that are there: a full disk ends before this
+            self._work[name] += getattr(block, name)
+            number = min(self._work[name], 2**31 - 1)
+            self._file.put_attribute(name, number.to_bytes(4, "big"))
 
     def end(self, ending: str) -> None:
         """Write how the march ended."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from microslip.scenes.file_content import digest
 from microslip.scenes.quantity import SceneError
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def read_force(path: Path) -> Force:
             f"{path} has {has} with numbers: a force needs at least two: {COLUMNS}"
         )
     time, force = np.array(rows).T.copy()
-    return Force(time, force, hashlib.sha256(content.encode()).hexdigest()[:16])
+    return Force(time, force, digest(content.encode()))
 
 
 def _content(path: Path) -> str:

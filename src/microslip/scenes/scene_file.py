@@ -10,6 +10,7 @@ from pathlib import Path
 
 from microslip.scenes.bladed_disk.tables import BladedDisk
 from microslip.scenes.experiments import Curve, March, Sweep, check_curve, check_sweep
+from microslip.scenes.file_content import with_files
 from microslip.scenes.force_file import read_force
 from microslip.scenes.override import apply_override
 from microslip.scenes.quantity import SceneError
@@ -67,18 +68,28 @@ def load_scene(source: str, overrides: typing.Sequence[str] = ()) -> Scene:
     for override in overrides:
         apply_override(document, override)
         text += f"\n# --set {override}"
-    scene = _scene(source, document, text)
+    scene = _with_matrices(_scene(source, document, text))
     sweep = scene.experiments.sweep
     if sweep is None or sweep.force_file is None:
         return scene
     return _with_force(path, scene, sweep.force_file)
 
 
+def _with_matrices(scene: Scene) -> Scene:
+    """Return a scene whose text tells the content of its files of matrices."""
+    if isinstance(scene.rig, TwoBlades | BladedDisk):
+        return scene
+    from microslip.scenes.systems.matrix_files import matrix_digests
+
+    text = with_files(scene.text, matrix_digests(scene.rig.matrices))
+    return dataclasses.replace(scene, text=text)
+
+
 def _with_force(path: Path, scene: Scene, name: str) -> Scene:
     """Return a scene with the force of a file, sought beside the scene file."""
     folder = path.parent if path.is_file() else Path()
     force = read_force(folder / name)
-    text = f"{scene.text}\n# force file {force.digest}"
+    text = with_files(scene.text, [("force", force.digest)])
     return dataclasses.replace(scene, force=force, text=text)
 
 

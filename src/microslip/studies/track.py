@@ -105,7 +105,12 @@ def _event(curve: ResponseCurve, place: int, name: str) -> Event:
 
 
 def _highest(curve: ResponseCurve) -> tuple[Event, ...]:
-    """Return the largest amplitude if it is above all peaks, as at a range's end."""
+    """Return the largest amplitude if it is above all peaks, as at a range's end.
+
+    Of a curve that is interrupted the larger amplitudes may be still to come.
+    """
+    if curve.ending == "interrupted":
+        return ()
     sizes = curve.amplitude.max(axis=1)
     peaks = [name == "peak" for name in curve.event]
     place = int(sizes.argmax())

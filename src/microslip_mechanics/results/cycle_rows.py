@@ -33,19 +33,33 @@ def enveloped(
     begun
         The cycle that a stopped march had begun, as :func:`parted` returns it.
 
-    The last cycle, which the end may cut off, comes by itself.
+    The last cycle, which the end may cut off, comes by itself. Blocks before the end of
+    the first cycle come with it: without a row nobody sees what a march tells.
     """
-    block = None
-    for block in blocks:
+    block, waits = None, True
+    before = (0, 0)
+    for each in blocks:
+        block = _behind(each, before)
         table, kept = _table(block, segments)
         if begun is not None:
             table = np.concatenate([begun[None], table])
         cycles = _reduced(table, kept)
         begun = cycles[-1]
-        yield _envelope(cycles[:-1], block, _with(block.checkpoint, begun))
+        waits = waits and len(cycles) == 1
+        before = (block.iterations, block.divided) if waits else (0, 0)
+        if not waits:
+            yield _envelope(cycles[:-1], block, _with(block.checkpoint, begun))
     if block is not None and begun is not None:
-        rest = replace(block, iterations=0, divided=0)
+        rest = replace(block, iterations=before[0], divided=before[1])
         yield _envelope(begun[None], rest, _with(block.checkpoint, begun))
+
+
+def _behind(block: TimeHistory, before: tuple[int, int]) -> TimeHistory:
+    """Return a block with the work of those before it, iterations and divided steps."""
+    iterations, divided = before
+    return replace(
+        block, iterations=block.iterations + iterations, divided=block.divided + divided
+    )
 
 
 def parted(checkpoint: Checkpoint) -> tuple[Checkpoint, Array]:

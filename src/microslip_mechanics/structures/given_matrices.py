@@ -26,8 +26,8 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
         return scipy.sparse.csc_array(given, dtype=float, copy=True)
     try:
         matrix = np.array(given, dtype=float)
-        numbers = np.asarray(given).dtype != bool
-    except (TypeError, ValueError):
+        numbers = not _any_truth(given)
+    except (TypeError, ValueError, OverflowError):
         numbers = False
     if not numbers:
         raise ValueError(f"{what} {_no_matrix(given)}")
@@ -41,11 +41,24 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
     return matrix
 
 
+def _any_truth(given: object) -> bool:
+    """Return whether there are truth values, which numpy takes for 0 and 1."""
+    if isinstance(given, np.ndarray) and given.dtype != object:
+        return bool(given.dtype == bool)
+    return any(isinstance(each, bool | np.bool_) for each in _flat(given))
+
+
 def _no_matrix(given: object) -> str:
     """Return what is wrong with what is no matrix of numbers, and its remedy."""
-    text = next((each for each in _flat(given) if isinstance(each, str)), None)
-    if text is not None:
-        return f"holds the text {text!r}: give numbers alone, in SI units"
+    for each in _flat(given):
+        if isinstance(each, str):
+            return f"holds the text {each!r}: give numbers alone, in SI units"
+        if isinstance(each, bool | np.bool_):
+            return "holds a truth value: give numbers alone, in SI units"
+        if isinstance(each, int) and abs(each) > LARGEST:
+            return (
+                f"holds a number above {LARGEST:g}: what is reckoned with it overflows"
+            )
     return "is no matrix of numbers: give rows of equal length, or the diagonal alone"
 
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip.studies.precision.orbit import PHASES, Orbit
-from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from timedomain.integrate import MarchOptions, integrate
@@ -45,16 +44,16 @@ def march(
         problem, Dwell(frequency, duration), options, start=start, block=duration
     )
     seconds = (time.process_time() - began) / periods
-    taken = history.of("friction")
-    if not rubs(problem.interface.points):
-        taken = taken + history.of("normal_damping") + history.of("structural_damping")
+    flows = [history.of(f"{name}_damping") for name in ("normal", "structural")]
+    taken = np.stack([history.of("friction"), *flows], axis=1)
     # rows end their steps: phase 0 of the last period is the row before its first
-    taken = np.append(0.0, taken)
-    energy = float(taken[-1] - taken[-1 - PHASES])
+    taken = np.vstack([np.zeros(3), taken])
+    out = taken[-1] - taken[-1 - PHASES]
     first = problem.probes.rows @ start.displacement
     shown = np.vstack([first, history.displacement])[-1 - PHASES : -1]
     assert history.checkpoint is not None
-    return Carried(at_end(problem, history.checkpoint), Orbit(shown, energy), seconds)
+    orbit = Orbit(shown, float(out[0]), float(out.sum()))
+    return Carried(at_end(problem, history.checkpoint), orbit, seconds)
 
 
 def fixed_step(frequency: float, steps: int, method: str) -> MarchOptions:

@@ -23,7 +23,6 @@ from microslip.studies.precision.orbit import (
 from microslip.studies.precision.outsiders import Outsiders
 from microslip.studies.precision.result import Result, steady_result
 from microslip_mechanics.contact.memory import beyond_motion
-from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.integrate import MarchOptions
 from timedomain.record.start import on_orbit
@@ -129,11 +128,9 @@ def shot(case: Case, guess: PeriodicResponse, steps: int) -> Orbit:
     start = on_orbit(case.problem, guess)
     options = ShootingOptions(steps, 1e-15, 2 * steps)
     found = periodic_orbit(case.problem, case.frequency, start=start, options=options)
-    energy = found.friction_energy
-    if not rubs(case.problem.interface.points):
-        seen = found.coefficients @ case.problem.loads[1:].T
-        energy = drive_work(case.problem, seen)
-    return Orbit(samples(found.coefficients @ case.problem.probes.rows.T), energy)
+    work = drive_work(case.problem, found.coefficients @ case.problem.loads[1:].T)
+    shown = samples(found.coefficients @ case.problem.probes.rows.T)
+    return Orbit(shown, found.friction_energy, work)
 
 
 def _shot(case: Case, _: float, *, steps: int) -> Result:

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from microslip_mechanics.arrays import TINY, Array
-from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.moving_probe import moving_probe
 from microslip_mechanics.results.response import PeriodicResponse
@@ -23,6 +22,8 @@ FINER = 16
 """times as many, between which the largest value is sought"""
 QUANTITIES = ("amplitude", "energy", "distance")
 """that are compared: peak of a probe, energy per period, distance of orbits"""
+RUBS = 1e-9
+"""of all energy that is taken out: what friction takes out beyond it is no rounding"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +32,20 @@ class Orbit:
 
     displacement: Array
     """of the probes at equal steps of the phase, from 0 on [m], (PHASES, probes)"""
-    energy: float
-    """taken out per period [J]: by friction, or by all damping where nothing rubs"""
+    friction: float
+    """energy that friction takes out per period [J]"""
+    damping: float
+    """energy that all damping takes out, friction included [J]"""
+
+    @property
+    def rubs(self) -> bool:
+        """Whether friction takes energy out: contacts may stick throughout."""
+        return abs(self.friction) > RUBS * abs(self.damping)
+
+    @property
+    def energy(self) -> float:
+        """Taken out per period [J]: by friction, or by all damping where none rubs."""
+        return self.friction if self.rubs else self.damping
 
     @property
     def vibration(self) -> Array:
@@ -59,15 +72,17 @@ class Orbit:
     def errors(self, exact: Orbit) -> tuple[float, float, float]:
         """Return the relative errors of :data:`QUANTITIES`.
 
-        The peak is that of the probe by which ``exact`` is told. The distance is the
-        root mean square over time and probes.
+        The peak is that of the probe by which ``exact`` is told, the energy that of its
+        friction, or of all damping if it has none. The distance is the root mean square
+        over time and probes.
         """
+        energy = self.friction if exact.rubs else self.damping
         peak = float(self.peaks[moving_probe(exact.peaks)])
         away = float(np.linalg.norm(self.vibration - exact.vibration))
         size = max(float(np.linalg.norm(exact.vibration)), TINY)
         return (
             abs(peak - exact.peak) / max(exact.peak, TINY),
-            abs(self.energy - exact.energy) / max(abs(exact.energy), TINY),
+            abs(energy - exact.energy) / max(abs(exact.energy), TINY),
             away / size,
         )
 
@@ -75,10 +90,8 @@ class Orbit:
 def orbit_of(problem: Problem, response: PeriodicResponse) -> Orbit:
     """Return the orbit of a periodic response."""
     seen = response.seen(problem.probes.rows)
-    energy = response.friction_energy
-    if not rubs(problem.interface.points):
-        energy = drive_work(problem, response.seen(problem.loads[1:]))
-    return Orbit(samples(seen), energy)
+    work = drive_work(problem, response.seen(problem.loads[1:]))
+    return Orbit(samples(seen), response.friction_energy, work)
 
 
 def samples(coefficients: Array) -> Array:

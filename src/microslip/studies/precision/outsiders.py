@@ -16,7 +16,6 @@ from microslip.studies.precision.march import PERIODS, Carried
 from microslip.studies.precision.orbit import PHASES, Orbit, drive_work
 from microslip.studies.precision.result import Result, steady_result
 from microslip_mechanics.arrays import TINY, Array
-from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.loads.excitation import Dwell
 from timedomain.first_order.first_order import FirstOrder, Flow, Jacobian, first_order
 from timedomain.record.start import Start
@@ -85,14 +84,10 @@ class Outsiders:
         states = march(times, self.form.state(start), tolerance, watched)
         seconds = (time.process_time() - began) / PERIODS
         last = states[-1 - PHASES :]
-        taken = (
-            last[:, -3]
-            if rubs(case.problem.interface.points)
-            else last[:, -3] + last[:, -2]
-        )
-        energy = self.form.system.energy * float(taken[-1] - taken[0])
+        friction, others = self.form.system.energy * (last[-1] - last[0])[-3:-1]
         moved, _ = self.form.motion(last[:-1])
-        orbit = Orbit(moved @ case.problem.probes.rows.T, energy)
+        shown = moved @ case.problem.probes.rows.T
+        orbit = Orbit(shown, float(friction), float(friction + others))
         return Carried(self.form.start(states[-1]), orbit, seconds)
 
     @staticmethod

@@ -95,5 +95,6 @@ def _dwelled(case: Case, steps: int) -> tuple[Orbit, str]:
         for each in (steps, 2 * steps)
     )
     shown = fine.displacement + (fine.displacement - coarse.displacement) / 3.0
-    energy = fine.energy + (fine.energy - coarse.energy) / 3.0
-    return Orbit(shown, energy), "reference march"
+    friction = fine.friction + (fine.friction - coarse.friction) / 3.0
+    damping = fine.damping + (fine.damping - coarse.damping) / 3.0
+    return Orbit(shown, friction, damping), "reference march"

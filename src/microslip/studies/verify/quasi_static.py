@@ -7,6 +7,10 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response_curve import ResponseCurve
+from microslip_mechanics.results.time_history import TimeHistory
+
+ROUNDING = 1e-9
+"""of the drive's work: no energy of friction, as of contacts that stick"""
 
 NEAR = 0.05
 """of the frequency: how far beyond a jump a sweep is compared with a branch"""
@@ -43,6 +47,23 @@ def quasi_static_energy(
     places = np.concatenate([span[:1], hertz[within], span[1:]])
     values = np.concatenate([ends[:1], energy[within], ends[1:]])
     return float(np.trapezoid(values, places) / rate)
+
+
+def compared_energies(
+    history: TimeHistory, span: tuple[float, float], predicted: float, slower: float
+) -> tuple[float, float]:
+    """Return friction's energy in a span of time, over ``slower``, and its prediction.
+
+    Both are 0 where contacts stick along the curve: then the prediction is rounding,
+    and a march counts what its contacts store at the end of the span.
+    """
+    energy, work = (
+        float(np.diff(np.interp(span, history.time, history.of(flow)))[0]) / slower
+        for flow in ("friction", "input")
+    )
+    if abs(predicted) <= ROUNDING * abs(work):
+        return 0.0, 0.0
+    return energy, predicted
 
 
 def followed_upwards(curve: ResponseCurve) -> NDArray[np.int64]:

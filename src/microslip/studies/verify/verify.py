@@ -10,7 +10,11 @@ import numpy as np
 from microslip.progress import Watch
 from microslip.scenes.scene import Scene
 from microslip.studies.sweep import march_whole, swept_sine
-from microslip.studies.verify.quasi_static import followed_by, quasi_static_energy
+from microslip.studies.verify.quasi_static import (
+    compared_energies,
+    followed_by,
+    quasi_static_energy,
+)
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.errors import MicroslipError
 from microslip_mechanics.problem import Problem
@@ -49,7 +53,7 @@ class SweepAgreement:
 
     @property
     def rubs(self) -> bool:
-        """Whether friction takes energy in the march or by the curve."""
+        """Whether friction takes out energy that is compared."""
         return self.energy != 0.0 or self.quasi_static != 0.0
 
     @property
@@ -88,25 +92,19 @@ def sweep_agreement(
     """March the scene's sweep, ``slower`` times as long; compare it with a curve."""
     sweep = swept_sine(scene.sweep, slower=slower)
     history = march_whole(problem, sweep, scene.march, watch)
-    friction, time = history.of("friction"), history.time
-    energy = np.diff(np.interp([sweep.start, sweep.end], time, friction))[0] / slower
     frequency, envelope = envelope_of(
-        history, sweep.frequency(time), sweep.start, sweep.end
+        history, sweep.frequency(history.time), sweep.start, sweep.end
     )
     places, chosen = followed_by(curve, frequency, envelope)
     hertz = curve.frequency[places] / (2.0 * np.pi)
     predicted = np.stack(
         [np.interp(frequency, hertz, peak) for peak in curve.peak[places].T], axis=1
     )
+    span = scene.sweep.lowest, scene.sweep.highest
+    slow = quasi_static_energy(curve, sweep.rate * slower, span, places)
     return SweepAgreement(
         slower,
-        float(energy),
-        quasi_static_energy(
-            curve,
-            sweep.rate * slower,
-            (scene.sweep.lowest, scene.sweep.highest),
-            places,
-        ),
+        *compared_energies(history, (sweep.start, sweep.end), slow, slower),
         float(np.abs(envelope - predicted).mean() / predicted.mean()),
         float(np.abs(history.closing_error).max() / history.of("input").max()),
         frequency,

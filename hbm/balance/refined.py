@@ -14,11 +14,9 @@ from microslip_mechanics.arrays import Array
 
 SURE = 0.25
 """share of a residual that a Newton step leaves, after which the next leaves less"""
-STEPS = 4
-"""that are taken at the most until one does"""
-MANY, HALVINGS = 500, 3
-"""harmonics with which a step is halved that would raise the residual, and how often;
-from fewer that lead away a point goes on to more
+MANY = 500
+"""harmonics with which a step is halved that would raise the residual; from fewer that
+lead away a point goes on to more
 """
 LOST = 0.5
 """share of a residual that is still there after steps that lead to no point"""
@@ -49,6 +47,18 @@ class Resolved(Protocol):
         """
 
 
+class Patience(NamedTuple):
+    """With which a finer point is sought."""
+
+    steps: int
+    """that are taken at the most until one leaves little"""
+    halvings: int
+    """of one that would raise the residual"""
+
+
+HASTY, FIRM, PATIENT = Patience(4, 0), Patience(4, 3), Patience(16, 3)
+
+
 class Refined(NamedTuple):
     """A point after some Newton steps, and what they leave."""
 
@@ -74,37 +84,40 @@ def refined(
     harmonics: int,
     normal: Array,
     far: Callable[[Sequence[Array]], bool] = lambda _: True,
+    patience: Patience | None = None,
 ) -> Refined:
     """Return a point after Newton steps in the plane normal to ``normal``.
 
     ``harmonics`` are those of ``system``, about twice those of the point. There are two
-    steps, and up to :data:`STEPS` until one leaves little, or one alone that is mere
-    rounding; twice as many where one takes back but what another has raised, away from
-    the point, if points before all steps, before the last and after it are ``far`` from
-    each other. With :data:`MANY` harmonics one that would raise the residual is halved.
-    A step has the factors of the one before if that left a tenth.
+    steps, and as many as the ``patience`` allows until one leaves little, or one alone
+    that is mere rounding; twice as many where one takes back but what another has
+    raised, away from the point, if points before all steps, before the last and after
+    it are ``far`` from each other. Patience that is left out is :data:`FIRM` with
+    :data:`MANY` harmonics, else :data:`HASTY`. A step has the factors of the one before
+    if that left a tenth.
 
     Raises
     ------
     SingularError
         If the point lies on a fold.
     """
+    steps, halvings = patience or (FIRM if harmonics >= MANY else HASTY)
     residual, latest = system(point)
     known = system.impulses(harmonics // 2, harmonics)
     before, after, now, sizes = point, point, residual, [_size(residual)]
     moves, slope = True, latest
     while moves and (
-        _due(sizes) or (_takes_back(sizes) and far((point, before, after)))
+        _due(sizes, steps)
+        or (_takes_back(sizes, 2 * steps) and far((point, before, after)))
     ):
         slope = slope if _served(sizes) else latest
         step = slope.solve(normal, np.append(-now, 0.0))
         before = after
-        halvings = HALVINGS if harmonics >= MANY else 0
         after, now, latest = _lowered(system, before, step, sizes[-1], halvings)
         sizes.append(_size(now))
         moves = _size(step) > ROUNDING * _size(point[:-1])
     share = system.impulses(harmonics, 2 * harmonics + 1) / known if known else 0.0
-    left = _left(sizes) if moves else 1.0
+    left = _left(sizes, steps <= FIRM.steps) if moves else 1.0
     beyond = _beyond(share, harmonics)
     return Refined(residual, before, after, left, beyond, now, slope)
 
@@ -128,15 +141,15 @@ def _size(values: Array) -> float:
     return float(np.linalg.norm(values))
 
 
-def _due(sizes: list[float]) -> bool:
+def _due(sizes: list[float], most: int) -> bool:
     """Return whether another step is due, from the residuals before and after each."""
-    return len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= STEPS)
+    return len(sizes) < 3 or (sizes[-1] > SURE * sizes[-2] and len(sizes) <= most)
 
 
-def _takes_back(sizes: list[float]) -> bool:
+def _takes_back(sizes: list[float], most: int) -> bool:
     """Return whether the last step left little but of what one before had raised."""
     falls = SURE * min(sizes[:-1]) < sizes[-1] <= SURE * sizes[-2]
-    return falls and len(sizes) <= 2 * STEPS
+    return falls and len(sizes) <= most
 
 
 def _served(sizes: list[float]) -> bool:
@@ -144,15 +157,20 @@ def _served(sizes: list[float]) -> bool:
     return len(sizes) > 1 and sizes[-1] <= CHORD * sizes[-2]
 
 
-def _left(sizes: list[float]) -> float:
+def _left(sizes: list[float], few: bool) -> float:
     """Return what steps to come change, over the last, from the residuals.
 
-    Infinite where the steps lead to no point.
+    Infinite where the steps lead to no point. The last of a few tells no more than that
+    the next may change as much.
     """
     between, after = sizes[-2:]
-    if after <= SURE * between:
-        return after / (between - after) if between > 0.0 else 0.0
-    return math.inf if after > LOST * sizes[0] else 1.0
+    if not after <= max(SURE * between, LOST * sizes[0]):
+        return math.inf
+    if few and after > SURE * between:
+        return 1.0
+    if after < between:
+        return after / (between - after)
+    return math.inf if after > 0.0 else 0.0
 
 
 def _beyond(share: float, harmonics: int) -> float:

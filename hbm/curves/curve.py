@@ -11,6 +11,7 @@ import numpy as np
 from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
+from hbm.continuation.segment import folds
 from hbm.errors import ContinuationError
 from hbm.events.crossed import BRANCH, TORUS, crossings
 from hbm.events.crossings import ASTRAY
@@ -81,10 +82,11 @@ class Curve:
                 after = self.events.directed(after, metric)
             if self.events and before is not None and correction.joined:
                 found = list(self._between(before, after, metric))
-                yield from told.fresh(summits.among(found, made))
+                rising = folds(before.correction) > 0.0
+                yield from told.fresh(summits.among(found, made), rising=rising)
                 changed = crossings(before.multipliers, after.multipliers)
-                folds = any(each.event == "fold" for each in found)
-                after = after._replace(owes=folds and not changed)
+                folded = any(each.event == "fold" for each in found)
+                after = after._replace(owes=folded and not changed)
             else:
                 summits.begin(made)
             yield made

@@ -14,6 +14,8 @@ from microslip_mechanics.arrays import Array
 AROUND = (0.5, 1.5)
 """distances from a fold, over the step, to whose sides its curve has slopes of both
 signs: the second if not the first, …"""
+NEARER = 0.1
+"""… or so little, if another fold is as near as that"""
 CLOSER = (1.0, 0.5, 0.25)
 """of such a distance, where the plane across the curve meets another part of it"""
 FLATTER = 0.75
@@ -76,6 +78,10 @@ def _turns(segment: Segment, point: Array, step: Array, near: float) -> float | 
         if min(slopes.values()) <= 0.0 <= max(slopes.values()):
             far = away > AROUND[-1]
             return _steepest(slopes) * away * segment.length if far else 0.0
+    nearer = [_slope(segment, point, place * step, near) for place in (-NEARER, NEARER)]
+    known = [each for each in nearer if each is not None]
+    if len(known) == len(nearer) and min(known) < 0.0 < max(known):
+        return 0.0
     upright = bool(lost) and _flattens(slopes, lost)
     return _steepest(slopes) * abs(lost) * segment.length if upright else None
 

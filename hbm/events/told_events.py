@@ -22,13 +22,22 @@ class ToldEvents:
 
     def __init__(self) -> None:
         """Begin without any."""
-        self._told: list[PeriodicResponse] = []
+        self._told: list[tuple[PeriodicResponse, bool]] = []
 
-    def fresh(self, found: Iterable[PeriodicResponse]) -> Iterator[PeriodicResponse]:
-        """Yield the events that have not been told."""
+    def fresh(
+        self, found: Iterable[PeriodicResponse], *, rising: bool
+    ) -> Iterator[PeriodicResponse]:
+        """Yield the events of a step that have not been told.
+
+        ``rising`` is whether the parameter does so where the step begins: folds at
+        which it is largest and smallest are two, close as they may be.
+        """
         for each in found:
-            if not any(_same(each, other) for other in self._told):
-                self._told.append(each)
+            largest = rising and each.event == "fold"
+            if not any(
+                _same(each, other) and largest == known for other, known in self._told
+            ):
+                self._told.append((each, largest))
                 yield each
 
 

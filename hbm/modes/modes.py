@@ -170,6 +170,7 @@ def _mode(
     correction: Correction,
 ) -> NonlinearMode:
     """Return the mode at a settled point."""
+    system.persevere()
     point, fourier, error = system.report.kept(correction.point)
     balance = resolution.at(fourier)
     motion, pole = balance.motion(point), balance.unknowns.parts(point).pole

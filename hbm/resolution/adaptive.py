@@ -6,9 +6,11 @@ import contextlib
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from hbm.balance.refined import PATIENT
 from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.effort import Effort
 from hbm.continuation.linearised import Linearised, SingularError
@@ -190,6 +192,17 @@ class AdaptiveBalance:
             if not converged:
                 return correction
 
+    def persevere(self) -> None:
+        """Seek the finer point with patience by which the last settled point errs.
+
+        That is if steps have led to none, and if there are no more harmonics. What is
+        reported gains by it; a curve goes on as its steps have found it.
+        """
+        lost = self.estimate is not None and math.isinf(self.estimate.error)
+        if lost and self._steps.exhausted:
+            with contextlib.suppress(SingularError):
+                self.estimate = self._sought(patience=PATIENT)
+
     @property
     def report(self) -> Report:
         """What is reported of the last settled point."""
@@ -210,12 +223,11 @@ class AdaptiveBalance:
         """
         if not self._estimates:
             return None
+        asked = self._resolution.estimate if across else self._resolution.least_estimate
+        seen = correction, self.fourier, normal, self._tolerance or 0.0
+        self._sought = partial(asked, *seen)
         try:
-            estimate = (
-                self._resolution.estimate if across else self._resolution.least_estimate
-            )
-            seen = correction, self.fourier, normal
-            self.estimate = estimate(*seen, self._tolerance or 0.0)
+            self.estimate = self._sought()
         except SingularError:
             self.estimate = None
             return None

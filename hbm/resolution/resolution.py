@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from hbm.balance.beyond import answered, stepped, wider
-from hbm.balance.refined import Refined, Resolved, refined
+from hbm.balance.refined import Patience, Refined, Resolved, refined
 from hbm.continuation.arc import upright
 from hbm.continuation.correction import Correction
 from hbm.forces.fourier import FourierBasis
@@ -61,11 +61,13 @@ class Resolution(ABC):
         fourier: FourierBasis,
         normal: Array,
         tolerance: float = 0.0,
+        patience: Patience | None = None,
     ) -> Estimate:
         """Return the error of a converged point, by steps at twice the order.
 
         The corrected point lies in the plane through the point that is normal to
-        ``normal``. Of changes below ``tolerance`` less is asked.
+        ``normal``. Of changes below ``tolerance`` less is asked. The ``patience`` is
+        that of the steps.
 
         Raises
         ------
@@ -73,9 +75,8 @@ class Resolution(ABC):
             If the point lies on a fold.
         """
         point, finer = correction.point, fourier.doubled
-        made = refined(
-            self.at(finer), point, finer.harmonics, normal, self._apart(tolerance)
-        )
+        far = self._apart(tolerance)
+        made = refined(self.at(finer), point, finer.harmonics, normal, far, patience)
         beyond = self._beyond(made, finer, normal)
         low = made.residual.copy()
         low[fourier.coefficients * self.rank :] = 0.0
@@ -113,16 +114,17 @@ class Resolution(ABC):
         fourier: FourierBasis,
         normal: Array,
         tolerance: float = 0.0,
+        patience: Patience | None = None,
     ) -> Estimate:
         """Return the error at constant parameter or, where that is steep, across.
 
         Arguments and errors are those of :meth:`estimate`.
         """
         here = upright(correction.point)
-        estimate = self.estimate(correction, fourier, here, tolerance)
+        estimate = self.estimate(correction, fourier, here, tolerance, patience)
         if self.steepness(estimate) < STEEP:
             return estimate
-        other = self.estimate(correction, fourier, normal, tolerance)
+        other = self.estimate(correction, fourier, normal, tolerance, patience)
         return min(estimate, other, key=self.steepness)
 
     def _apart(self, tolerance: float) -> Callable[[Sequence[Array]], bool]:

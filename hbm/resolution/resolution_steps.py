@@ -61,7 +61,7 @@ class ResolutionSteps:
 
     def finer(self, estimate: Estimate, share: float) -> FourierBasis:
         """Return what an error asks for, ``share`` of which is allowed."""
-        sharpest = self._sharpest if self._exhausted else 0.0
+        sharpest = self._sharpest if self.exhausted else 0.0
         return self._choice.finer(self.present, estimate, share, sharpest)
 
     def refine(self, finer: FourierBasis) -> None:
@@ -74,7 +74,7 @@ class ResolutionSteps:
         Return whether that was so; friction does not become as sharp again for a while.
         """
         sharper = self.present.threshold < self.settled.threshold
-        if not (sharper and self._exhausted):
+        if not (sharper and self.exhausted):
             return False
         self.present, self._sharpest = self.settled, self.settled.threshold
         return True
@@ -108,6 +108,6 @@ class ResolutionSteps:
                 self._wait = 0
 
     @property
-    def _exhausted(self) -> bool:
+    def exhausted(self) -> bool:
         """Whether the last settled point has the most harmonics."""
         return self.settled.harmonics >= self._choice.most

@@ -1,10 +1,15 @@
 """Resolution by tolerance: its steps up and down, and whether its error is honest."""
 
+import math
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 import pytest
 
+import hbm.resolution.resolution
+from hbm.balance.refined import PATIENT as PERSEVERING
+from hbm.balance.refined import Refined
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.step_control import StepControl
 from hbm.forces.fourier import FourierBasis
@@ -84,6 +89,30 @@ def test_the_most_harmonics_are_not_exceeded_and_the_error_says_so() -> None:
     _, fourier, error = system.report.kept(found.point)
     assert fourier.harmonics == 2 * 7 + 1
     assert error > 1e-6
+
+
+def test_finer_points_are_sought_with_patience_once_there_are_no_more_harmonics(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    refined = vars(hbm.resolution.resolution)["refined"]
+
+    def lost(*given: Any) -> Refined:
+        made: Refined = refined(*given)
+        return made if given[-1] == PERSEVERING else made._replace(left=math.inf)
+
+    monkeypatch.setattr("hbm.resolution.resolution.refined", lost)
+    few, fixed = (
+        adaptive(block(), tolerance=tolerance, start=COARSE, most=7)
+        for tolerance in (1e-6, None)
+    )
+    for system, guess in (few, fixed):
+        found = correct_at(system, guess, CONTROL, system)
+        assert system.report.kept(found.point)[2] == math.inf
+        system.persevere()
+
+    assert few[0].estimate is not None
+    assert 1e-6 < few[0].estimate.error < 1.0
+    assert fixed[0].report.kept(found.point)[2] == math.inf
 
 
 @pytest.mark.parametrize(("harmonics", "samples"), [(3, 64), (5, 96), (9, 128)])

@@ -7,6 +7,7 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.hunt_crossley import HuntCrossleyContact
+from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
@@ -156,3 +157,42 @@ def test_a_pair_that_meets_before_a_fold_is_no_torus(highest: float) -> None:
     assert tori == pytest.approx([0.178710], rel=1e-4)
     folds = [where for name, where in found if name == "fold"]
     assert folds == pytest.approx([0.177050, 0.175204, 0.206298, 0.198500], rel=1e-5)
+
+
+def test_a_fold_that_is_nearer_to_another_than_half_a_step_is_told() -> None:
+    problem = system(
+        names=["a", "b"],
+        mass=[1.0, 0.9527296809161978],
+        stiffness=[
+            [1706.0703360107, -280.0973987665],
+            [-280.0973987665, 560.194797533],
+        ],
+        damping_ratio=0.027555376992899706,
+        elements=[
+            Element(
+                UnilateralSpring(stiffness=2960.751125998153, gap=0.008605810155363582),
+                between=("a", "ground"),
+            ),
+            Element(
+                Jenkins(stiffness=625.7710062261125, limit=2.0103558923426332),
+                between=("b", "ground"),
+            ),
+            Element(
+                PolynomialSpring(
+                    coefficients={2: -81152.87284056611, 3: 31668121.993601184}
+                ),
+                between=("b", "ground"),
+            ),
+        ],
+        drive={"a": 4.893096675684669},
+    )
+    options = CurveOptions(5.0, 60.0, harmonics=7, errors=False, stability=False)
+
+    curve = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    told = [each.parameter for each in curve if each.event == "fold"]
+    ways = np.diff(told)
+    assert len(told) == 6
+    # to the right and to the left in turn
+    assert (ways[1:] * ways[:-1] < 0.0).all()
+    assert np.abs(ways).min() < 0.05

@@ -5,7 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from hbm.balance.refined import MOST, SAFE, WARY, Refined, refined
+from hbm.balance.refined import (
+    FIRM,
+    MOST,
+    PATIENT,
+    SAFE,
+    WARY,
+    Patience,
+    Refined,
+    refined,
+)
 from hbm.continuation.linearised import Linearised
 from microslip_mechanics.arrays import Array
 
@@ -78,8 +87,14 @@ class Bending(Root):
         return np.arctan(point[:1])
 
 
-def steps(start: float, system: Root, harmonics: int = MANY) -> Refined:
-    return refined(system, np.array([start, 5.0]), harmonics, UPRIGHT)
+def steps(
+    start: float,
+    system: Root,
+    harmonics: int = MANY,
+    patience: Patience | None = None,
+) -> Refined:
+    point = np.array([start, 5.0])
+    return refined(system, point, harmonics, UPRIGHT, patience=patience)
 
 
 @pytest.mark.parametrize("start", [2.5, 1.5])
@@ -131,6 +146,22 @@ def test_with_the_most_harmonics_steps_that_would_lead_away_are_halved() -> None
     assert whole.left == math.inf
     assert halved.left < 0.1
     assert halved.corrected[0] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_patience_finds_what_is_farther_away() -> None:
+    firm, patient = (
+        steps(10.0, Bending(1.0, 0.1), patience=each) for each in (FIRM, PATIENT)
+    )
+
+    assert firm.left == math.inf
+    told = patient.left * abs(patient.corrected[0] - patient.before[0])
+    assert abs(patient.corrected[0]) <= max(told, 1e-9) < 0.5
+
+
+def test_many_steps_that_lead_away_leave_everything() -> None:
+    away = Root(1.0, 0.1, away=True)
+
+    assert steps(3.0, away, patience=PATIENT).left == math.inf
 
 
 def test_steps_of_rounding_are_not_taken_for_steps_that_lead_away() -> None:

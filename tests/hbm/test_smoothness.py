@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from hbm.balance.refined import Refined
+from hbm.balance.refined import Patience, Refined
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.step_control import StepControl
@@ -203,7 +203,9 @@ class Blunt(Resolution):
         fourier: FourierBasis,
         _: Array,
         tolerance: float = 0.0,
+        patience: Patience | None = None,
     ) -> Estimate:
+        assert patience is None
         assert tolerance > 0.0
         smoothing = 0.1 * fourier.threshold
         point, slope = correction.point, correction.linearised

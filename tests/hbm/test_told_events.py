@@ -36,9 +36,19 @@ def test_what_is_told_again_is_left_out_and_nothing_else() -> None:
         replace(known, coefficients=1.1 * motion),
     ]
 
-    found = list(ToldEvents().fresh([known, again, *others]))
+    found = list(ToldEvents().fresh([known, again, *others], rising=True))
 
     assert [id(each) for each in found] == [id(each) for each in (known, *others)]
+
+
+def test_folds_to_the_right_and_to_the_left_are_two_close_as_they_may_be() -> None:
+    right, told = fold(), ToldEvents()
+    left = replace(right, parameter=right.parameter * (1.0 - 1e-7))
+
+    steps = [(right, True), (left, False), (right, True), (left, False)]
+    found = [list(told.fresh([each], rising=rising)) for each, rising in steps]
+
+    assert [len(each) for each in found] == [1, 1, 0, 0]
 
 
 @pytest.mark.long

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 
@@ -70,6 +70,8 @@ class AdaptiveBalance:
         self._estimates = errors or tolerance is not None
         self.estimate: Estimate | None = None
         """of the last settled point; None if it lies on a fold or none is asked for"""
+        self._sought: Callable[..., Estimate] = resolution.estimate
+        """what has estimated that, with all but the patience given"""
         orders = 2 * (start.harmonics if tolerance is None else most) + 1
         self.size = (2 * orders + 1) * resolution.rank + 1
 

@@ -56,8 +56,8 @@ def random_system(seed: int) -> Problem:
     )
 
 
-# with 7 harmonics others go round a loop of a curve again and again, or have gaps
-@pytest.mark.parametrize("seed", [1, 2, 4, 6, 7, 8])
+# a closed curve passes close by that of 0; others have gaps
+@pytest.mark.parametrize("seed", [0, 1, 2, 4, 6, 8])
 def test_folds_to_the_right_and_to_the_left_alternate(seed: int) -> None:
     problem = random_system(seed)
     options = CurveOptions(5.0, 60.0, harmonics=7, errors=False, stability=False)

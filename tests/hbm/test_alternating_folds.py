@@ -1,10 +1,13 @@
 """Along a curve, folds to the right and to the left alternate."""
 
+import itertools
+
 import numpy as np
 import pytest
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from random_systems import random_system
 
@@ -22,3 +25,27 @@ def test_folds_to_the_right_and_to_the_left_alternate(seed: int) -> None:
     assert len(told) >= 2
     assert len(told) % 2 == 0
     assert (ways[1:] * ways[:-1] < 0.0).all()
+    assert unmatched(curve) == []
+
+
+def unmatched(curve: list[PeriodicResponse]) -> list[float]:
+    """Return where the frequency turns between points without a fold there.
+
+    Two folds between three points leave no turn behind; a fold alone must.
+    """
+    points = [n for n, each in enumerate(curve) if not each.event]
+    steps = list(itertools.pairwise(points))
+    told = [sum(each.event == "fold" for each in curve[i:j]) for i, j in steps]
+    ways = [curve[j].parameter - curve[i].parameter for i, j in steps]
+    missed = []
+    for n in range(1, len(ways)):
+        if ways[n - 1] * ways[n] < 0.0:
+            beside = max(n - 1, n, key=lambda each: told[each] % 2)
+            told[beside] -= 1
+            if told[beside] < 0:
+                missed.append(curve[points[n]].parameter)
+    for n, left in enumerate(told[:-1]):
+        if left % 2 and told[n + 1] % 2:
+            told[n], told[n + 1] = left - 1, told[n + 1] - 1
+    alone = [curve[points[n]].parameter for n, left in enumerate(told) if left % 2]
+    return missed + alone

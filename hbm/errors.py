@@ -41,6 +41,10 @@ class UnboundedError(ContinuationError):
     """The curve goes on for ever: no restart would lead past that."""
 
 
+class ReturnedError(ContinuationError):
+    """The curve is where it has been: it is no corner, and goes round for ever."""
+
+
 @contextlib.contextmanager
 def placed(name: Callable[[float], str]) -> Iterator[None]:
     """Name the places of errors by a function of the parameter."""

@@ -56,7 +56,7 @@ def next_point(
             smooth = turn(candidate, past.tangent, past.scale) > control.sharpest_turn
             overlooked = settler.overlooks(candidate.point, past.scale, step)
             overlooked |= _turned_twice(past, candidate)
-            overlooked |= settler.changed and _branched(past, candidate)
+            overlooked |= _branched(past, candidate)
             seen = not overlooked or step <= control.narrowest
             if (close and smooth and seen) or step <= control.smallest:
                 settler.keep(step)

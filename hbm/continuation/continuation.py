@@ -18,13 +18,10 @@ from hbm.continuation.linearised import SingularError, System
 from hbm.continuation.predictor import Predictor
 from hbm.continuation.settler import UNSETTLED, Settler
 from hbm.continuation.step_control import StepControl
+from hbm.continuation.trail import Trail
 from hbm.errors import PLACE, ContinuationError
 from microslip_mechanics.arrays import Array
 
-FEWEST = 4
-"""steps of a closed curve"""
-ASIDE = 0.1
-"""length of a step from which it may pass a point, over its own"""
 TURNS, FEW = 3, 10.0
 """sharp turns that may be made while steps are shortest, or so many times as long"""
 
@@ -68,7 +65,8 @@ def trace(
     ------
     ContinuationError
         If the first point or, after the shortest step, a later one does not converge,
-        or if shortest steps turn sharply again and again.
+        if shortest steps turn sharply again and again, or if the curve comes back to
+        where it has been but not to its beginning.
     """
     at = partial(correct_at, system, control=control, settler=settler, metric=metric)
     accepted = at(start)
@@ -83,7 +81,9 @@ def trace(
     yield accepted
     limits = min(begin, end), max(begin, end)
     past, step, went, sharp = Predictor(), control.initial, 0.0, 0
-    for number in range(control.most_points):
+    trail = Trail(system, control)
+    for _ in range(control.most_points):
+        trail.append(accepted)
         missed = past.append(accepted.point, along, scale, went)
         if went > 0.0:
             step = control.after(went, missed, past.order, accepted.iterations)
@@ -92,7 +92,7 @@ def trace(
         if not limits[0] < candidate.point[-1] < limits[1]:
             yield border(accepted, candidate, limits, at, scale)
             return
-        if number >= FEWEST and _passes(first, accepted, candidate, scale):
+        if trail.comes_back(candidate.point, scale):
             yield replace(at(first.point), tangent=first.tangent)
             return
         scale = metric(candidate.point)
@@ -152,18 +152,3 @@ def _sharp(
             float(candidate.point[-1]),
         )
     return made
-
-
-def _passes(
-    first: Correction, before: Correction, after: Correction, scale: Array
-) -> bool:
-    """Return whether a step passes the first point in its direction."""
-    step = (after.point - before.point) / scale
-    length = float(np.linalg.norm(step))
-    if abs(first.point[-1] - before.point[-1]) > 2.0 * length * scale[-1]:
-        return False
-    away = (first.point - before.point) / scale
-    share = float(step @ away) / length**2
-    aside = float(np.linalg.norm(away - share * step))
-    same = float((first.along / scale) @ step) > 0.5 * length
-    return 0.0 < share <= 1.0 and aside < ASIDE * length and same

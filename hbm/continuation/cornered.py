@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from hbm.continuation.corner import round_corner
 from hbm.continuation.correction import Correction
 from hbm.continuation.tracing import Tracing
-from hbm.errors import ContinuationError
+from hbm.errors import ContinuationError, ReturnedError
 from microslip_mechanics.arrays import Array
 
 REMEMBERED = 60
@@ -48,6 +48,8 @@ class Cornered:
                     way.append(replace(correction, joined=joined, turns=turns))
                     yield way[-1]
                     turns = False
+            except ReturnedError:
+                raise
             except ContinuationError:
                 if not way or corner == CORNERS:
                     raise

@@ -123,7 +123,7 @@ class Curve:
             told = replace(told, residual_range=self.residual_range.at(kept))
         asks = finer != fourier
         return told, Settled(
-            correction, told.multipliers, finer, asks, correction, settled
+            correction, settled, told.multipliers, finer, asks, correction, settled
         )
 
     def examined(self, known: PeriodicResponse, point: Array) -> PeriodicResponse:

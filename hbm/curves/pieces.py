@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import math
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from hbm.continuation.cornered import REMEMBERED, Cornered
@@ -17,7 +17,7 @@ from hbm.curves.bounded import bounded
 from hbm.curves.grown import Resolved
 from hbm.curves.incoming import Incoming
 from hbm.curves.restart import FIRST, LEAPS, Beginning, Restart
-from hbm.errors import PLACE, ContinuationError, UnboundedError
+from hbm.errors import PLACE, ContinuationError, ReturnedError, UnboundedError
 from hbm.paths.path import AlongFrequency, Path
 from hbm.paths.path_metric import path_metric
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -167,16 +167,34 @@ class Pieces:
                     yield correction
             except UnboundedError:
                 raise
-            except ContinuationError:
+            except ContinuationError as error:
                 heading = self._onwards(way[-1] if way else None, heading)
-                again = self.restart.finer(way, begun.control)
-                if again is None:
-                    leaps, again = self.restart.behind(way, begun, heading, leaps)
+                leaps, again = self._again(error, way, begun, heading, leaps)
                 if again is None or attempt == RESTARTS:
                     raise
                 begun = again
             else:
                 return
+
+    def _again(
+        self,
+        error: ContinuationError,
+        way: Sequence[Correction],
+        begun: Beginning,
+        heading: float,
+        leaps: Iterator[float],
+    ) -> tuple[Iterator[float], Beginning | None]:
+        """Return the leaps that are left to try, and a new beginning, if there is one.
+
+        It lies behind what resists if more harmonics lead no further, as where a curve
+        goes round.
+        """
+        finer = None
+        if not isinstance(error, ReturnedError):
+            finer = self.restart.finer(way, begun.control)
+        if finer is not None:
+            return leaps, finer
+        return self.restart.behind(way, begun, heading, leaps)
 
     def _cornered(self, begun: Beginning, heading: float) -> Iterator[Correction]:
         """Yield corrections of one piece, round its corners, while it is bounded."""

@@ -57,12 +57,14 @@ class Events:
         """Yield the events between two neighbouring points, in their order."""
         segment = self._segment(before.correction, after.correction, metric)
         with self.system.resolved(self.system.settled):
-            some = self._fold(segment), self._peak(before, after, metric)
+            some = self._fold(segment, before), self._peak(before, after, metric)
             found = [each for each in some if each is not None]
             found += self._changes(segment, before, after)
             for each in in_order(found, segment, owed=before.owes):
                 self.system.fourier = each.fourier
                 settled = self._settled(each, segment, metric)
+                if settled is None and each.name == "fold" and segment.after.turns:
+                    each, settled = self._before_corner(each, segment, metric)
                 if settled is None:
                     continue
                 told = self._told(each, settled, segment, metric)
@@ -93,9 +95,12 @@ class Events:
         return Segment(self.system, before, after, scale, self.control.tolerance, loose)
 
     def _settled(
-        self, found: Found, segment: Segment, metric: Metric
+        self, found: Found, segment: Segment, metric: Metric, *, across: bool = True
     ) -> Correction | None:
-        """Return what was located as accurate as it is to be; None if it is lost."""
+        """Return what was located as accurate as it is to be; None if it is lost.
+
+        ``across`` is whether the error of a fold is that across the curve.
+        """
         located = found.point
         settled = self.system.settle(
             located,
@@ -103,12 +108,25 @@ class Events:
             self.control.tolerance,
             segment.small(PRECISION * SURE),
             share=STRICT if found.name in SHARP and not segment.after.turns else 1.0,
-            across=found.name == "fold",
+            across=across and found.name == "fold",
         )
         away = distance(settled.point, located.point, segment.scale)
         if not away < abs(segment.length) or settled.outcome is not Outcome.CONVERGED:
             return None
         return replace(settled, tangent=located.tangent)
+
+    def _before_corner(
+        self, found: Found, segment: Segment, metric: Metric
+    ) -> tuple[Found, Correction | None]:
+        """Return a fold at a corner as the curve came there, and as it is settled.
+
+        More harmonics turn before it, and have no point like that: it errs by what the
+        parameter changes round the corner.
+        """
+        self.system.fourier = found.fourier
+        moved = float(segment.after.point[-1] - segment.before.point[-1])
+        found = found._replace(aside=abs(moved))
+        return found, self._settled(found, segment, metric, across=False)
 
     def _placed(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric
@@ -143,11 +161,15 @@ class Events:
         nearer = ends[int(sizes.argmax())]
         return found_between("peak", segment, located, nearer, growth, fourier)
 
-    def _fold(self, segment: Segment) -> Found | None:
-        """Return where the curve folds, at a corner too."""
+    def _fold(self, segment: Segment, before: Settled) -> Found | None:
+        """Return where the curve folds, at a corner too.
+
+        The point before a corner has the resolution with which the curve came there:
+        with more harmonics it may turn earlier, and have no point like that.
+        """
         fourier = self.system.fourier
         if segment.after.turns:
-            return Found(0.0, "fold", segment.before, fourier)
+            return Found(0.0, "fold", segment.before, before.solved)
         slopes = folds(segment.before), folds(segment.after)
         if not slopes[0] * slopes[1] < 0.0:
             return None

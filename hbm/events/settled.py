@@ -14,6 +14,8 @@ class Settled(NamedTuple):
     """A settled point of a curve, with what its multipliers say and ask for."""
 
     correction: Correction
+    solved: FourierBasis
+    """the resolution with which the curve has it"""
     multipliers: ComplexArray
     finer: FourierBasis
     """the resolution that they ask for"""
@@ -22,7 +24,7 @@ class Settled(NamedTuple):
     reported: Correction
     """the point as it is reported, where events are sought"""
     fourier: FourierBasis
-    """its resolution"""
+    """the resolution of that"""
     growth: float = math.nan
     """of its largest amplitude along the curve"""
     owes: bool = False

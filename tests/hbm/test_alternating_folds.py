@@ -1,63 +1,19 @@
 """Along a curve, folds to the right and to the left alternate."""
 
+import itertools
+
 import numpy as np
 import pytest
 
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
-from microslip_mechanics.element import Element
-from microslip_mechanics.laws.jenkins import Jenkins
-from microslip_mechanics.laws.polynomial_spring import PolynomialSpring
-from microslip_mechanics.laws.unilateral import UnilateralSpring
-from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
-from microslip_mechanics.system import system
+from random_systems import random_system
 
 
-def random_system(seed: int) -> Problem:
-    """Return two masses on springs with a stop, a slider and a spring that bends."""
-    drawn = np.random.default_rng(seed)
-    stiffness, coupling = drawn.uniform(200.0, 1500.0), drawn.uniform(50.0, 500.0)
-    whole = np.array([[stiffness + coupling, -coupling], [-coupling, 2.0 * coupling]])
-    drive = drawn.uniform(0.5, 5.0)
-    size = drive / stiffness
-    elements = [
-        Element(
-            UnilateralSpring(
-                stiffness=drawn.uniform(0.5, 20.0) * stiffness,
-                gap=drawn.uniform(0.2, 4.0) * size,
-            ),
-            ("a", "ground"),
-        ),
-        Element(
-            Jenkins(
-                stiffness=drawn.uniform(0.1, 1.0) * stiffness,
-                limit=drawn.uniform(0.05, 0.5) * drive,
-            ),
-            ("b", "ground"),
-        ),
-        Element(
-            PolynomialSpring(
-                coefficients={
-                    2: drawn.uniform(-0.3, 0.3) * stiffness / size,
-                    3: drawn.uniform(0.0, 0.3) * stiffness / size**2,
-                }
-            ),
-            ("b", "ground"),
-        ),
-    ]
-    return system(
-        names=["a", "b"],
-        mass=[1.0, drawn.uniform(0.3, 1.5)],
-        stiffness=whole,
-        damping_ratio=drawn.uniform(0.005, 0.03),
-        elements=elements,
-        drive={"a": drive},
-    )
-
-
-# with 7 harmonics others go round a loop of a curve again and again, or have gaps
-@pytest.mark.parametrize("seed", [1, 2, 4, 6, 7, 8])
+# a closed curve passes close by that of 0; others have gaps
+@pytest.mark.parametrize("seed", [0, 1, 2, 4, 6, 8])
 def test_folds_to_the_right_and_to_the_left_alternate(seed: int) -> None:
     problem = random_system(seed)
     options = CurveOptions(5.0, 60.0, harmonics=7, errors=False, stability=False)
@@ -69,3 +25,27 @@ def test_folds_to_the_right_and_to_the_left_alternate(seed: int) -> None:
     assert len(told) >= 2
     assert len(told) % 2 == 0
     assert (ways[1:] * ways[:-1] < 0.0).all()
+    assert unmatched(curve) == []
+
+
+def unmatched(curve: list[PeriodicResponse]) -> list[float]:
+    """Return where the frequency turns between points without a fold there.
+
+    Two folds between three points leave no turn behind; a fold alone must.
+    """
+    points = [n for n, each in enumerate(curve) if not each.event]
+    steps = list(itertools.pairwise(points))
+    told = [sum(each.event == "fold" for each in curve[i:j]) for i, j in steps]
+    ways = [curve[j].parameter - curve[i].parameter for i, j in steps]
+    missed = []
+    for n in range(1, len(ways)):
+        if ways[n - 1] * ways[n] < 0.0:
+            beside = max(n - 1, n, key=lambda each: told[each] % 2)
+            told[beside] -= 1
+            if told[beside] < 0:
+                missed.append(curve[points[n]].parameter)
+    for n, left in enumerate(told[:-1]):
+        if left % 2 and told[n + 1] % 2:
+            told[n], told[n + 1] = left - 1, told[n + 1] - 1
+    alone = [curve[points[n]].parameter for n, left in enumerate(told) if left % 2]
+    return missed + alone

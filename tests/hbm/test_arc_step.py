@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from hbm.continuation.arc_step import next_point
+from hbm.continuation.continuation import trace
 from hbm.continuation.correction import Correction
 from hbm.continuation.newton import Small
 from hbm.continuation.predictor import Predictor
@@ -61,3 +62,37 @@ def test_a_step_that_strays_is_halved_as_long_as_that_helps(
 
     assert step == taken
     np.testing.assert_allclose(found.point, [aside(taken), taken])
+
+
+@pytest.mark.parametrize("gap", [0.01, 0.06])
+def test_a_step_does_not_lead_to_the_other_side_of_an_avoided_crossing(
+    gap: float,
+) -> None:
+    """Two curves come as near to each other as ``gap`` and part again."""
+
+    def parting(point: Array) -> tuple[Array, Dense]:
+        x, parameter = point
+        rows = [[2.0 * x, -2.0 * parameter]]
+        return np.array([x**2 - parameter**2 - 0.25 * gap**2]), Dense(rows)
+
+    start = np.array([1.0, -1.0])
+
+    curve = trace(parting, start, 1.0, metric=np.ones_like, control=CONTROL)
+
+    points = np.array([each.point for each in curve])
+    assert (points[:, 0] > 0.0).all()
+    assert points[-1] == pytest.approx([np.hypot(1.0, 0.5 * gap), 1.0])
+
+
+def test_a_curve_goes_straight_through_a_branch_point() -> None:
+    def crossing(point: Array) -> tuple[Array, Dense]:
+        x, parameter = point
+        return np.array([x**2 - parameter**2]), Dense([[2.0 * x, -2.0 * parameter]])
+
+    start = np.array([1.0, -1.0])
+
+    curve = trace(crossing, start, 1.01, metric=np.ones_like, control=CONTROL)
+
+    points = np.array([each.point for each in curve])
+    assert points[:, 0] == pytest.approx(-points[:, 1], abs=1e-9)
+    assert points[-1, -1] == 1.01

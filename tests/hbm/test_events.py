@@ -186,7 +186,7 @@ def happening(
             along / np.linalg.norm(along),
         )
         settled = Settled(
-            solved, known.at(point), FOURIER, False, solved, FOURIER, owes=owes
+            solved, FOURIER, known.at(point), FOURIER, False, solved, FOURIER, owes=owes
         )
         ends.append(events.directed(settled, np.ones_like))
     return list(events.between(ends[0], ends[1], np.ones_like))

@@ -67,3 +67,10 @@ def test_a_fold_is_told_where_planes_across_meet_the_quiet_motion_too() -> None:
     doubt = coarse.parameter_error[one] + fine.parameter_error[other]
     assert doubt < 1e-6  # N
     assert abs(coarse.parameter[one] - fine.parameter[other]) < doubt
+
+    (turned,) = np.flatnonzero(
+        (np.array(coarse.event) == "fold") & (coarse.parameter > 0.03)
+    )
+    # where the stop is touched, as tolerances of 1.9e-4 and 3e-5 have it
+    assert abs(coarse.parameter[turned] - 0.04304636) < coarse.parameter_error[turned]
+    assert coarse.parameter_error[turned] < 2e-5

@@ -21,14 +21,25 @@ ASIDE = 0.1
 """length of a step from which it may pass a point, over its own"""
 ALIKE = 1e-3
 """of the length of a step: points of one plane that are one are not farther apart"""
+HEAD = 64
+"""components of points, the first ones, that are compared with all that is known"""
+AWAY = 1.1
+"""length of a step, over its own, beyond which it passes no point"""
 
 
 class _Known(NamedTuple):
-    """A point where the curve has been."""
+    """A point where the curve has been, without the zeros of orders that it leaves out.
+
+    There is room for far more components than most points of a long curve have.
+    """
 
     point: Array
     along: Array
     """its unit tangent there"""
+
+    def whole(self, size: int) -> _Known:
+        """Return it with all components."""
+        return _Known(_lengthened(self.point, size), _lengthened(self.along, size))
 
 
 class Trail:
@@ -38,12 +49,15 @@ class Trail:
         """Begin without points of a ``system``, to be solved as ``control`` asks."""
         self._system, self._control = system, control
         self._known: list[_Known] = []
-        self._places: list[float] = []
+        self._heads: list[Array] = []
+        self._last: Array = np.empty(0)
 
     def append(self, correction: Correction) -> None:
         """Add the point that comes next."""
-        self._known.append(_Known(correction.point, correction.along))
-        self._places.append(float(correction.point[-1]))
+        self._last = correction.point
+        known = _Known(_shortened(correction.point), _shortened(correction.along))
+        self._known.append(known)
+        self._heads.append(_head(correction.point))
 
     def comes_back(self, after: Array, scale: Array) -> bool:
         """Return whether a step to ``after`` passes the first point: the curve closes.
@@ -60,7 +74,7 @@ class Trail:
                 f"the curve comes back at {PLACE} to where it has been: a step has led "
                 "from one branch to another; a smaller tolerance, or more harmonics, "
                 "may tell them apart",
-                self._places[number],
+                float(self._known[number].point[-1]),
             )
         return number == 0
 
@@ -69,13 +83,15 @@ class Trail:
 
         Those that it has just left are not looked at.
         """
-        before = self._known[-1].point
+        before = self._last
         step = (after - before) / scale
         length = float(np.linalg.norm(step))
-        places = np.array(self._places[:-FEWEST])
-        near = np.abs(places - before[-1]) <= 2.0 * length * scale[-1]
+        if len(self._heads) <= FEWEST:
+            return None
+        away = (np.array(self._heads[:-FEWEST]) - _head(before)) / _head(scale)
+        near = np.linalg.norm(away, axis=1) <= AWAY * length
         for number in np.flatnonzero(near).tolist():
-            known = self._known[number]
+            known = self._known[number].whole(before.size)
             share = _share(known, before, step, scale)
             if share is None:
                 continue
@@ -119,3 +135,21 @@ def _across(guess: Array, known: _Known, scale: Array) -> Array:
     along = known.along / scale
     way = float(along @ ((known.point - guess) / scale))
     return way / float(along @ along) * known.along
+
+
+def _head(vector: Array) -> Array:
+    """Return the first components and the parameter."""
+    return np.append(vector[: min(HEAD, vector.size - 1)], vector[-1])
+
+
+def _shortened(vector: Array) -> Array:
+    """Return a vector without the zeros before its parameter."""
+    kept = np.flatnonzero(vector[:-1])
+    return np.append(vector[: kept[-1] + 1 if kept.size else 0], vector[-1])
+
+
+def _lengthened(vector: Array, size: int) -> Array:
+    """Return a shortened vector as it was."""
+    whole = np.zeros(size)
+    whole[: vector.size - 1], whole[-1] = vector[:-1], vector[-1]
+    return whole

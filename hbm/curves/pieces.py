@@ -3,30 +3,25 @@
 from __future__ import annotations
 
 import contextlib
-import math
-from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from hbm.continuation.cornered import REMEMBERED, Cornered
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.continuation.tracing import Tracing
-from hbm.curves.bounded import bounded
 from hbm.curves.grown import Resolved
 from hbm.curves.incoming import Incoming
-from hbm.curves.restart import FIRST, LEAPS, Beginning, Restart
-from hbm.errors import PLACE, ContinuationError, ReturnedError, UnboundedError
-from hbm.paths.path import AlongFrequency, Path
+from hbm.curves.piece import Piece
+from hbm.curves.restart import FIRST, LEAPS, Restart
+from hbm.errors import PLACE, ContinuationError
+from hbm.paths.path import Path
 from hbm.paths.path_metric import path_metric
 from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array
 
 POINTS = 1000
 """of a curve from a point in its midst, which may never end, before it is given up"""
-RESTARTS = 12
-"""that a curve may take before it is given up"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +59,7 @@ class Pieces:
         again = FIRST if there else ()
         try:
             yield from self._noted(
-                self._from(self.restart.still(self.end), self.start, iter(again)), back
+                self._piece(self.restart.still(self.end), self.start, again), back
             )
         except ContinuationError as error:
             raise stopped or error from None
@@ -101,6 +96,13 @@ class Pieces:
         """Return the change of each component that counts as one unit of arc."""
         return path_metric(self.path, point)
 
+    def _piece(
+        self, guess: Array, heading: float, leaps: Sequence[float] = ()
+    ) -> Iterator[Correction]:
+        """Return the corrections from a first guess, past what resists."""
+        piece = Piece(self.restart, (self.start, self.end))
+        return piece.from_guess(guess, heading, iter(leaps))
+
     def _noted(
         self, corrections: Iterator[Correction], shares: list[float]
     ) -> Iterator[Correction]:
@@ -117,7 +119,7 @@ class Pieces:
         The latter is more than was asked: where it cannot go on, it ends.
         """
         first: Correction | None = None
-        begun = self._from(self.restart.still(self.start), self.end, iter(FIRST))
+        begun = self._piece(self.restart.still(self.start), self.end, FIRST)
         for last in self._noted(begun, shares):
             first = first or last
             yield last
@@ -128,7 +130,7 @@ class Pieces:
         incoming.leave(first.point)
         for point, heading in incoming:
             with contextlib.suppress(ContinuationError):
-                for last in self._from(point, heading, iter(())):
+                for last in self._piece(point, heading):
                     yield last
                 incoming.leave(last.point)
 
@@ -141,7 +143,7 @@ class Pieces:
         guess = self.restart.point(where, self.end, iter(LEAPS))
         last: Correction | None = None
         if guess is not None:
-            for last in self._from(guess, self.end, iter(LEAPS)):
+            for last in self._piece(guess, self.end, LEAPS):
                 yield last
         if last is None or last.point[-1] != self.end:
             raise ContinuationError(
@@ -150,74 +152,6 @@ class Pieces:
                 "smaller tolerance, or more harmonics, may lead round the corner",
                 where,
             )
-
-    def _from(
-        self, guess: Array, heading: float, leaps: Iterator[float]
-    ) -> Iterator[Correction]:
-        """Yield corrections from a first guess, past what resists.
-
-        ``leaps`` are those by which a first point is sought if there is none.
-        """
-        begun = Beginning(guess, None, self.control)
-        for attempt in range(RESTARTS + 1):
-            way: deque[Correction] = deque(maxlen=REMEMBERED)
-            try:
-                for correction in self._cornered(begun, heading):
-                    way.append(correction)
-                    yield correction
-            except UnboundedError:
-                raise
-            except ContinuationError as error:
-                heading = self._onwards(way[-1] if way else None, heading)
-                leaps, again = self._again(error, way, begun, heading, leaps)
-                if again is None or attempt == RESTARTS:
-                    raise
-                begun = again
-            else:
-                return
-
-    def _again(
-        self,
-        error: ContinuationError,
-        way: Sequence[Correction],
-        begun: Beginning,
-        heading: float,
-        leaps: Iterator[float],
-    ) -> tuple[Iterator[float], Beginning | None]:
-        """Return the leaps that are left to try, and a new beginning, if there is one.
-
-        It lies behind what resists if more harmonics lead no further, as where a curve
-        goes round.
-        """
-        finer = None
-        if not isinstance(error, ReturnedError):
-            finer = self.restart.finer(way, begun.control)
-        if finer is not None:
-            return leaps, finer
-        return self.restart.behind(way, begun, heading, leaps)
-
-    def _cornered(self, begun: Beginning, heading: float) -> Iterator[Correction]:
-        """Yield corrections of one piece, round its corners, while it is bounded."""
-        tracing = Tracing(
-            self.system,
-            heading,
-            self.start if heading == self.end else self.end,
-            self.metric,
-            begun.control,
-            self.system,
-        )
-        piece = Cornered(tracing, begun.guess, begun.direction)
-        if isinstance(self.path, AlongFrequency):
-            yield from bounded(piece, self.path.rank, self.path.vibration)
-        else:
-            yield from piece
-
-    def _onwards(self, last: Correction | None, heading: float) -> float:
-        """Return the end of the range to which the curve was going."""
-        if last is None or last.along[-1] == 0.0:
-            return heading
-        onwards = math.copysign(1.0, last.along[-1])
-        return max(self.start, self.end, key=lambda each: onwards * each)
 
 
 def _arrived(shares: list[float], end: float) -> bool:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hbm.continuation.arc import distance, plane_across
-from hbm.continuation.corrected import neglected
 from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.linearised import System
-from hbm.continuation.newton import correct
+from hbm.continuation.newton import Small, correct
 from hbm.continuation.step_control import StepControl
 from hbm.errors import PLACE, ReturnedError
 from microslip_mechanics.arrays import Array
@@ -21,6 +21,8 @@ ASIDE = 0.1
 """length of a step from which it may pass a point, over its own"""
 ALIKE = 1e-3
 """of the length of a step: points of one plane that are one are not farther apart"""
+BETTER = 0.1
+"""of that: how well they are solved"""
 HEAD = 64
 """components of points, the first ones, that are compared with all that is known"""
 AWAY = 1.1
@@ -40,6 +42,10 @@ class _Known(NamedTuple):
     def whole(self, size: int) -> _Known:
         """Return it with all components."""
         return _Known(_lengthened(self.point, size), _lengthened(self.along, size))
+
+    def with_only(self, has: NDArray[np.bool_]) -> _Known:
+        """Return it without what a coarser point has not."""
+        return _Known(np.where(has, self.point, 0.0), np.where(has, self.along, 0.0))
 
 
 class Trail:
@@ -95,18 +101,21 @@ class Trail:
             share = _share(known, before, step, scale)
             if share is None:
                 continue
-            guess = before + share * (after - before)
-            if self._is(known, guess, scale, ALIKE * length):
+            has = after != 0.0
+            has[-1] = True
+            guess = np.where(has, before + share * (after - before), 0.0)
+            if self._is(known.with_only(has), guess, scale, ALIKE * length):
                 return int(number)
         return None
 
     def _is(self, known: _Known, guess: Array, scale: Array, little: float) -> bool:
         """Return whether the curve at a guess is that at a known point.
 
-        The system may have become finer since: both are solved in one plane.
+        The system may have become finer or coarser since: both are solved in one plane,
+        better than to what is ``little``.
         """
         normal, control = plane_across(known.along, scale), self._control
-        small = neglected(control, lambda _: scale)
+        small = Small(lambda _: BETTER * little * scale, control.loose)
         one, other = (
             correct(
                 self._system, each, normal, tolerance=control.tolerance, small=small

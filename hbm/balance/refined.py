@@ -57,6 +57,7 @@ class Patience(NamedTuple):
 
 
 HASTY, FIRM, PATIENT = Patience(4, 0), Patience(4, 3), Patience(16, 3)
+"""from which more harmonics follow; with many; what is reported, of the most"""
 
 
 class Refined(NamedTuple):

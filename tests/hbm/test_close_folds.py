@@ -7,12 +7,12 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.hunt_crossley import HuntCrossleyContact
-from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
+from random_systems import random_system
 
 TURN = 2.0 * np.pi
 
@@ -160,32 +160,7 @@ def test_a_pair_that_meets_before_a_fold_is_no_torus(highest: float) -> None:
 
 
 def test_a_fold_that_is_nearer_to_another_than_half_a_step_is_told() -> None:
-    problem = system(
-        names=["a", "b"],
-        mass=[1.0, 0.9527296809161978],
-        stiffness=[
-            [1706.0703360107, -280.0973987665],
-            [-280.0973987665, 560.194797533],
-        ],
-        damping_ratio=0.027555376992899706,
-        elements=[
-            Element(
-                UnilateralSpring(stiffness=2960.751125998153, gap=0.008605810155363582),
-                between=("a", "ground"),
-            ),
-            Element(
-                Jenkins(stiffness=625.7710062261125, limit=2.0103558923426332),
-                between=("b", "ground"),
-            ),
-            Element(
-                PolynomialSpring(
-                    coefficients={2: -81152.87284056611, 3: 31668121.993601184}
-                ),
-                between=("b", "ground"),
-            ),
-        ],
-        drive={"a": 4.893096675684669},
-    )
+    problem = random_system(4)
     options = CurveOptions(5.0, 60.0, harmonics=7, errors=False, stability=False)
 
     curve = list(frequency_response(problem, static_equilibrium(problem), options))

@@ -57,3 +57,8 @@ def placed(name: Callable[[float], str]) -> Iterator[None]:
 def hertz(frequency: float) -> str:
     """Return the name of a place on a curve along frequency [rad/s]."""
     return f"{frequency / math.tau:.9g} Hz"
+
+
+def drives(share: float) -> str:
+    """Return the name of a place on a curve along the drive, over the wanted one."""
+    return f"{share:.3g} times the drive"

@@ -16,7 +16,7 @@ import numpy as np
 
 from hbm.curves.drive_search import LEAST, MOST, DriveSearch, Sought
 from hbm.curves.tracer import Tracer
-from hbm.errors import ContinuationError
+from hbm.errors import ContinuationError, hertz
 from hbm.options import CurveOptions
 from hbm.paths.path import AlongFrequency
 from microslip_mechanics.arrays import ComplexArray
@@ -90,7 +90,7 @@ class Search:
                     found.append(each)
                     yield each
             except ContinuationError as cause:
-                sought = replace(sought, lost=str(cause))
+                sought = replace(sought, lost=str(cause.placed(hertz)))
         yield sought
 
     def _followed(self, candidate: PeriodicResponse) -> Iterator[PeriodicResponse]:

@@ -10,7 +10,7 @@ from hbm.continuation.corrected import correct_at
 from hbm.curves.curve import response
 from hbm.curves.moved_fold import beside, moved_fold
 from hbm.curves.tracer import Tracer
-from hbm.errors import ContinuationError
+from hbm.errors import ContinuationError, drives
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.paths.along_parameter import AlongParameter
@@ -87,7 +87,7 @@ class DriveSearch:
                 # a curve that stops is followed from the other end too
                 before, share = each, share if stopped else max(share, each.parameter)
         except ContinuationError as error:
-            cause = str(error)
+            cause = str(error.placed(drives))
         return passed, Sought(frequency, share, cause, "")
 
     def from_fold(
@@ -106,7 +106,7 @@ class DriveSearch:
             effort=MOVING * self.effort,
         )
         moved = moved_fold(self._driven, fold, options)
-        sought = Sought(fold.frequency, moved.parameter, moved.cause, "", fold=True)
+        sought = Sought(fold.frequency, moved.share, moved.cause, "", fold=True)
         lowest, highest = sorted((self.options.start, self.options.end))
         if moved.back is None or not lowest < moved.back.frequency < highest:
             return [], sought

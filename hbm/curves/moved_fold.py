@@ -17,7 +17,7 @@ from hbm.continuation.newton import correct
 from hbm.curves.branch_point import OFFSETS
 from hbm.curves.curve import response
 from hbm.curves.parameter_curves import fold_curve
-from hbm.errors import ContinuationError
+from hbm.errors import ContinuationError, drives
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.paths.path import AlongFrequency
@@ -27,10 +27,10 @@ from microslip_mechanics.results.response import PeriodicResponse
 
 @dataclass(frozen=True, slots=True)
 class MovedFold:
-    """Where a fold has come as a parameter changed."""
+    """Where a fold has come as the drive changed."""
 
-    parameter: float
-    """at which it was seen last"""
+    share: float
+    """drive at which it was seen last, over the wanted one"""
     cause: str
     """why it was not followed to the end of the range; empty if it was"""
     back: PeriodicResponse | None
@@ -49,7 +49,7 @@ def moved_fold(
         for point in fold_curve(problem_at, known, options):
             passed, last = passed + 1, point.response
     except ContinuationError as error:
-        cause = str(error)
+        cause = str(error.placed(drives))
     returned = not cause and passed > 1 and last.parameter == options.start
     return MovedFold(
         last.parameter if passed else options.start, cause, last if returned else None

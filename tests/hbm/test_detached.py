@@ -1,11 +1,13 @@
 """Detached curves of a block that sticks unless it already slides fast."""
 
 import functools
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
 
 from hbm.curves.drive_search import MOST, Sought
+from hbm.errors import PLACE, ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import detached, frequency_response
 from microslip_mechanics.problem import Problem
@@ -153,6 +155,25 @@ def test_a_curve_that_takes_more_than_the_effort_is_followed_in_part(
     assert 1 < len(found) < len(whole)
     together = zip(found[:2], whole, strict=False)
     assert all(one.frequency == other.frequency for one, other in together)
+
+
+def test_what_ends_early_says_at_which_drive_and_a_curve_at_which_frequency(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def stuck(*_: object) -> Iterator[PeriodicResponse]:
+        raise ContinuationError(f"stuck at {PLACE}", 3.0)
+        yield
+
+    whole = known()
+    with monkeypatch.context() as patch:
+        patch.setattr("hbm.curves.detached.Tracer.from_response", stuck)
+        _, curves_lost = sought(BLOCK, whole)
+    monkeypatch.setattr("hbm.curves.drive_search.Tracer.responses", stuck)
+    _, drives_stopped = sought(BLOCK, whole)
+
+    lost = {each.lost for each in curves_lost if each.lost}
+    assert lost == {"stuck at 0.477464829 Hz"}
+    assert {each.cause for each in drives_stopped} == {"stuck at 3 times the drive"}
 
 
 def test_an_effort_is_positive() -> None:

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.jump import contact_jump
+from microslip_mechanics.contact.law import sudden
 from microslip_mechanics.contact.points import GENERAL_KINETIC, PointLaw, contact_table
 from microslip_mechanics.contact.spread import spread_force
 
@@ -76,3 +78,14 @@ def test_a_law_without_a_jump_is_as_it_is() -> None:
     force, _ = force_of(law, moved, moving)
 
     assert force[0] == pytest.approx(5e4 * 1e-6)
+
+
+@pytest.mark.parametrize("power", [0.0, 0.25, 1.0])
+def test_damping_jumps_unless_it_grows_with_penetration(power: float) -> None:
+    points = contact_table([PointLaw(damping=7.0, damping_exponent=power)])
+    near, far = (
+        abs(contact_jump(points, 0, np.array([0.3, 0.0, 0.0]), depth)[0])
+        for depth in (1e-15, 1e-9)
+    )
+
+    assert sudden(points, 0) == (near > 0.9 * far)

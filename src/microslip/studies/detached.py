@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hbm.curves.drive_search import LEAST, MOST, Sought
+from hbm.errors import drives
 from hbm.options import CurveOptions
 from hbm.solve import detached
 from microslip.interruption import unmasked
@@ -64,7 +65,7 @@ class Searched:
 
 def _unfinished(sought: Sought) -> str:
     """Return how far one search came, and why no further."""
-    hertz, share = sought.frequency / math.tau, f"{sought.share:.3g} times the drive"
+    hertz, share = sought.frequency / math.tau, drives(sought.share)
     if sought.fold:
         return f"the fold at {hertz:.3f} Hz only to {share}: {sought.cause}"
     return f"at {hertz:.3f} Hz only up to {share}: {sought.cause}"

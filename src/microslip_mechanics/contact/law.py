@@ -105,9 +105,10 @@ def edge(points: ContactPoints, point: int) -> float:
 def sudden(points: ContactPoints, point: int) -> bool:
     """Return whether a force may jump where contact begins or ends.
 
-    Damping may, and viscous friction does, unless it is always there.
+    Damping does that does not grow with penetration, and viscous friction, unless it is
+    always there.
     """
-    if points.damping[point] != 0.0:
+    if points.damping[point] != 0.0 and points.damping_exponent[point] == 0.0:
         return True
     return bool(points.viscous[point] != 0.0 and not points.constant_load[point])
 

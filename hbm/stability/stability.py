@@ -18,16 +18,13 @@ from scipy.sparse.csgraph import connected_components
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.stability.carried import carried
 from hbm.stability.carried_step import CarriedStructure
+from hbm.stability.counting_modes import counting_modes
 from hbm.stability.recalled import recalled_multipliers
 from hbm.stability.tangents import StepTangents, step_tangents
 from hbm.structure.stuck_motions import stuck_motions
 from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.problem import Problem
-
-SMALLEST = 0.004
-"""root of a stuck mode's part in the inertia of y, by mass or by dashpots, over its
-frequency, relative to the largest of all modes; what has less is left out"""
 
 BEYOND = 1e150
 """modulus of half a period's multiplier that counts as any larger one"""
@@ -68,6 +65,9 @@ class SmallMotions:
         )
         found = [np.empty(0, complex)]  # what moves freely alone has none
         for family in self._families(steps.elastic, steps.viscous):
+            if (family >= self.basis.shape[1]).all():
+                found.append(self._untouched(family, frequency))
+                continue
             carried = self._map(family, steps)
             if signs is None:
                 values = np.linalg.eigvals(carried).astype(complex)
@@ -79,6 +79,21 @@ class SmallMotions:
         together = np.concatenate(found)
         ordered: ComplexArray = together[np.argsort(-np.abs(together))]
         return ordered
+
+    def _untouched(self, family: NDArray[np.int64], frequency: float) -> ComplexArray:
+        """Return the multipliers of modes that no contact moves, by their poles."""
+        square, none = np.ix_(family, family), np.zeros((family.size, family.size))
+        rates = np.block(
+            [
+                [none, np.eye(family.size)],
+                [-self.stiffness[square], -self.damping[square]],
+            ]
+        )
+        powers = np.linalg.eigvals(rates) * (2.0 * np.pi / frequency)
+        found: ComplexArray = np.exp(
+            np.minimum(powers.real, 2.0 * np.log(BEYOND)) + 1j * powers.imag
+        )
+        return found
 
     def _map(self, family: NDArray[np.int64], steps: StepTangents) -> Array:
         """Return the map of the coupled coordinates of a family over all steps."""
@@ -152,17 +167,7 @@ def small_motions(problem: Problem) -> SmallMotions:
     static, free, _ = stuck_motions(structure, selection)
     stuck = [free.T @ matrix @ free for matrix in (structure.stiffness, structure.mass)]
     squares, shapes = scipy.linalg.eigh(*stuck)
-    inertia = static.T @ structure.mass @ static
-    coupling = shapes.T @ free.T @ structure.mass @ static
-    dashpots = shapes.T @ free.T @ structure.damping @ static
-    part: Array = sum(
-        (each.T * scipy.linalg.solve(inertia, each.T)).sum(axis=0) / scale
-        for each, scale in ((coupling, 1.0), (dashpots, squares))
-    )
-    weight = np.sqrt(np.maximum(part, 0.0) / squares)
-    kept = weight >= SMALLEST * weight.max(initial=0.0)
-    if structure.gyroscopic:  # Coriolis terms couple modes that inertia does not
-        kept[:] = True
+    kept = counting_modes(structure, static, free @ shapes, squares)
     motion = np.hstack([static, free @ shapes[:, kept]])
     mass, damping, stiffness = (
         motion.T @ matrix @ motion

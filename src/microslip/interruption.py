@@ -71,9 +71,6 @@ def held_back() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    from multiprocessing.resource_tracker import ensure_running
-
-    ensure_running()  # it would let interruptions through when it starts
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)
     try:
         yield

@@ -1,5 +1,8 @@
 """Coriolis forces: harmonic balance, time, direct solutions and poles agree."""
 
+import itertools
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,6 +13,8 @@ from hbm.structure.condensation import condense
 from hbm.structure.poles import poles
 from microslip_mechanics.contact.interface import Interface
 from microslip_mechanics.contact.points import TWO_SIDED, PointLaw, contact_table
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
@@ -17,6 +22,7 @@ from microslip_mechanics.structures.beam import RectangularSection
 from microslip_mechanics.structures.frame import MOTIONS, Beam, Frame, Node
 from microslip_mechanics.structures.rotating_frame import RotatingFrame
 from microslip_mechanics.structures.rotation import Rotation
+from microslip_mechanics.system import system
 from small_motions.multipliers import floquet_multipliers
 from small_problems import dwelled, last_harmonic
 from timedomain.record.start import Start
@@ -144,3 +150,48 @@ def test_multipliers_are_those_of_the_time_domain(sprung: tuple[int, ...]) -> No
         np.testing.assert_allclose(
             np.abs(point.multipliers[:4]), np.abs(other.values[:4]), atol=1e-3
         )
+
+
+def blade(lag: str) -> Problem:
+    """Return a turning blade, whose axial modes reach 1 MHz, at a stop it never meets.
+
+    ``lag`` is the motion along which the stop is.
+    """
+    section = RectangularSection(0.02, 0.005, 2.1e11, 0.3, 7800.0)
+    places = np.linspace(0.0, 0.2, 7)
+    names = ["foot", *(f"node{number}" for number in range(1, 6)), "tip"]
+    nodes = tuple(
+        Node(name, np.array([place, 0.0, 0.0]), MOTIONS if place else ())
+        for name, place in zip(names, places, strict=True)
+    )
+    across = np.array([0.0, 0.0, 1.0])
+    beams = tuple(
+        Beam(start, end, section, across) for start, end in itertools.pairwise(names)
+    )
+    spin = Rotation(628.3, np.array([0.0, 0.0, 1.0]), np.array([-0.1, 0.0, 0.0]))
+    turned = RotatingFrame(Frame(nodes, beams), spin)
+    shape = turned.structure()
+    stop = UnilateralSpring(stiffness=5e3, gap=1.0)
+    made = system(
+        names=shape.names,
+        mass=shape.mass,
+        stiffness=shape.stiffness,
+        damping_ratio=0.01,
+        elements=[Element(stop, between=(lag, "ground"), name="stop")] if lag else [],
+        drive={"tip.uy": 1.0},
+        probes=["tip.uy"],
+    )
+    damping = made.structure.damping + turned.coriolis()
+    structure = replace(made.structure, damping=damping, gyroscopic=True)
+    return replace(made, structure=structure)
+
+
+@pytest.mark.parametrize("lag", ["", "tip.uy", "tip.uz"])
+def test_multipliers_of_a_linear_blade_are_those_of_its_poles(lag: str) -> None:
+    """What is too fast for the steps of a period does not stand for what is slow."""
+    problem = blade(lag)
+    slowest = poles(problem.structure).values.real.max()
+
+    for point in curve(problem, 300.0, 600.0)[::8]:
+        exact = np.exp(2.0 * np.pi * slowest / point.frequency)
+        assert abs(point.multipliers[0]) == pytest.approx(exact, rel=1e-5)

@@ -73,6 +73,32 @@ def test_envelopes_are_those_of_a_probe_that_moves(small_curve: ResponseCurve) -
     check_lines(envelopes.lines[1:], abscissa(still), [1e3 * peak[:, 1]])
 
 
+def test_envelopes_are_shown_where_the_sweeps_are(small_curve: ResponseCurve) -> None:
+    """The first probe, whose peak the sweeps do not reach, hardly moves in them."""
+    peak = np.array([[1e-6, 1e-4], [1e-6, 2e-4], [1e-6, 3e-4], [5e-3, 1e-4]])
+    beyond = dataclasses.replace(
+        small_curve, peak=np.hstack([peak, 1e-9 * small_curve.peak[:, 2:]])
+    )
+    nothing, swept = np.zeros(0), np.linspace(130.0, 133.0, 9)
+    envelope = np.tile([1e-6, 3e-4, 0.0, 0.0], (9, 1))
+
+    figure = agreement_figure(
+        unmarked(beyond),
+        (nothing, np.empty((0, 4)), nothing, nothing),
+        [("1 x as long", swept, envelope), ("4 x as long", swept, envelope)],
+        (nothing, nothing),
+        "",
+    )
+
+    (envelopes,) = (
+        axes for axes in figure.axes if "Envelope" in axes.get_title("left")
+    )
+    check_lines(envelopes.lines[:2], swept, [np.full(9, 0.3)] * 2)
+    assert envelopes.get_xlim() == (130.0, 133.0)
+    assert envelopes.get_ylim()[0] == 0.0
+    assert 0.3 < envelopes.get_ylim()[1] < 0.9  # a legend takes room above lines
+
+
 def test_dots_have_the_colours_of_their_lines(small_curve: ResponseCurve) -> None:
     size = np.array([1e-5, 3e-4, 1e-4, 2e-4, 5e-4])
     amplitude = np.ones((4, 1)) * size

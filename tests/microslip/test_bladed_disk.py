@@ -124,7 +124,8 @@ def test_mistuned_blades_differ() -> None:
     ("override", "message"),
     [
         ("mistuning.deviation=0.01", "one sector cannot stand for mistuned ones"),
-        ("sector.masses=[1, 2]", "masses has 2 numbers: give 4"),
+        ("sector.masses=[1, 2]", "masses has 2 numbers: give 4, for disk, root"),
+        ("sector.springs=7", "has 1 number: give 3, for disk to root, root to middle"),
         ("sector.ground=0", "the disk is free"),
         ("solve=blade", "give one of sector, disk"),
         ("sectors=1", "at least 2"),

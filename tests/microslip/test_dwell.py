@@ -120,6 +120,7 @@ def test_dwell_that_is_not_steady_in_time_says_so(
     assert status == 1
     assert "NOT steady after 3 periods" in output
     assert error.startswith("microslip: not steady after 3 periods: give more")
+    assert "or a smaller march.time_step" in error
     assert error.count("\n") == 1
     ending = load(tmp_path / "quick-dwell.nc").result.ending
     assert ending.startswith("not steady")

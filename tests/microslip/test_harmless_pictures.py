@@ -1,13 +1,17 @@
 """Pictures that take nothing away: interrupted ones, and those named like results."""
 
+import signal
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import pytest
 from matplotlib.figure import Figure
 
+from microslip.commands.written import written
 from microslip.files.store import Stored, save, save_figure
+from microslip.studies.poles import branches
+from microslip_mechanics.arrays import ComplexArray
 from microslip_mechanics.results.time_history import TimeHistory
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -49,6 +53,7 @@ def test_an_interrupted_picture_leaves_tables_and_names_of_files(
 
     monkeypatch.setattr("microslip.files.store.save_figure", interrupted)
     words, told, table = CASES[case]
+    Path("it.png").write_bytes(b"of an older result")
 
     status, output, error = run(*words, "-o", "it")
 
@@ -58,6 +63,52 @@ def test_an_interrupted_picture_leaves_tables_and_names_of_files(
     assert last.endswith(told)
     assert any(table in line for line in lines)
     assert [each.name for each in tmp_path.iterdir()] == [told.split()[-1]]
+
+
+def test_an_interruption_waits_until_what_was_printed_is_in_its_table(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*arguments: Any) -> ComplexArray:
+        signal.raise_signal(signal.SIGINT)
+        return branches(*arguments)
+
+    monkeypatch.setattr("microslip.studies.poles.branches", interrupted)
+
+    status, output, error = run(
+        "poles", "jenkins", "element.slider.limit", "1", "-o", "it"
+    )
+
+    assert (status, error) == (130, SAID)
+    assert output.splitlines()[-1] == "table in it.csv"
+    _, row = Path("it.csv").read_text().splitlines()
+    assert row.startswith("1,")
+
+
+def test_a_decay_that_is_not_measured_has_no_older_table_and_picture(
+    run: Run, tmp_path: Path
+) -> None:
+    for name in ("it.csv", "it.png"):
+        Path(name).write_bytes(b"of an older decay")
+
+    status, *_ = run(
+        *("decay", "gap", "--frequency=5 Hz", "-o", "it"),
+        "--set=structure.damping_ratio=0.999",
+    )
+
+    assert status == 1
+    assert [each.name for each in tmp_path.iterdir()] == ["it.nc"]
+
+
+def test_an_older_picture_that_is_a_link_is_left_to_its_owner(tmp_path: Path) -> None:
+    owner, link = tmp_path / "owner.png", tmp_path / "it.png"
+    owner.write_bytes(b"of somebody")
+    link.symlink_to(owner)
+
+    with written("table in it.csv", link):
+        pass
+
+    assert link.is_symlink()
+    assert owner.read_bytes() == b"of somebody"
 
 
 def test_an_interrupted_picture_leaves_no_half_of_it(

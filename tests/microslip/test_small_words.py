@@ -1,5 +1,6 @@
 """What is said of names that are none, and of scenes without friction."""
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
@@ -59,6 +60,20 @@ def test_a_result_has_no_name_of_a_scene(
     assert (status, output) == (2, "")
     assert error.startswith("microslip: -o quick.toml is the name of a scene, not of a")
     assert not quick_scene.with_name("quick.toml.nc").exists()
+
+
+def test_a_result_does_not_stand_beside_a_pipe(run: Run, tmp_path: Path) -> None:
+    """As root ``-o /dev/null`` would make a file /dev/null.nc."""
+    os.mkfifo(tmp_path / "pipe")
+
+    status, output, error = run("frc", "duffing", "-o", "pipe")
+
+    assert (status, output) == (2, "")
+    assert error == (
+        "microslip: -o pipe is no file: results would stand beside it, with endings: "
+        "give a folder, or a path without ending\n"
+    )
+    assert [each.name for each in tmp_path.iterdir()] == ["pipe"]
 
 
 @pytest.mark.parametrize("command", ["tables", "grid two-blades"])

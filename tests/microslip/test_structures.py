@@ -175,7 +175,7 @@ def test_a_turning_beam_is_stretched_stiffened_and_gyroscopic(tmp_path: Path) ->
     [
         ('speed = "6000 rpm"\n', "", "[structure.rotation] speed is missing: add it"),
         ("6000 rpm", "fast", '[structure.rotation] speed = "fast": is not a number'),
-        ("[0, 1, 0]", "[0, 1]", "axis of rotation: give three numbers"),
+        ("[0, 1, 0]", "[0, 1]", "axis of rotation has 2 numbers: give three"),
         ("[0, 1, 0]", "[0, 0, 0]", "axis of rotation is zero: give a direction"),
     ],
 )

@@ -1,10 +1,16 @@
 """Energies: what is measured, how well it balances, how fast it converges."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from convergence import observed_order
+from microslip_mechanics.element import Element
+from microslip_mechanics.laws.elastic_friction import ElasticFriction
+from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.loads.excitation import Dwell, SweptSine
+from microslip_mechanics.system import system
 from rigs import rig_problem
 from small_problems import dwelled, from_rest, marched, sliding_block
 from timedomain.integrate import MarchOptions
@@ -100,3 +106,42 @@ def test_energy_converges_also_where_steps_jump_over_the_transition() -> None:
     # From 80 to 640 steps a period, at least with first order.
     assert errors[0] < 1e-2 * exact
     assert errors[-1] < errors[0] / 8.0
+
+
+@pytest.mark.parametrize("load", ["constant", "varying"])
+def test_what_a_slider_stores_is_not_taken_out(load: str) -> None:
+    """A mass pushed against a slider, up to where it turns for the first time."""
+    stiffness, limit, speed, spring = 1e3, 1.0, 0.1, 2.0
+    slider: Jenkins | ElasticFriction = Jenkins(stiffness, limit)
+    ends: dict[str, Any] = {"between": ("x", "ground")}
+    if load == "varying":
+        ends = {"normal": ("n", "ground"), "tangents": [("x", "ground")]}
+        slider = ElasticFriction(
+            normal_stiffness=1e3, preload=2.0, stiffness=stiffness, mu=0.5
+        )
+    problem = system(
+        names=["x", "n"],
+        mass=[1.0, 1.0],
+        stiffness=[spring, 1e9],  # so that n stays, and its preload is 2 N
+        elements=[Element(slider, **ends, name="slider")],
+        drive={"x": 0.0},
+    )
+    start = Start(np.zeros(2), np.array([speed, 0.0]))
+
+    history = marched(problem, Dwell(1.0, 0.25), MarchOptions(1e-5, 1), start=start)
+
+    moved = history.displacement[:, 0]
+    turn = int(np.argmax(moved))
+    assert moved[turn] > 4.0 * limit / stiffness
+    sticks = moved[:turn] < 0.99 * limit / stiffness
+    np.testing.assert_allclose(
+        history.of("contact")[:turn][sticks],
+        stiffness * moved[:turn][sticks] ** 2 / 2.0 + history.of("contact")[0],
+        atol=1e-7,
+    )
+    np.testing.assert_allclose(history.of("friction")[:turn][sticks], 0.0, atol=1e-9)
+    held = limit**2 / stiffness / 2.0 + spring * moved[turn] ** 2 / 2.0
+    assert history.of("friction")[turn] == pytest.approx(
+        speed**2 / 2.0 - held, rel=1e-5
+    )
+    assert np.abs(history.closing_error).max() < 1e-8

@@ -75,7 +75,7 @@ def at_end(problem: Problem, end: Checkpoint) -> Start:
     if not remembers(problem.interface.points).any():
         return Start(end.displacement, end.velocity)
     state = first_state(problem, Dwell(1.0, 1.0), at_rest(problem))
-    unread = meters(problem, problem.loads.T.copy())
+    unread = meters(problem, problem.loads.T.copy(), state)
     own = 3 + sum(array.size for array in _kept(state, unread))
     restore(state, unread, replace(end, memory=end.memory[:own]))
     return Start(end.displacement, end.velocity, state.past[:, 1].copy())

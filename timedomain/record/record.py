@@ -8,6 +8,7 @@ import numpy as np
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.law import contact_power
+from microslip_mechanics.contact.memory import traction_energy
 from microslip_mechanics.contact.normal import contact_energy
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.jit import kernel
@@ -15,6 +16,7 @@ from timedomain.contact.state import State
 
 FLOWS = ("input", "friction", "normal_damping", "structural_damping")
 """integrated powers"""
+FRICTION = FLOWS.index("friction")
 STORES = ("kinetic", "elastic", "contact")
 """stored energies"""
 
@@ -37,7 +39,7 @@ class Meters(NamedTuple):
     powers: Array
     """of FLOWS at the last step [W], shape (4,)"""
     energies: Array
-    """of FLOWS so far [J], shape (4,)"""
+    """of FLOWS so far [J], shape (4,); that of friction with what it stores"""
 
 
 @kernel
@@ -66,20 +68,26 @@ def accumulate(
 
 @kernel
 def store(meters: Meters, points: ContactPoints, state: State, row: Array) -> None:
-    """Write probes, their velocities, normal forces, friction power and energies."""
+    """Write probes, their velocities, normal forces, friction power and energies.
+
+    Friction that remembers has taken in what its springs k_t store beside what it has
+    dissipated.
+    """
     probes, count = meters.probes.shape[0], points.load.size
     displacement, velocity = state.displacement, state.velocity
     np.dot(meters.probes, displacement, row[:probes])
     np.dot(meters.probes, velocity, row[probes : 2 * probes])
     place = 2 * probes
-    stored = 0.0
+    pressed, stuck = 0.0, 0.0
     for point in range(count):
         row[place + point] = state.forces[point, 0]
-        stored += contact_energy(points, point, state.gaps[point, 0])
+        pressed += contact_energy(points, point, state.gaps[point, 0])
+        stuck += traction_energy(points, point, state.past[point, 1])
     place += count
     row[place] = meters.powers[1]
     for flow in range(4):
         row[place + 1 + flow] = meters.energies[flow]
+    row[place + 1 + FRICTION] -= stuck
     row[place + 5] = 0.5 * np.dot(velocity, np.dot(meters.mass, velocity))
     row[place + 6] = 0.5 * np.dot(displacement, np.dot(meters.stiffness, displacement))
-    row[place + 7] = stored
+    row[place + 7] = pressed + stuck

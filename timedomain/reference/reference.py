@@ -43,7 +43,7 @@ class ReferenceMarch:
         self._operators = step_operators(problem, self._shapes, self._step)
         self._sliders = sliders(problem)
         self._state = first_state(problem, history, start, self._step)
-        self._meters = meters(problem, self._shapes)
+        self._meters = meters(problem, self._shapes, self._state)
         self._stored_at_start = stored_energy(problem, self._state)
         # the powers at time zero, for the first trapezoid
         begin = self._factors(np.zeros(1))[0]

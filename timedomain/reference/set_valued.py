@@ -18,11 +18,9 @@ from microslip_mechanics.jit import kernel
 from timedomain.contact.dense import combine, copy, copy_rows
 from timedomain.contact.operators import Operators
 from timedomain.contact.state import State
-from timedomain.record.record import FLOWS, Meters, accumulate, store
+from timedomain.record.record import FRICTION, Meters, accumulate, store
 from timedomain.reference.rigid_points import Sliders
 from timedomain.reference.sliding_newton import Trial, solve_sliding
-
-FRICTION = FLOWS.index("friction")
 
 
 @kernel

@@ -5,28 +5,22 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-import numpy as np
-
-from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.memory import beyond_motion, remembers
 from microslip_mechanics.contact.points import RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.record.start import Start
-from timedomain.shooting.closed_march import ClosedMarch, ShootingError, closed
+from timedomain.shooting.closed_march import ClosedMarch, ShootingError
+from timedomain.shooting.found_orbit import astray, found_orbit
 from timedomain.shooting.period_map import BLOCK, PeriodMap
 from timedomain.shooting.periodic_orbit import (
     PeriodicOrbit,
     amplitude_error,
     extrapolated,
-    first_harmonic,
 )
-from timedomain.shooting.whole_orbit import whole_orbit
 
-ASTRAY = 0.1
-"""change of the first harmonic, relative, from which an orbit may be another one, …"""
-DOUBT = 3.0
-"""… unless it is below so many times the error, if known, of the response beside it"""
+FALL = 4.0
+"""by which twice the steps lower an error at the best"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +58,9 @@ def periodic_orbit(
     """Return the periodic motion near a start, stable or not.
 
     Two orbits, the second with twice the steps, give the extrapolated motion; the
-    difference of the two is the error that is reported (:func:`amplitude_error`).
+    difference of the two is the error that is reported (:func:`amplitude_error`). Where
+    both err alike it is small by chance: the least is what a second order leaves of
+    that of half the steps, a quarter.
 
     Parameters
     ----------
@@ -99,20 +95,42 @@ def periodic_orbit(
     if beyond_motion(points):
         near = None
     coarse = _first(problem, frequency, start, chosen, near)
+    before = _before(coarse, chosen, near)
     while True:
         finer = PeriodMap.of(problem, frequency, 2 * coarse.map.steps)
         try:
-            fine = _found(finer, coarse.state, near)
+            fine = found_orbit(finer, coarse.state, near)
         except ShootingError:
             if 4 * finer.steps > chosen.most:
                 raise
             more = replace(chosen, steps=2 * finer.steps)
             coarse = _first(problem, frequency, start, more, near)
+            before = _before(coarse, more, near)
             continue
-        error = amplitude_error(coarse, fine)
+        last = amplitude_error(coarse, fine)
+        error = max(last, before / FALL)
         if error <= chosen.error or 2 * finer.steps > chosen.most:
-            return extrapolated(coarse, fine, error)
-        coarse = fine
+            return extrapolated(coarse, fine, error if math.isfinite(error) else last)
+        coarse, before = fine, last
+
+
+def _before(
+    coarse: ClosedMarch, chosen: ShootingOptions, near: PeriodicResponse | None
+) -> float:
+    """Return the error of the coarser of two orbits, infinite if it is not known.
+
+    It is 0 where nothing depends on it, since steps cannot be doubled any more, and
+    where half of them are too few to be marched.
+    """
+    carried = coarse.map
+    half, odd = divmod(carried.steps, 2)
+    if odd or half < 2 * BLOCK or 4 * carried.steps > chosen.most:
+        return 0.0
+    halved = PeriodMap.of(carried.problem, carried.frequency, half)
+    try:
+        return amplitude_error(found_orbit(halved, coarse.state, near), coarse)
+    except ShootingError:
+        return math.inf
 
 
 def _first(
@@ -127,58 +145,18 @@ def _first(
     Near a fold or a sharp peak those of too few steps have none at this frequency. If
     none of any steps is close, the first one that there is is returned.
     """
-    steps, astray = chosen.steps, None
+    steps, other = chosen.steps, None
     while True:
         carried = PeriodMap.of(problem, frequency, steps)
         last = 4 * steps > chosen.most
         try:
-            found = _found(carried, carried.state(start), near)
-            if near is None or not _astray(found, near):
+            found = found_orbit(carried, carried.state(start), near)
+            if near is None or not astray(found, near):
                 return found
-            astray = astray or found
+            other = other or found
         except ShootingError:
-            if last and astray is None:
+            if last and other is None:
                 raise
-        if last and astray is not None:
-            return astray
+        if last and other is not None:
+            return other
         steps *= 2
-
-
-def _found(
-    carried: PeriodMap, state: Array, near: PeriodicResponse | None
-) -> ClosedMarch:
-    """Return the orbit of one number of steps, marched or all steps at once.
-
-    Where small motions grow fast a march closes on another orbit, and where they grow
-    too fast on none.
-    """
-    try:
-        marched = closed(carried, state)
-    except ShootingError as error:
-        if near is None:
-            raise
-        try:
-            return whole_orbit(carried, near)
-        except ShootingError as other:
-            raise ShootingError(f"{error}; {other}") from other
-    if near is None or not _astray(marched, near):
-        return marched
-    try:
-        whole = whole_orbit(carried, near)
-    except ShootingError:
-        return marched
-    return min(marched, whole, key=lambda each: _away(each, near))
-
-
-def _astray(marched: ClosedMarch, near: PeriodicResponse) -> bool:
-    """Return whether an orbit seems to be another one than the response beside it."""
-    doubt = DOUBT * near.error if math.isfinite(near.error) else 0.0
-    return _away(marched, near) > max(ASTRAY, doubt)
-
-
-def _away(marched: ClosedMarch, near: PeriodicResponse) -> float:
-    """Return how far the probes' first harmonic is from another motion's, relative."""
-    rows = marched.map.problem.probes.rows
-    wanted = near.coefficients[1:3] @ rows.T
-    away = float(np.linalg.norm(first_harmonic(marched) @ rows.T - wanted))
-    return away / max(float(np.linalg.norm(wanted)), TINY)

@@ -9,7 +9,12 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from microslip.commands.places import demand_no_scene, demand_place, is_folder
+from microslip.commands.places import (
+    demand_no_device,
+    demand_no_scene,
+    demand_place,
+    is_folder,
+)
 
 MOST_ROWS = 100_000
 """of a time history that a picture shows; a longer one is thinned"""
@@ -76,6 +81,8 @@ def outputs(
         chosen /= f"{Path(options.scene).stem}-{suffix}"
     elif chosen.suffix in {".nc", ".png", ".csv"}:
         chosen = chosen.with_suffix("")
+    else:
+        demand_no_device(chosen, "-o")
     for ending in endings or (".nc", ".png"):
         demand_place(chosen.with_name(f"{chosen.name}{ending}"))
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")

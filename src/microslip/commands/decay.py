@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments, dwell
 from microslip.commands.decay_march import marched, recorded
 from microslip.commands.decay_tables import COLUMNS, cycles, errors
-from microslip.commands.written import named, written
+from microslip.commands.written import discard, named, written
 from microslip_mechanics.errors import MicroslipError
 
 if TYPE_CHECKING:
@@ -70,25 +70,23 @@ def _run(options: argparse.Namespace) -> int:
     from microslip.files.store import save_figure, save_table
     from microslip.scenes.rigs import problem_of
     from microslip.scenes.scene_file import load_scene
-    from microslip.studies.decay import liveliest, measured, too_fast, unmeasured
+    from microslip.studies.decay import liveliest, measured, too_fast
 
     data, picture = arguments.outputs(options, "decay", ".nc", ".csv", ".png")
+    table = data.with_suffix(".csv")
     scene = load_scene(options.scene, options.overrides)
     problem = problem_of(scene)
     chosen = _chosen(options, problem)
     begin = _driven(options, scene, problem, data)
     history = recorded(options, scene, problem, begin, data)
-    ending = history.ending
     probe = liveliest(history) if chosen is None else chosen
     with named(f"decay in {data}"):
         decay = measured(problem, history, probe)
     if not decay.time.size:
+        discard(table, picture)
         print(f"decay in {data}")
-        if ending == "complete":
-            ending = unmeasured(problem, history, probe)
-        return arguments.ended(ending)
-    table, hertz = data.with_suffix(".csv"), decay.frequency / math.tau
-    columns = (decay.time, decay.amplitude, hertz, decay.damping)
+        return arguments.ended(_lost(problem, history, probe))
+    columns = decay.time, decay.amplitude, decay.frequency / math.tau, decay.damping
     with named(f"decay in {data}"):
         save_table(table, COLUMNS, zip(*columns, strict=True))
     title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:.9g} Hz"
@@ -96,9 +94,19 @@ def _run(options: argparse.Namespace) -> int:
         lost = too_fast(problem, history, probe)
         print("\n".join(cycles(decay, history.probes[probe], lost)))
         save_figure(picture, decay_figure(history, decay, probe, title))
+    ending = history.ending
     if ending == "complete":
         ending = _tell_step_errors(options, scene, problem, begin, history, probe)
     return arguments.ended(ending)
+
+
+def _lost(problem: Problem, history: TimeHistory, probe: int) -> str:
+    """Return how a decay ended of which nothing is measured."""
+    from microslip.studies.decay import unmeasured
+
+    if history.ending != "complete":
+        return history.ending
+    return unmeasured(problem, history, probe)
 
 
 def _chosen(options: argparse.Namespace, problem: Problem) -> int | None:

@@ -159,8 +159,9 @@ def _unsteady(history: TimeHistory, periods: int) -> str:
             "it is subharmonic, and no longer dwell makes it steady"
         )
     return (
-        f"not steady after {periods} periods: give more --most-periods or a larger "
-        "--tolerance"
+        f"not steady after {periods} periods: give more --most-periods, a larger "
+        "--tolerance, or a smaller march.time_step: its error may keep a motion from "
+        "repeating itself"
     )
 
 

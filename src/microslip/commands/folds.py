@@ -129,14 +129,17 @@ def _keep(
     from microslip.files.store import save_figure, save_table
 
     table, picture = paths
-    rows = [
-        (number, *row)
-        for number, fold in enumerate(folds, start=1)
-        for row in _rows(fold)
-    ]
-    save_table(table, keyed(COLUMNS, options.key), rows)
-    lines, title = [_drawn(fold) for fold in folds], arguments.title(options)
-    with written(f"table in {table}", picture):
+
+    def save() -> None:
+        rows = [
+            (number, *row)
+            for number, fold in enumerate(folds, start=1)
+            for row in _rows(fold)
+        ]
+        save_table(table, keyed(COLUMNS, options.key), rows)
+
+    with written(f"table in {table}", picture, save):
+        lines, title = [_drawn(fold) for fold in folds], arguments.title(options)
         save_figure(picture, folds_figure(lines, along.label, title))
 
 

@@ -65,9 +65,10 @@ def _run(options: argparse.Namespace) -> int:
             name=options.key,
         ),
     )
-    save(data, Stored(curve, followed.scene.text, options.command))
+    stored = Stored(curve, followed.scene.text, options.command)
     title = f"{arguments.title(options)}, {options.frequency:.9g} Hz"
-    with written(f"{curve.frequency.size} points in {data}", picture):
+    told = f"{curve.frequency.size} points in {data}"
+    with written(told, picture, lambda: save(data, stored)):
         print(_table(curve), *residual_range(curve), sep="\n")
         save_figure(picture, curve_figure(curve, title))
     return arguments.ended(curve.ending)

@@ -93,8 +93,9 @@ def _run(options: argparse.Namespace) -> int:
             "curves: give --detached too, or leave it out"
         )
     traced = _traced(options, scene)
-    save(data, Stored(traced.curve, scene.text, options.command))
-    with written(f"{len(traced.responses)} points in {data}", picture):
+    stored = Stored(traced.curve, scene.text, options.command)
+    told = f"{len(traced.responses)} points in {data}"
+    with written(told, picture, lambda: save(data, stored)):
         _tell(options, scene, traced)
         save_figure(picture, curve_figure(traced.curve, arguments.title(options)))
     return arguments.ended(traced.curve.ending)

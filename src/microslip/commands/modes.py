@@ -185,18 +185,20 @@ def _keep(
     from microslip.files.store import save_figure, save_table
     from microslip.mode_lines import mode_lines
 
-    rows = [
-        (
-            mode.linear.frequency / math.tau,
-            point.amplitude,
-            point.frequency / math.tau,
-            point.damping,
-            point.frequency_error,
-            point.damping_error,
-        )
-        for mode in modes
-        for point in mode.points
-    ]
-    save_table(table, COLUMNS, rows)
-    with written(f"table in {table}", picture):
+    def save() -> None:
+        rows = [
+            (
+                mode.linear.frequency / math.tau,
+                point.amplitude,
+                point.frequency / math.tau,
+                point.damping,
+                point.frequency_error,
+                point.damping_error,
+            )
+            for mode in modes
+            for point in mode.points
+        ]
+        save_table(table, COLUMNS, rows)
+
+    with written(f"table in {table}", picture, save):
         save_figure(picture, modes_figure(mode_lines(modes), arguments.title(options)))

@@ -70,6 +70,21 @@ def demand_no_scene(path: Path, option: str, ending: str) -> None:
         )
 
 
+def demand_no_device(path: Path, option: str) -> None:
+    """Refuse a device or a pipe as the name that files get endings to.
+
+    Raises
+    ------
+    OutputError
+        If it is one: files of its name with endings would stand beside it.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise OutputError(
+            f"{option} {path} is no file: results would stand beside it, with endings: "
+            "give a folder, or a path without ending"
+        )
+
+
 def demand_apart(shown: Path, data: Path, what: str = "picture") -> None:
     """Refuse a picture, or a table, that would be written over the data that it shows.
 

@@ -142,12 +142,16 @@ def _keep(
     picture: Path,
 ) -> None:
     """Write table and picture of the values that have a response."""
-    from microslip.studies.poles import branches, limits_of
+    lines: list[ComplexArray] = []
 
-    lines = branches(found, limits_of(question.at(found[0].value)))
-    _write(table, options.key, found, lines)
-    with written(f"table in {table}", picture):
-        _draw(options, question, (found, lines), picture)
+    def save() -> None:
+        from microslip.studies.poles import branches, limits_of
+
+        lines.append(branches(found, limits_of(question.at(found[0].value))))
+        _write(table, options.key, found, lines[0])
+
+    with written(f"table in {table}", picture, save):
+        _draw(options, question, (found, lines[0]), picture)
 
 
 def _draw(

@@ -90,10 +90,13 @@ def _keep(
     from microslip.studies.precision.orbit import QUANTITIES
 
     print(precision_tables.summary(found, exact))
-    save_table(table, precision_tables.COLUMNS, precision_tables.rows(found))
+
+    def save() -> None:
+        save_table(table, precision_tables.COLUMNS, precision_tables.rows(found))
+
     doubts = dict(zip(QUANTITIES, exact.spread, strict=True))
     title = arguments.title(options)
-    with written(f"table in {table}", picture):
+    with written(f"table in {table}", picture, save):
         drawn = precision_figure(_lines(found, exact), doubts, title)
         save_figure(picture, drawn)
 

@@ -146,8 +146,8 @@ def _write(
         for each in found
     ]
     table = picture.with_suffix(".csv")
-    save_table(table, COLUMNS, rows)
-    with written(f"table in {table}", picture):
+    told = f"table in {table}"
+    with written(told, picture, lambda: save_table(table, COLUMNS, rows)):
         _draw(options, picture, chosen, found)
 
 

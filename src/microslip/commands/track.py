@@ -116,9 +116,11 @@ def _keep(
     """Write table and picture."""
     from microslip.files.store import save_table
 
-    rows = [row for each in found for row in _rows(each)]
-    save_table(table, keyed(COLUMNS, options.key), rows)
-    with written(f"table in {table}", picture):
+    def save() -> None:
+        rows = [row for each in found for row in _rows(each)]
+        save_table(table, keyed(COLUMNS, options.key), rows)
+
+    with written(f"table in {table}", picture, save):
         _draw(options, found, picture)
 
 

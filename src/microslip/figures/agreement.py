@@ -14,6 +14,7 @@ from microslip.figures.amplitude import frequency_response, greatest
 from microslip.figures.fitted import fitted
 from microslip.figures.names import absolute, readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
+from microslip.figures.swept_range import show_swept
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.moving_probe import moving_probe
 from microslip_mechanics.results.response_curve import ResponseCurve
@@ -104,12 +105,14 @@ def _differences(axes: Axes, found: tuple[Array, Array, Array, Array]) -> None:
 def _envelopes(
     axes: Axes, curve: ResponseCurve, sweeps: Sequence[tuple[str, Array, Array]]
 ) -> None:
-    probe = moving_probe(curve.peak)
-    for colour, (name, frequency, envelope) in zip(COLOURS[1:], sweeps, strict=False):
-        seen = 1e3 * envelope[:, probe]
-        axes.plot(frequency, seen, color=colour, lw=WIDTH, label=name)
-    peak = 1e3 * curve.peak[:, probe]
-    axes.plot(abscissa(curve), peak, "k", lw=WIDTH * 1.5, label="curve")
+    """Draw the envelopes of a probe that moves in the sweeps, and its curve there."""
+    probe = moving_probe(np.concatenate([each for _, _, each in sweeps]))
+    drawn = [(hertz, 1e3 * envelope[:, probe]) for _, hertz, envelope in sweeps]
+    for colour, (name, *_), line in zip(COLOURS[1:], sweeps, drawn, strict=False):
+        axes.plot(*line, color=colour, lw=WIDTH, label=name)
+    whole = abscissa(curve), 1e3 * curve.peak[:, probe]
+    axes.plot(*whole, "k", lw=WIDTH * 1.5, label="curve")
+    show_swept(axes, whole, drawn)
     title = f"Envelope of the sweeps, {readable(curve.probes[probe])}"
     framed(axes, x=FREQUENCY, y="peak [mm]", title=title)
     axes.legend(frameon=False)

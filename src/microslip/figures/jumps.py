@@ -14,14 +14,12 @@ from microslip.figures.amplitude import steady, stretches
 from microslip.figures.fitted import fitted
 from microslip.figures.names import readable
 from microslip.figures.style import COLOURS, STYLES, WIDTH, framed, headline
+from microslip.figures.swept_range import show_swept
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 BESIDE = 0.2
 """how much of the curve is shown beside the sweeps, over their range"""
-
-ROOM = 1.08
-"""height of the same panel, over the largest deflection in it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,15 +83,9 @@ def _envelopes(axes: Axes, curve: ResponseCurve, jumps: Sequence[JumpLine]) -> N
     title = f"Curve, and envelopes of the sweeps, {names}"
     framed(axes, x=FREQUENCY, y="peak [mm]", title=title)
     axes.legend(frameon=False)
-    swept = [hertz for jump in jumps for hertz, _ in jump.envelopes]
+    swept = [(hertz, 1e3 * each) for jump in jumps for hertz, each in jump.envelopes]
     if swept:
-        low, high = np.min(np.concatenate(swept)), np.max(np.concatenate(swept))
-        room = BESIDE * (high - low)
-        axes.set_xlim(low - room, high + room)
-        inside = peaks[(at >= low - room) & (at <= high + room)]
-        heights = [1e3 * each for jump in jumps for _, each in jump.envelopes]
-        highest = max(np.nanmax(each, initial=0.0) for each in (inside, *heights))
-        axes.set_ylim(0.0, ROOM * highest)
+        show_swept(axes, (at, peaks), swept, beside=BESIDE)
 
 
 def _late(axes: Axes, jump: JumpLine, colour: str) -> None:

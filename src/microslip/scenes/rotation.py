@@ -20,7 +20,11 @@ class SteadyRotation:
     def __post_init__(self) -> None:
         """Check that there is an axis."""
         for name in ("axis", "centre"):
-            if len(getattr(self, name)) != 3:
-                raise ValueError(f"{name} of rotation: give three numbers")
+            count = len(getattr(self, name))
+            if count != 3:
+                raise ValueError(
+                    f"{name} of rotation has {count} number{'s' * (count != 1)}: give "
+                    "three, along x, y and z"
+                )
         if not any(self.axis):
             raise ValueError("axis of rotation is zero: give a direction")

@@ -54,6 +54,10 @@ class Worker(Generic[Item]):
         self._process: SpawnProcess = context.Process(
             target=_serve, args=(theirs, task, prepare), daemon=True
         )
+        if sys.platform != "win32":
+            from multiprocessing.resource_tracker import ensure_running
+
+            ensure_running()  # it would let interruptions through when it starts
         with held_back():
             self._process.start()
         theirs.close()

@@ -33,6 +33,19 @@ def beyond_motion(points: ContactPoints) -> bool:
     return bool((remembers(points) | (points.friction == RIGID)).any())
 
 
+@bare_kernel
+def traction_energy(points: ContactPoints, point: int, traction: Array) -> float:
+    """Return what the spring k_t of one point stores [J], 0 if it has no memory.
+
+    ``traction`` is what it remembers [N], shape ``(2,)``.
+    """
+    kind = points.friction[point]
+    if kind not in (ELASTIC, BRISTLE):
+        return 0.0
+    squared = traction[0] ** 2 + traction[1] ** 2
+    return float(0.5 * squared / points.tangential[point])
+
+
 class Press(NamedTuple):
     """How a point is pressed at one end of a slide."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import Literal
 
@@ -26,12 +27,13 @@ class Sector:
 
     def __post_init__(self) -> None:
         """Check the numbers of masses and springs."""
-        for name, wanted in (("masses", len(PARTS)), ("springs", len(PARTS) - 1)):
+        between = [" to ".join(pair) for pair in itertools.pairwise(PARTS)]
+        for name, wanted in (("masses", PARTS), ("springs", between)):
             count = len(getattr(self, name))
-            if count != wanted:
+            if count != len(wanted):
                 raise ValueError(
-                    f"[sector] {name} has {count} numbers: give {wanted}, for "
-                    f"{', '.join(PARTS)}"
+                    f"[sector] {name} has {count} number{'s' * (count != 1)}: give "
+                    f"{len(wanted)}, for {', '.join(wanted)}"
                 )
         if self.ground == 0.0:
             raise ValueError(

@@ -55,7 +55,7 @@ def compared_energies(
     """Return friction's energy in a span of time, over ``slower``, and its prediction.
 
     Both are 0 where contacts stick along the curve: then the prediction is rounding,
-    and a march counts what its contacts store at the end of the span.
+    and what a march counts the error of its steps.
     """
     energy, work = (
         float(np.diff(np.interp(span, history.time, history.of(flow)))[0]) / slower

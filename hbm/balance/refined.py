@@ -77,6 +77,8 @@ class Refined(NamedTuple):
     """the residual there"""
     slope: Linearised
     """the derivative that the last step had"""
+    further: Array
+    """the point after one more step, where harmonics are few, else the last"""
 
 
 def refined(
@@ -120,7 +122,18 @@ def refined(
     share = system.impulses(harmonics, 2 * harmonics + 1) / known if known else 0.0
     left = _left(sizes, steps <= FIRM.steps) if moves else 1.0
     beyond = _beyond(share, harmonics)
-    return Refined(residual, before, after, left, beyond, now, slope)
+    tells = moves and harmonics < FEW
+    further = _stepped(latest, after, now, normal) if tells else after
+    return Refined(residual, before, after, left, beyond, now, slope, further)
+
+
+def _stepped(slope: Linearised, point: Array, residual: Array, normal: Array) -> Array:
+    """Return where one more step leads, with the derivative at the point itself.
+
+    From few harmonics the steps before may have led far, beside a fold perhaps: the
+    residual that they leave tells too little.
+    """
+    return point - slope.solve(normal, np.append(residual, 0.0))
 
 
 def _lowered(

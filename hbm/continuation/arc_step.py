@@ -10,6 +10,7 @@ import numpy as np
 from hbm.continuation.arc import distance, plane_across, tangent, turn
 from hbm.continuation.corrected import lost, neglected
 from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.lifted import lifted
 from hbm.continuation.linearised import SingularError, System
 from hbm.continuation.newton import Small, correct
 from hbm.continuation.predictor import Predictor
@@ -70,6 +71,9 @@ def next_point(
             raise lost("the curve does not go on", where, candidate, control)
         else:
             failures += 1
+        if lifted(system, past, control, settler):
+            strayed = math.inf
+            continue
         settler.retreat(failures)
         if step < SHORT * control.largest:
             past.order = 1

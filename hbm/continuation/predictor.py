@@ -38,6 +38,11 @@ class Predictor:
         """The last point."""
         return self._points[0]
 
+    def begin(self, point: Array, tangent: Array, orientation: float) -> None:
+        """Begin anew with the last point as it is now, and its unit tangent there."""
+        self._points, self._places, self._bends = [point], [0.0], []
+        self.tangent, self.order, self.orientation = tangent, 1, orientation
+
     def append(self, point: Array, tangent: Array, scale: Array, step: float) -> float:
         """Add a point that lies ``step`` further on, and its unit tangent.
 

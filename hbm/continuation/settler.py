@@ -17,6 +17,10 @@ class Settler(Protocol):
     def changed(self) -> bool:
         """Whether the system is finer or coarser than at the last point kept."""
 
+    @property
+    def finer(self) -> bool:
+        """Whether the system is finer than at the last point kept."""
+
     def settle(
         self,
         correction: Correction,
@@ -46,11 +50,14 @@ class Settler(Protocol):
     def retreat(self, times: int) -> None:
         """Learn that the last point was not kept, for the n-th time in a row."""
 
+    def hold(self) -> None:
+        """Learn that the last point kept has been solved with the present system."""
+
 
 class Unsettled:
     """Keeps each point as it is."""
 
-    changed = False
+    changed = finer = False
 
     def settle(
         self,
@@ -83,6 +90,9 @@ class Unsettled:
         """Do nothing."""
 
     def retreat(self, times: int) -> None:
+        """Do nothing."""
+
+    def hold(self) -> None:
         """Do nothing."""
 
 

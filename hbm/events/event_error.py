@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from hbm.continuation.arc import Metric, distance
+from hbm.continuation.arc import distance
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import PRECISION, Segment, folds
 from hbm.events.amplitude_growth import AmplitudeGrowth
@@ -124,9 +124,9 @@ def _distances(length: float) -> list[float]:
 def peak_error(
     system: AdaptiveBalance,
     growth: AmplitudeGrowth,
+    segment: Segment,
     peak: Correction,
     bend: float,
-    metric: Metric,
 ) -> tuple[float, float]:
     """Return the error of a peak's parameter, and what its amplitude errs by for it.
 
@@ -140,17 +140,21 @@ def peak_error(
         Of the curve.
     growth
         Of the largest amplitude along the curve.
+    segment
+        The step in which the peak was found.
     peak
         As it was settled last.
     bend
         Change of the growth along the segment.
-    metric
-        Of the curve.
     """
     point, _, error = system.report.kept(peak.point)
     largest = float(growth.largest(point)[0])
     doubt = math.sqrt(4.0 * error * largest / bend)
-    finer, _ = system.report.reported(peak, metric(peak.point))
+    finer, fourier = system.report.reported(peak, segment.scale)
+    if fourier != system.settled:  # its tangent is roughly known
+        with system.resolved(fourier):
+            near = PRECISION * segment.length
+            finer = segment.across(finer.point, near) or finer
     steep = abs(growth(finer))
     aside = 0.5 * steep**2 / bend / largest
     return (doubt + steep / bend) * abs(folds(peak)), aside

@@ -188,8 +188,8 @@ class Events:
             settled, aside = self._placed(found, settled, segment, metric)
             error = fold_error(self.system, segment, settled, bend)
         elif found.name == "peak":
-            seen = self.system, self.growth
-            error, aside = peak_error(*seen, settled, bend, metric)
+            seen = self.system, self.growth, segment
+            error, aside = peak_error(*seen, settled, bend)
         if error is None:
             return None
         return Event(settled, found.name, error + found.aside, aside)

@@ -108,6 +108,15 @@ class AdaptiveBalance:
         """Whether the resolution is another one than that of the last kept point."""
         return self._steps.changed
 
+    @property
+    def finer(self) -> bool:
+        """Whether there are more harmonics than at the last kept point."""
+        return self._steps.finer_now
+
+    def hold(self) -> None:
+        """Note that the last kept point has been solved with the present resolution."""
+        self._steps.hold()
+
     def restart(self, harmonics: int) -> None:
         """Begin anew with so many harmonics, or the most, unless they are fixed."""
         self._steps.restart(harmonics)

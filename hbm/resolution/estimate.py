@@ -69,12 +69,14 @@ def changes(values: Array, made: Refined) -> tuple[float, float, float]:
 
     That is by harmonics, and by samples. The rows of ``values`` are those of a point,
     of it solved, solved with more samples, before the last step, after it, of that once
-    harmonics beyond have answered, and with still more samples, if these count.
+    harmonics beyond have answered, after one step more, and with still more samples, if
+    these count.
     """
-    before, solved, resampled, after, last, beyond, *finest = values
+    before, solved, resampled, after, last, beyond, further, *finest = values
     truncation = made.beyond * largest(last - resampled)
     truncation = max(truncation, BEYOND * largest(beyond - last))
     lost = math.isinf(made.left)
-    truncation += math.inf if lost else made.left * largest(last - after)
+    steps = max(made.left * largest(last - after), largest(further - last))
+    truncation += math.inf if lost else steps
     sampling = [resampled - solved, *(each - last for each in finest)]
     return largest(last - before), truncation, max(map(largest, sampling))

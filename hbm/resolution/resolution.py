@@ -87,7 +87,7 @@ class Resolution(ABC):
         solved = point - newton
         points = (
             point, solved, solved - sampled, made.before, made.corrected,
-            beyond, *self._resampled(made, finer, normal),
+            beyond, made.further, *self._resampled(made, finer, normal),
         )  # fmt: skip
         sizes = self.amplitudes(points)
         places = np.array([each[-1:] for each in points])

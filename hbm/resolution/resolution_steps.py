@@ -33,6 +33,11 @@ class ResolutionSteps:
         return self.present != self._kept
 
     @property
+    def finer_now(self) -> bool:
+        """Whether the present one has more harmonics than the last kept point."""
+        return self.present.harmonics > self._kept.harmonics
+
+    @property
     def doubled(self) -> FourierBasis:
         """Twice the present one."""
         return self._choice.doubled(self.present)
@@ -89,6 +94,10 @@ class ResolutionSteps:
         if estimate is not None and self._wait <= 0 and step >= SHORT:
             self.present = self._choice.coarser(self.present, estimate, self._fewest)
             self._sharpest = 0.0
+
+    def hold(self) -> None:
+        """Note that the last kept point has been solved with the present one."""
+        self._kept = self.present
 
     def retreat(self, times: int) -> None:
         """Go back to the resolution of the last kept point, then to finer ones.

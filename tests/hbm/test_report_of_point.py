@@ -17,7 +17,7 @@ CHANGE, SHIFT, ASIDE = 0.5, 0.1, 0.02
 def report(error: float, *, corrects: bool) -> Report:
     """Return the report of a point whose corrected one has an error."""
     rest, slope = np.zeros(1), Dense(np.eye(1, 2))
-    made = Refined(rest, POINT, CORRECTED, 0.0, 0.0, rest, slope)
+    made = Refined(rest, POINT, CORRECTED, 0.0, 0.0, rest, slope, CORRECTED)
     errors = CHANGE, error, 0.0, 0.0, SHIFT, ASIDE
     estimate = Estimate(*errors, FINER, made, np.zeros((5, 1)))
     return Report(estimate, SETTLED, estimates=True, corrects=corrects, most=255)

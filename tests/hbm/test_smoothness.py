@@ -212,7 +212,7 @@ class Blunt(Resolution):
         truncation = 0.5 if fourier.harmonics < self.needed else 0.0
         errors = 0.0, truncation, self.sampling, smoothing, 0.0, 0.0
         rest = correction.residual
-        made = Refined(rest, point, point, 0.0, 0.0, rest, slope)
+        made = Refined(rest, point, point, 0.0, 0.0, rest, slope, point)
         return Estimate(*errors, fourier, made, np.zeros((5, 1)))
 
 

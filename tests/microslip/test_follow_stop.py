@@ -74,3 +74,14 @@ def test_a_fold_is_told_where_planes_across_meet_the_quiet_motion_too() -> None:
     # where the stop is touched, as tolerances of 1.9e-4 and 3e-5 have it
     assert abs(coarse.parameter[turned] - 0.04304636) < coarse.parameter_error[turned]
     assert coarse.parameter_error[turned] < 2e-5
+
+
+@pytest.mark.long
+def test_the_fold_at_the_touch_is_told_where_the_range_begins_just_below() -> None:
+    """There the curve began anew before the fold, from a point of few harmonics."""
+    curve = microslip.follow(pushed, 0.03, 0.06, frequency=5.3625, tolerance=1e-3)
+
+    (fold,) = np.flatnonzero(np.array(curve.event) == "fold")
+    error = curve.parameter_error[fold]
+    assert abs(curve.parameter[fold] - 0.04304636) < 1e-8 + error
+    assert error < 1e-6

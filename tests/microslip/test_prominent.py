@@ -115,6 +115,17 @@ def test_a_fold_without_its_partner_has_to_lead_back_as_far() -> None:
     assert folds([1.0, 2.0, 1.9, 3.0], [1]) == [2.0]
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_points_that_are_farther_by_less_than_a_fold_errs_leave_it(side: float) -> None:
+    beyond, back, fold = 2.0, 2.0 + 0.2 * ERROR, 2.0 + 0.1 * ERROR
+    places = [side * place for place in (3.0, beyond, back, fold, 2.5, 3.0)]
+
+    assert folds(places, [3]) == [side * fold]
+    assert folds(places[::-1], [2]) == [side * fold]
+    # where the curve goes on beyond, it is a ripple
+    assert folds([*places[:4], side, 0.0], [3]) == []
+
+
 def test_how_far_a_peak_is_aside_says_nothing_of_folds() -> None:
     points = folded([1.0, 2.0, 2.0, 1.9, 1.8, 3.0], [2, 4])
     points[1] = replace(points[1], event="peak", parameter_error=1.0)

@@ -27,7 +27,8 @@ def prominent(
 
     The amplitude descends from a peak, on the way to a higher point to either side, by
     more than its error and that of the lowest point on that way together; so does the
-    parameter from a fold at which it is largest, and upside down. Where no point is
+    parameter from a fold at which it is largest, and upside down; a point that is
+    farther by less than the fold errs is no higher one. Where no point is
     higher, or the error of an event is not known, it stays. A fold may lie aside by as
     much as a point beside it is beyond, with the amplitude of that; a branch point that
     may be the fold next to it is no other event, as where its multiplier is all that
@@ -90,7 +91,9 @@ def _standing_out(
         if each.event == "fold":
             outwards = _outwards(at, place) * place
             outwards[at] = outwards[[at, *_beside(at, place)]].max()
-            if not _descends(at, outwards, aside):
+            rivals = folds | (outwards > outwards[at] + aside[at])
+            heights = np.where(rivals, outwards, outwards.clip(max=outwards[at]))
+            if not _descends(at, heights, aside):
                 continue
         yield each
 

@@ -72,7 +72,11 @@ def amplitude(axes: Axes, ways: list[Pass], place: int, probe: str) -> None:
 
 
 def _cycles(history: TimeHistory) -> tuple[Array, Array, Array]:
-    """Return frequency, level and swing of each cycle; none if rows are too rare."""
+    """Return frequency, level and swing of each cycle; none if rows are too rare.
+
+    Those that the end of the march cuts off, or in which the level changes, as at the
+    end of the drive, are left out.
+    """
     time, frequency = history.time, history.frequency
     none = np.zeros(0), np.zeros(0), np.zeros((0, len(history.probes)))
     if frequency.size != time.size or time.size < FEWEST:
@@ -85,7 +89,11 @@ def _cycles(history: TimeHistory) -> tuple[Array, Array, Array]:
     starts = np.flatnonzero(np.diff(cycle, prepend=cycle[0] - 1.0))
     high = np.maximum.reduceat(history.displacement, starts, axis=0)
     low = np.minimum.reduceat(history.displacement, starts, axis=0)
-    return frequency[starts], history.level[starts], 0.5 * (high - low)
+    level = history.level
+    whole = np.minimum.reduceat(level, starts) == np.maximum.reduceat(level, starts)
+    whole[-1] = False
+    seen = starts[whole]
+    return frequency[seen], level[seen], 0.5 * (high - low)[whole]
 
 
 def _stretches(frequency: Array, level: Array) -> list[tuple[int, int]]:

@@ -1,4 +1,4 @@
-"""Where is a motion steady? python tests/benchmarks/steady.py [--hertz HZ …] [--case N …].
+"""Where is a motion steady? python tests/benchmarks/steady.py [--hertz HZ] [--case N].
 
 Combinations of ``microslip grid two-blades`` under a drive that is no less than the
 preload, all or those of the given numbers, are marched from rest. For each a line tells

@@ -74,9 +74,14 @@ def test_an_interruption_waits_until_what_was_printed_is_in_its_table(
 
     monkeypatch.setattr("microslip.studies.poles.branches", interrupted)
 
-    status, output, error = run(
-        "poles", "jenkins", "element.slider.limit", "1", "-o", "it"
-    )
+    # a process in the background may ignore them
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        status, output, error = run(
+            "poles", "jenkins", "element.slider.limit", "1", "-o", "it"
+        )
+    finally:
+        signal.signal(signal.SIGINT, before)
 
     assert (status, error) == (130, SAID)
     assert output.splitlines()[-1] == "table in it.csv"

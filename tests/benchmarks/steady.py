@@ -3,7 +3,7 @@
 Combinations of ``microslip grid two-blades`` under a drive that is no less than the
 preload, all or those of the given numbers, are marched from rest. For each a line tells
 by how much of itself a period still changes the state, and after how many periods it
-repeats itself best; then how many are steady. All take some forty minutes.
+repeats itself best; then how many are steady. All take half an hour.
 """
 
 from __future__ import annotations

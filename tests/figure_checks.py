@@ -45,7 +45,7 @@ def check_labels(figure: Figure) -> None:
     for axes in bottom.values():
         title = axes.get_title(loc="left")
         assert UNIT.search(axes.get_xlabel()), title
-        assert axes.xaxis.get_tick_params()["labelbottom"], title
+        assert axes.xaxis.get_major_ticks()[0].label1.get_visible(), title
 
 
 def unmarked(curve: ResponseCurve) -> ResponseCurve:

@@ -61,19 +61,27 @@ def stepped(
 ) -> Array | None:
     """Return the point once orders beyond have moved it, and others as far again.
 
-    That is two Newton steps with all of them, where iterations give one; nothing where
-    factors would have to. Parameters are those of :func:`answered`.
+    That is twice a Newton step with all of them, or two where both lead farther, as
+    contacts slip elsewhere after the first. Nothing where no iteration gives that.
+    Parameters are those of :func:`answered`.
     """
     low = rank * fourier.coefficients
     point, border = (_widened(each, fourier, rank) for each in (made.corrected, normal))
+    step = _iterated(system, point, border)
+    if step is None:
+        return None
+    more = _iterated(system, point + step, border)
+    steps = [step] if more is None else [step, step + more]
+    moved = point + AGAIN * max(steps, key=lambda each: np.linalg.norm(each[:low]))
+    return np.append(moved[:low], moved[-1])
+
+
+def _iterated(system: Resolved, point: Array, border: Array) -> Array | None:
+    """Return a Newton step in the plane normal to ``border``, if iterations give it."""
     residual, linearised = system(point)
     if not isinstance(linearised, Linearisation):
         return None
-    step = linearised.iterated(border, np.append(-residual, 0.0))
-    if step is None:
-        return None
-    moved = point + AGAIN * step
-    return np.append(moved[:low], moved[-1])
+    return linearised.iterated(border, np.append(-residual, 0.0))
 
 
 def _widened(point: Array, fourier: FourierBasis, rank: int) -> Array:

@@ -32,7 +32,9 @@ class FoldError(NamedTuple):
     parameter: float
     """by its parameter"""
     arc: float = 0.0
-    """along the curve, where it is a fold of short steps or of a part of them"""
+    """along the curve, where it was found farther away than the step tells"""
+    within: float = math.inf
+    """arc about which the curve has slopes of both signs, or is lost"""
 
 
 def fold_error(
@@ -60,7 +62,7 @@ def fold_error(
     step, near = segment.length * fold.along, PRECISION * segment.length
     if segment.after.turns:
         length = abs(segment.length)
-        return FoldError(error + abs(folds(fold)) * length, length)
+        return FoldError(error + abs(folds(fold)) * length, length, length)
     with system.resolved(fourier):
         at = segment.across(point, near)
         doubt = _turns(segment, at.point if at else point, step, near)
@@ -68,7 +70,8 @@ def fold_error(
             return None
     if at is None:
         return FoldError(math.inf)
-    return FoldError(error + doubt.parameter + folds(at) ** 2 / bend, doubt.arc)
+    slope = folds(at)
+    return doubt._replace(parameter=error + doubt.parameter + slope**2 / bend)
 
 
 def _turns(
@@ -91,12 +94,13 @@ def _turns(
             else:
                 lost = lost or place
         if min(slopes.values()) <= 0.0 <= max(slopes.values()):
+            arc = away * segment.length
             far = away > AROUND[-1]
-            return _doubt(slopes, away * segment.length if far else 0.0)
+            return _doubt(slopes, arc) if far else FoldError(0.0, within=arc)
     nearer = [_slope(segment, point, place * step, near) for place in (-NEARER, NEARER)]
     known = [each for each in nearer if each is not None]
     if len(known) == len(nearer) and min(known) < 0.0 < max(known):
-        return FoldError(0.0)
+        return FoldError(0.0, within=NEARER * segment.length)
     upright = bool(lost) and _flattens(slopes, lost)
     return _doubt(slopes, abs(lost) * segment.length) if upright else None
 
@@ -120,7 +124,7 @@ def _slope(segment: Segment, fold: Array, aside: Array, near: float) -> float | 
 
 def _doubt(slopes: dict[float, float], arc: float) -> FoldError:
     """Return what a fold may be aside along an arc with such slopes."""
-    return FoldError(_steepest(slopes) * arc, arc)
+    return FoldError(_steepest(slopes) * arc, arc, arc)
 
 
 def _steepest(slopes: dict[float, float]) -> float:

@@ -189,7 +189,8 @@ class Events:
             if doubt is None:
                 return None
             length = abs(segment.length)
-            arc += max(doubt.arc, length * (1.0 if found.aside else segment.precision))
+            arc = min(max(arc, doubt.arc), doubt.within)
+            arc += length * (1.0 if found.aside else segment.precision)
             point, _, _ = self.system.report.kept(settled.point)
             error, aside = doubt.parameter, self.growth.over(settled, point, arc)
         elif found.name == "peak":

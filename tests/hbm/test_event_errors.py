@@ -148,6 +148,18 @@ def test_what_lies_between_points_that_do_not_converge_is_told_as_roughly(
         assert each.parameter_error < 0.1 * true.frequency
 
 
+def test_a_fold_is_no_farther_aside_than_the_places_between_which_its_curve_turns(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("hbm.events.events.placed_fold", lambda *seen: (seen[2], 100.0))
+
+    told = [each for each in marked("gap", error=1e-3) if each.event == "fold"]
+
+    assert len(told) == 2
+    for each in told:
+        assert 1e-3 < each.error < 0.5  # a hundred units of arc are a hundred times it
+
+
 def test_other_points_have_no_such_error() -> None:
     scene = load_scene("gap")
     problem = problem_of(scene)
@@ -212,6 +224,7 @@ def test_a_fold_that_is_not_yet_upright_may_be_as_far_aside_as_the_curve_goes_on
 
     # the fold lies at p = 1, the point at 1 − away²: twice as much is told
     assert error is not None
+    assert error.within == 0.5 * segment.length
     assert error.parameter - graph.aside == pytest.approx(2.0 * away**2, rel=0.05)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,6 +47,15 @@ class AmplitudeGrowth:
         change = float(sizes[1][place] - sizes[0][place])
         rounding = FLAT * float(sizes[0][place])
         return 2.0 * change / (on - back) if abs(change) > rounding else 0.0
+
+    def over(self, correction: Correction, reported: Array, arc: float) -> float:
+        """Return the change over an arc, relative to the amplitude at a reported point.
+
+        The growth is that of the correction; over no arc none is needed.
+        """
+        if arc == 0.0 or math.isinf(arc):
+            return arc
+        return abs(self(correction)) * arc / float(self.largest(reported)[0])
 
     def largest(self, *points: Array) -> Array:
         """Return the largest amplitude at each point, shape (points,)."""

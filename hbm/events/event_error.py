@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from hbm.continuation.arc import distance
 from hbm.continuation.correction import Correction
@@ -25,10 +26,21 @@ FARTHER, WIDEST = 10.0, 1e-2
 elsewhere where they are resolved more finely"""
 
 
+class FoldError(NamedTuple):
+    """How far aside a fold may be."""
+
+    parameter: float
+    """by its parameter"""
+    arc: float = 0.0
+    """along the curve, where it was found farther away than the step tells"""
+    within: float = math.inf
+    """arc about which the curve has slopes of both signs, or is lost"""
+
+
 def fold_error(
     system: AdaptiveBalance, segment: Segment, fold: Correction, bend: float
-) -> float | None:
-    """Return the error of a fold's parameter; None if the curve does not fold there.
+) -> FoldError | None:
+    """Return the error of a fold; None if the curve does not fold there.
 
     That of the points makes folds of its own where its resolution is hardly enough or
     changes: what counts is the one with which the fold is reported. To the error of
@@ -49,16 +61,22 @@ def fold_error(
     point, fourier, _ = system.report.kept(fold.point)
     step, near = segment.length * fold.along, PRECISION * segment.length
     if segment.after.turns:
-        return error + abs(folds(fold) * segment.length)
+        length = abs(segment.length)
+        return FoldError(error + abs(folds(fold)) * length, length, length)
     with system.resolved(fourier):
         at = segment.across(point, near)
         doubt = _turns(segment, at.point if at else point, step, near)
         if doubt is None:
             return None
-    return error + doubt + folds(at) ** 2 / bend if at else math.inf
+    if at is None:
+        return FoldError(math.inf)
+    slope = folds(at)
+    return doubt._replace(parameter=error + doubt.parameter + slope**2 / bend)
 
 
-def _turns(segment: Segment, point: Array, step: Array, near: float) -> float | None:
+def _turns(
+    segment: Segment, point: Array, step: Array, near: float
+) -> FoldError | None:
     """Return what a fold may be aside if a curve has slopes of both signs about it.
 
     None if it has not; nothing where the curve is lost. Where it is lost to one side
@@ -72,18 +90,19 @@ def _turns(segment: Segment, point: Array, step: Array, near: float) -> float | 
             if slope is not None:
                 slopes[place] = slope
             elif slopes.keys() <= {-away}:
-                return 0.0
+                return FoldError(0.0)
             else:
                 lost = lost or place
         if min(slopes.values()) <= 0.0 <= max(slopes.values()):
+            arc = away * segment.length
             far = away > AROUND[-1]
-            return _steepest(slopes) * away * segment.length if far else 0.0
+            return _doubt(slopes, arc) if far else FoldError(0.0, within=arc)
     nearer = [_slope(segment, point, place * step, near) for place in (-NEARER, NEARER)]
     known = [each for each in nearer if each is not None]
     if len(known) == len(nearer) and min(known) < 0.0 < max(known):
-        return 0.0
+        return FoldError(0.0, within=NEARER * segment.length)
     upright = bool(lost) and _flattens(slopes, lost)
-    return _steepest(slopes) * abs(lost) * segment.length if upright else None
+    return _doubt(slopes, abs(lost) * segment.length) if upright else None
 
 
 def _slope(segment: Segment, fold: Array, aside: Array, near: float) -> float | None:
@@ -101,6 +120,11 @@ def _slope(segment: Segment, fold: Array, aside: Array, near: float) -> float | 
         if distance(at.point, guess, segment.scale) < away:
             return folds(at)
     return None
+
+
+def _doubt(slopes: dict[float, float], arc: float) -> FoldError:
+    """Return what a fold may be aside along an arc with such slopes."""
+    return FoldError(_steepest(slopes) * arc, arc, arc)
 
 
 def _steepest(slopes: dict[float, float]) -> float:

@@ -131,12 +131,12 @@ class Events:
     def _placed(
         self, found: Found, settled: Correction, segment: Segment, metric: Metric
     ) -> tuple[Correction, float]:
-        """Return a fold where it is reported to be, and what its amplitude errs by."""
+        """Return a fold where it is reported to be, and how far aside it may be."""
 
         def settle(beside: Correction) -> Correction | None:
             return self._settled(found._replace(point=beside), segment, metric)
 
-        return placed_fold(self.system, self.growth, segment, settled, settle)
+        return placed_fold(self.system, segment, settled, settle)
 
     def _peak(self, before: Settled, after: Settled, metric: Metric) -> Found | None:
         """Return where the amplitude is largest.
@@ -182,16 +182,20 @@ class Events:
         self, found: Found, settled: Correction, segment: Segment, metric: Metric
     ) -> Event | None:
         """Return a settled event with its errors; None if it is no event."""
-        error: float | None
         error, aside, bend = found.error(), 0.0, found.bend
         if found.name == "fold":
-            settled, aside = self._placed(found, settled, segment, metric)
-            error = fold_error(self.system, segment, settled, bend)
+            settled, arc = self._placed(found, settled, segment, metric)
+            doubt = fold_error(self.system, segment, settled, bend)
+            if doubt is None:
+                return None
+            length = abs(segment.length)
+            arc = min(max(arc, doubt.arc), doubt.within)
+            arc += length * (1.0 if found.aside else segment.precision)
+            point, _, _ = self.system.report.kept(settled.point)
+            error, aside = doubt.parameter, self.growth.over(settled, point, arc)
         elif found.name == "peak":
             seen = self.system, self.growth, segment
             error, aside = peak_error(*seen, settled, bend)
-        if error is None:
-            return None
         return Event(settled, found.name, error + found.aside, aside)
 
     def _changes(

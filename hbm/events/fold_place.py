@@ -1,7 +1,7 @@
 """Where a fold is as it is reported, which may be aside of where it was located (§6.4).
 
-More harmonics move a fold along its curve, along which the parameter hardly changes but
-the amplitude does.
+More harmonics and samples move a fold along its curve, along which the parameter hardly
+changes but the amplitude does.
 """
 
 from __future__ import annotations
@@ -10,9 +10,10 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
+
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import PRECISION, Segment, folds
-from hbm.events.amplitude_growth import AmplitudeGrowth
 from hbm.resolution.adaptive import AdaptiveBalance
 from hbm.resolution.resolution_choice import MARKED
 from microslip_mechanics.arrays import TINY
@@ -22,7 +23,12 @@ NEAR = 1e-4
 FARTHEST = 0.5
 """of a step, by which a fold that is aside is the same fold"""
 MOVES = 3
-"""times that it is looked for along its curve"""
+"""times that it is looked for along its curve, unless it has more than :data:`MARKED`
+harmonics"""
+PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)
+"""about a fold, over what its error leaves open, at which slopes are compared"""
+ERRING = math.sqrt(70.0)
+"""fourth difference of values that err by one each, independently"""
 
 
 class _Place(NamedTuple):
@@ -37,23 +43,20 @@ class _Place(NamedTuple):
 
 def placed_fold(
     system: AdaptiveBalance,
-    growth: AmplitudeGrowth,
     segment: Segment,
     settled: Correction,
     settle: Callable[[Correction], Correction | None],
 ) -> tuple[Correction, float]:
-    """Return a fold where it is reported to be, and what its amplitude may err by.
+    """Return a fold where it is reported to be, and the arc by which it may be aside.
 
-    The latter, relative, is what the amplitude changes along the curve to where the
-    fold is; of what harmonics have moved it more of them move it as much less as they
-    change its amplitude less.
+    Of what harmonics have moved it more of them move it as much less as they change its
+    amplitude less. Where errors change from place to place, as with touches between
+    samples, slopes about it are not smooth, and it may lie as far away as that.
 
     Parameters
     ----------
     system
         At the resolution with which the fold was settled.
-    growth
-        Of the largest amplitude along the curve.
     segment
         The step in which it was found.
     settled
@@ -65,16 +68,14 @@ def placed_fold(
     bend = (slopes[1] - slopes[0]) / segment.length if segment.length else 0.0
     if bend == 0.0:
         return settled, 0.0
-    place = _place(system, segment, settled, bend, settle)
+    place, estimate = _place(system, segment, settled, bend, settle), system.estimate
     if place.moved == place.left == 0.0:
         return place.settled, 0.0
-    estimate = system.estimate
     if estimate is None:
         return place.settled, math.inf
     rest = min(1.0, estimate.error / max(estimate.change, TINY))
-    point, _, _ = system.report.kept(place.settled.point)
-    change = abs(growth(place.settled)) / float(growth.largest(point)[0])
-    return place.settled, change * (place.left + rest * abs(place.moved))
+    away = place.left + rest * abs(place.moved or place.left)
+    return place.settled, max(away, _uneven(system, segment, place.settled, bend))
 
 
 def _place(
@@ -86,10 +87,9 @@ def _place(
 ) -> _Place:
     """Return a fold moved along its curve to where that folds as it is reported.
 
-    It stays where nothing is corrected, where it has so many harmonics that it is
-    reported as it was settled, and where the corrected curve is not found beside it.
-    ``bend`` is the change of :func:`~hbm.continuation.segment.folds` along the segment,
-    with its sign.
+    It stays where it is reported as it was settled, with many harmonics, and where the
+    corrected curve is not found beside it. ``bend`` is the change of
+    :func:`~hbm.continuation.segment.folds` along the segment, with its sign.
     """
     best = _Place(settled)
     known = _slope(system, segment, settled)
@@ -100,7 +100,7 @@ def _place(
         step = -known / slope
         best = _Place(best.settled, place, abs(step))
         moves = NEAR * segment.length < abs(step) < FARTHEST * segment.length
-        if not moves:
+        if not (moves and _moves(system, best.settled)):
             break
         guess = settled.point + (place + step) * settled.along
         beside = segment.across(guess, PRECISION * segment.length)
@@ -116,16 +116,45 @@ def _place(
     return best
 
 
-def _slope(
-    system: AdaptiveBalance, segment: Segment, settled: Correction
-) -> float | None:
-    """Return what is zero at a fold, at the point as it is reported, if that is known.
+def _moves(system: AdaptiveBalance, settled: Correction) -> bool:
+    """Return whether a fold is reported with more, and not many, harmonics."""
+    _, fourier, _ = system.report.kept(settled.point)
+    return fourier != system.settled and fourier.harmonics <= MARKED
 
-    None as well if it is reported as it was settled.
+
+def _slope(
+    system: AdaptiveBalance, segment: Segment, settled: Correction, aside: float = 0.0
+) -> float | None:
+    """Return what is zero at a fold, of the finer curve near or beside it, if known.
+
+    That is the one with the resolution of its estimate; None if that led to no point.
+    ``aside`` is the arc to there.
     """
-    point, fourier, _ = system.report.kept(settled.point)
-    if fourier == system.settled or fourier.harmonics > MARKED:
+    estimate = system.estimate
+    if estimate is None or math.isinf(estimate.error):
         return None
-    with system.resolved(fourier):
-        at = segment.across(point, PRECISION * segment.length)
+    guess = estimate.corrected + aside * settled.along
+    with system.resolved(estimate.fourier):
+        at = segment.across(guess, PRECISION * segment.length)
     return folds(at) if at else None
+
+
+def _uneven(
+    system: AdaptiveBalance, segment: Segment, settled: Correction, bend: float
+) -> float:
+    """Return the arc by which a fold may be aside for slopes that are not smooth.
+
+    That is twice the deviation of slopes of the finer curve from polynomials of third
+    degree, at places about the fold as far as the error of its parameter leaves open
+    where the curve folds; none where a slope is not known.
+    """
+    reach = math.sqrt(4.0 * system.report.aside / abs(bend))
+    slopes = [
+        _slope(system, segment, settled, place * min(reach, abs(segment.length)))
+        for place in PLACES
+    ]
+    known = [each for each in slopes if each is not None]
+    if len(known) < len(slopes):
+        return 0.0
+    difference = float(np.diff(known, len(known) - 1)[0])
+    return 2.0 * abs(difference) / ERRING / abs(bend)

@@ -13,7 +13,7 @@ from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from rigs import rig_problem
 from small_motions.multipliers import floquet_multipliers
-from timedomain.record.start import Start
+from timedomain.record.start import Start, on_orbit
 from timedomain.shooting.comparison import MULTIPLIER_FLOOR, compared
 from timedomain.shooting.shooting import ShootingOptions, periodic_orbit
 
@@ -142,3 +142,25 @@ def test_harmonic_balance_comes_closer_to_the_orbit_with_more_harmonics() -> Non
 
     assert np.all(np.diff(distances) < 0.0)
     assert distances[-1] < 1e-3 * distances[0]
+
+
+def test_multipliers_by_shooting_err_by_no_more_than_is_told() -> None:
+    # two orbits whose multipliers err alike: 1/13 of it was told
+    problem, place = rig_problem(), TURN * 135.0256
+    options = CurveOptions(TURN * 134.3, TURN * 135.8, stability=False, events=False)
+    found = frequency_response(problem, static_equilibrium(problem), options)
+    response = min(found, key=lambda each: abs(each.frequency - place))
+    start, finest = on_orbit(problem, response), ShootingOptions(steps=2048, most=4096)
+
+    orbit, finer = (
+        periodic_orbit(
+            problem, response.frequency, start=start, near=response, options=each
+        )
+        for each in (ShootingOptions(), finest)
+    )
+
+    away = np.abs(finer.multipliers - orbit.multipliers[0])
+    nearest = int(away.argmin())
+    assert orbit.steps < finer.steps
+    assert finer.multiplier_error[nearest] < 0.1 * away[nearest]
+    assert away[nearest] <= orbit.multiplier_error[0] < 10.0 * away[nearest]

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from scipy.integrate import simpson
 from scipy.linalg import expm
 from scipy.optimize import root
 
@@ -77,18 +78,33 @@ class Struck:
 
     def doubling(self, response: PeriodicResponse) -> float:
         """Return the frequency [rad/s] near a response at which a multiplier is -1."""
+        return float(self._with_multiplier(response, -1.0)[1])
+
+    def fold(self, response: PeriodicResponse) -> tuple[float, float]:
+        """Return frequency [rad/s] and first harmonic [m] of the fold near a response.
+
+        A multiplier is 1 there.
+        """
+        phase, *unknown = self._with_multiplier(response, 1.0)
+        return float(unknown[0]), self.amplitude(np.array(unknown), float(phase))
+
+    def _with_multiplier(self, response: PeriodicResponse, value: float) -> Array:
+        """Return phase and unknowns of the motion near a response with a multiplier.
+
+        That is 1 or -1.
+        """
         phase, unknown = self.near(response)
 
         def missed(state: Array) -> Array:
             omega, share, _ = state[1:]
             on, off = self.period(omega, share * 2.0 * np.pi / omega)
             carried = off[:2, :2] @ on[:2, :2]
-            excess = 1.0 + np.trace(carried) + np.linalg.det(carried)
+            excess = 1.0 - value * np.trace(carried) + np.linalg.det(carried)
             return np.append(self.missed(state[1:], state[0]), excess)
 
         exact = root(missed, np.append(phase, unknown), tol=1e-13).x
         assert np.abs(missed(exact)).max() < 1e-10
-        return float(exact[1])
+        return np.asarray(exact)
 
     def at(self, response: PeriodicResponse) -> Array:
         """Return phase and unknowns of the motion at a response's frequency."""
@@ -126,26 +142,22 @@ class Struck:
             [response.frequency, on.mean(), speed[first] / GAP]
         )
 
-    def fold(self, response: PeriodicResponse) -> float:
-        """Return the frequency [rad/s] of the fold near a response.
-
-        Along the phase of first touch ω is largest there.
-        """
-        phase, unknown = self.near(response)
-        phases = phase + np.linspace(-0.1, 0.1, 9)
-        omegas = []
-        for each in phases:
-            exact = root(self.missed, unknown, args=(each,), tol=1e-13).x
-            assert np.abs(self.missed(exact, each)).max() < 1e-10
-            omegas.append(exact[0])
-        fitted = np.polynomial.Polynomial.fit(phases, omegas, 6)
-        turns = [
-            float(turn.real)
-            for turn in fitted.deriv().roots()
-            if abs(turn.imag) < 1e-9 and phases[0] < turn.real < phases[-1]
-        ]
-        assert len(turns) == 1
-        return float(fitted(turns[0]))
+    def amplitude(self, unknown: Array, phase: float) -> float:
+        """Return the first harmonic [m] of a motion, by Simpson's rule."""
+        omega, share, speed = unknown
+        state = np.array([GAP, speed * GAP * omega, np.cos(phase), np.sin(phase), 1.0])
+        period, wave, begin = 2.0 * np.pi / omega, 0.0j, 0.0
+        for touching, part in ((True, share), (False, 1.0 - share)):
+            times = np.linspace(0.0, part * period, 513)
+            step = self.carried(omega, float(times[1]), touching=touching)
+            moved = [state[0]]
+            for _ in times[1:]:
+                state = step @ state
+                moved.append(state[0])
+            turned = np.exp(-1j * omega * (begin + times))
+            wave += simpson(np.array(moved) * turned, x=times)
+            begin += part * period
+        return float(2.0 / period * abs(wave))
 
 
 @pytest.mark.parametrize(
@@ -170,7 +182,7 @@ def test_the_curve_of_a_mass_that_strikes_a_stiff_stop_is_whole(stop: float) -> 
     assert "restart" not in events
     assert len(found) < 130  # 642 where Newton's iteration crept from sample to sample
     upper = next(each for each in found if each.event == "fold")
-    exact = struck.fold(upper)
+    exact, _ = struck.fold(upper)
     assert upper.frequency == pytest.approx(exact, rel=2e-5)
     assert abs(upper.frequency - exact) <= upper.parameter_error
     for each in found:
@@ -181,6 +193,37 @@ def test_the_curve_of_a_mass_that_strikes_a_stiff_stop_is_whole(stop: float) -> 
             largest = float(np.abs(each.multipliers).max())
             assert largest == pytest.approx(exactly, rel=5e-3)  # measured 2.7e-3
             assert each.unstable == (exactly > 1.0)
+
+
+@pytest.mark.parametrize(
+    ("stop", "drive", "tolerance", "most"),
+    [
+        (2e3, 0.1, 1e-4, 31),  # errors change with the place of touches
+        (1e4, 0.05, 1e-4, 511),
+        (6e4, 0.1, 1e-4, 255),
+        (6e4, 0.1, 1e-3, 63),  # the fold of first touch, in short steps
+        (2e5, 0.1, 1e-4, 255),
+    ],
+)
+def test_amplitudes_of_folds_err_by_no_more_than_is_told(
+    stop: float, drive: float, tolerance: float, most: int
+) -> None:
+    # with 255 harmonics and more up to a hundredth was told, with few up to a twelfth
+    scene = load_scene("gap", [f"drive.x={drive}", f"element.stop.stiffness={stop}"])
+    problem = problem_of(scene)
+    options = CurveOptions(
+        2.0 * np.pi * 4.5, 2.0 * np.pi * 8.0, error=tolerance, stability=False
+    )
+
+    found = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    folds = [each for each in found if each.event == "fold"]
+    assert max(each.harmonics for each in folds) == most
+    for each in folds:
+        exact, amplitude = Struck(stop, drive).fold(each)
+        size = float(each.amplitudes(problem.probes.rows).max())
+        assert abs(each.frequency - exact) <= each.parameter_error
+        assert abs(size / amplitude - 1.0) <= each.error < 2e-3
 
 
 @pytest.mark.parametrize("ends", [(4.6, 5.0), (5.0, 4.6)])

@@ -34,6 +34,8 @@ class Line:
     """that runs from 0 to 1"""
     aside = 0.0
     """error of the parameter at a fold"""
+    estimate = None
+    """of a point: none is asked for"""
 
     def __init__(self, start: float) -> None:
         self.start = start

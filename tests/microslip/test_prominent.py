@@ -126,6 +126,27 @@ def test_points_that_are_farther_by_less_than_a_fold_errs_leave_it(side: float) 
     assert folds([*places[:4], side, 0.0], [3]) == []
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_where_ripples_turn_a_curve_its_only_fold_stays(side: float) -> None:
+    ripples = [2.0 + each * ERROR for each in (-0.3, -0.1, -0.4, 0.0, -0.2, -0.3)]
+    back, on = ([side * each for each in [3.0, *ripples, end]] for end in (2.5, 1.5))
+
+    assert folds(back, [4]) == [side * 2.0]
+    assert folds(back[::-1], [3]) == [side * 2.0]
+    assert folds(on, [4]) == []
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_fold_whose_partner_is_a_ripple_is_one_too(side: float) -> None:
+    places = [side * each for each in (1.0, 1.9, 2.0, 1.99, 2.0005, 2.5, 3.0)]
+    points = folded(places, [2, 4])
+    points[4] = replace(points[4], parameter_error=0.05)
+
+    found = prominent(oscillator(), points)
+
+    assert [each.event for each in found if each.event] == []
+
+
 def test_how_far_a_peak_is_aside_says_nothing_of_folds() -> None:
     points = folded([1.0, 2.0, 2.0, 1.9, 1.8, 3.0], [2, 4])
     points[1] = replace(points[1], event="peak", parameter_error=1.0)

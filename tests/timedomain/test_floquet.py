@@ -21,6 +21,7 @@ from small_problems import (
     prescribed,
     sliding_block,
 )
+from timedomain.shooting.floquet import Multipliers
 
 TURN = 2.0 * np.pi
 FREQUENCY, MASS = 3.0, 2.0
@@ -92,6 +93,16 @@ def test_extrapolated_multipliers_converge_with_fourth_order() -> None:
 
     order = observed_order([1.0 / each for each in steps], errors)
     assert order == pytest.approx(4.0, abs=0.3)
+
+
+def test_multipliers_err_by_a_quarter_of_that_with_half_the_steps_at_least() -> None:
+    known = Multipliers(np.array([1.2, 0.5]), np.array([1e-6, 1e-3]))
+    before = Multipliers(np.array([0.52, 1.19]), np.array([2e-3, 4e-2]))
+
+    told = known.after(before)
+
+    np.testing.assert_allclose(told.error, [1e-2, 1e-3])
+    np.testing.assert_array_equal(told.values, known.values)
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,8 @@ from microslip_mechanics.arrays import Array, ComplexArray
 
 RESOLVED = 0.1
 """change of a multiplier from half the steps up to which it is extrapolated"""
+FALL = 4.0
+"""by which twice the steps lower an error at the best"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +23,20 @@ class Multipliers:
     """by falling modulus, shape (2 dofs,)"""
     error: Array
     """how far extrapolation from steps to half of them moved each, shape (2 dofs,)"""
+
+    def after(self, coarser: Multipliers) -> Multipliers:
+        """Return them with errors that are no accident, from those of twice the steps.
+
+        Where both steps err alike the change is small by chance: the least error is
+        what a second order leaves of that of the nearest multiplier before.
+        """
+        if not np.isfinite([self.values, coarser.values]).all():
+            return self
+        distance = np.abs(self.values[:, None] - coarser.values)
+        _, paired = linear_sum_assignment(distance)
+        return Multipliers(
+            self.values, np.maximum(self.error, coarser.error[paired] / FALL)
+        )
 
 
 def extrapolated_multipliers(coarse: Array, fine: Array) -> Multipliers:

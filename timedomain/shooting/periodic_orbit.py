@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from microslip_mechanics.arrays import TINY, Array, ComplexArray
 from timedomain.record.start import Start
 from timedomain.shooting.closed_march import ClosedMarch
-from timedomain.shooting.floquet import extrapolated_multipliers
+from timedomain.shooting.floquet import Multipliers, extrapolated_multipliers
 from timedomain.shooting.period_sensitivity import loose_monodromy
 from timedomain.shooting.small_motions import small_motions
 
@@ -55,17 +55,23 @@ class PeriodicOrbit:
         return _amplitude(self.coefficients, self.rows)
 
 
-def extrapolated(coarse: ClosedMarch, fine: ClosedMarch, error: float) -> PeriodicOrbit:
+def extrapolated(
+    coarse: ClosedMarch,
+    fine: ClosedMarch,
+    error: float,
+    halved: ClosedMarch | None = None,
+) -> PeriodicOrbit:
     """Return the orbit to which two marches converge, the second of twice the steps.
 
     The error of a step falls with its square: extrapolation adds a third of the change.
-    ``error`` is that of the amplitudes.
+    ``error`` is that of the amplitudes; ``halved``, a march of half the first's steps,
+    tells multipliers' errors that are small by chance.
     """
     coefficients, moved = _coefficients_of(coarse, fine)
     stuck = coarse.period.slides.stuck | fine.period.slides.stuck
-    multipliers = extrapolated_multipliers(
-        *(_small_motions(each, stuck) for each in (coarse, fine))
-    )
+    multipliers = _multipliers(coarse, fine, stuck)
+    if halved is not None:
+        multipliers = multipliers.after(_multipliers(halved, coarse, stuck))
     more = (fine.period.friction - coarse.period.friction) / 3.0
     return PeriodicOrbit(
         fine.map.start(fine.state),
@@ -102,6 +108,15 @@ def amplitude_error(coarse: ClosedMarch, fine: ClosedMarch) -> float:
 def first_harmonic(marched: ClosedMarch) -> Array:
     """Return a₁ and b₁ of the displacement [m or rad], shape (2, dofs)."""
     return _coefficients(marched, 1)[1:]
+
+
+def _multipliers(
+    coarse: ClosedMarch, fine: ClosedMarch, stuck: NDArray[np.bool_]
+) -> Multipliers:
+    """Return the multipliers to which two marches converge."""
+    return extrapolated_multipliers(
+        *(_small_motions(each, stuck) for each in (coarse, fine))
+    )
 
 
 def _small_motions(marched: ClosedMarch, stuck: NDArray[np.bool_]) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from microslip_mechanics.contact.memory import beyond_motion, remembers
 from microslip_mechanics.contact.points import RIGID
@@ -11,6 +12,7 @@ from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from timedomain.record.start import Start
 from timedomain.shooting.closed_march import ClosedMarch, ShootingError
+from timedomain.shooting.floquet import FALL
 from timedomain.shooting.found_orbit import astray, found_orbit
 from timedomain.shooting.period_map import BLOCK, PeriodMap
 from timedomain.shooting.periodic_orbit import (
@@ -18,9 +20,6 @@ from timedomain.shooting.periodic_orbit import (
     amplitude_error,
     extrapolated,
 )
-
-FALL = 4.0
-"""by which twice the steps lower an error at the best"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,29 +107,40 @@ def periodic_orbit(
             before = _before(coarse, more, near)
             continue
         last = amplitude_error(coarse, fine)
-        error = max(last, before / FALL)
+        error = max(last, before.error / FALL)
         if error <= chosen.error or 2 * finer.steps > chosen.most:
-            return extrapolated(coarse, fine, error if math.isfinite(error) else last)
-        coarse, before = fine, last
+            told = error if math.isfinite(error) else last
+            return extrapolated(coarse, fine, told, before.march)
+        coarse, before = fine, _Before(last, coarse)
+
+
+class _Before(NamedTuple):
+    """What is known of the coarser of two orbits by half its steps."""
+
+    error: float
+    """of the amplitudes, infinite if it is not known"""
+    march: ClosedMarch | None
+    """with half the steps"""
 
 
 def _before(
     coarse: ClosedMarch, chosen: ShootingOptions, near: PeriodicResponse | None
-) -> float:
-    """Return the error of the coarser of two orbits, infinite if it is not known.
+) -> _Before:
+    """Return what half the steps tell of the coarser of two orbits.
 
-    It is 0 where nothing depends on it, since steps cannot be doubled any more, and
-    where half of them are too few to be marched.
+    The error is 0 where nothing depends on it, since steps cannot be doubled any more,
+    and where half of them are too few to be marched.
     """
     carried = coarse.map
     half, odd = divmod(carried.steps, 2)
     if odd or half < 2 * BLOCK or 4 * carried.steps > chosen.most:
-        return 0.0
+        return _Before(0.0, None)
     halved = PeriodMap.of(carried.problem, carried.frequency, half)
     try:
-        return amplitude_error(found_orbit(halved, coarse.state, near), coarse)
+        march = found_orbit(halved, coarse.state, near)
     except ShootingError:
-        return math.inf
+        return _Before(math.inf, None)
+    return _Before(amplitude_error(march, coarse), march)
 
 
 def _first(

@@ -28,13 +28,14 @@ def prominent(
     The amplitude descends from a peak, on the way to a higher point to either side, by
     more than its error and that of the lowest point on that way together; so does the
     parameter from a fold at which it is largest, and upside down; a point that is
-    farther by less than the fold errs is no higher one. Where no point is
-    higher, or the error of an event is not known, it stays. A fold may lie aside by as
-    much as a point beside it is beyond, with the amplitude of that; a branch point that
-    may be the fold next to it is no other event, as where its multiplier is all that
-    crosses for the fold. Where more harmonics take a curve up a
-    step back, without a fold, it goes on from where it passes the peak again. What does
-    not hang together is looked at piece by piece.
+    farther by less than the fold errs is no higher one. Where no point is higher, or
+    the error of an event is not known, it stays. What leads to where a fold may be and
+    away from there on one side has a fold there, else none or two. A fold may lie aside
+    by as much as a point beside it is beyond, with the amplitude of that; a branch
+    point that may be the fold next to it is no other event, as where its multiplier is
+    all that crosses for the fold. Where more harmonics take a curve up a step back,
+    without a fold, it goes on from where it passes the peak again. What does not hang
+    together is looked at piece by piece.
     """
     begins = [at for at, each in enumerate(points) if each.event in BEGINNINGS]
     bounds = sorted({0, *begins, len(points)})
@@ -80,6 +81,7 @@ def _standing_out(
     place = np.array([each.parameter for each in piece])
     folds = np.array([each.event == "fold" for each in piece], dtype=bool)
     aside = np.where(folds, [each.parameter_error for each in piece], np.nan)
+    ripples = []
     for at, each in enumerate(piece):
         if each.event == "peak":
             on = [*range(at + 1), *range(_passed(at, place, folds), len(piece))]
@@ -87,15 +89,47 @@ def _standing_out(
             same = (place == place[at]) & (amplitude == amplitude[at])
             sure = np.where(same, doubt[same].min(), doubt)
             if not _descends(at, amplitude[on], sure[on]):
-                continue
-        if each.event == "fold":
-            outwards = _outwards(at, place) * place
-            outwards[at] = outwards[[at, *_beside(at, place)]].max()
-            rivals = folds | (outwards > outwards[at] + aside[at])
-            heights = np.where(rivals, outwards, outwards.clip(max=outwards[at]))
-            if not _descends(at, heights, aside):
-                continue
-        yield each
+                ripples.append(at)
+        if each.event == "fold" and not _turns(at, place, folds, aside):
+            ripples.append(at)
+    left_out = _matched(ripples, place, folds, aside)
+    yield from (each for at, each in enumerate(piece) if at not in left_out)
+
+
+def _turns(at: int, place: Array, folds: Array, aside: Array) -> bool:
+    """Return whether the parameter goes back from a fold far enough."""
+    outwards = _outwards(at, place) * place
+    outwards[at] = outwards[[at, *_beside(at, place)]].max()
+    rivals = folds | (outwards > outwards[at] + aside[at])
+    heights = np.where(rivals, outwards, outwards.clip(max=outwards[at]))
+    return _descends(at, heights, aside)
+
+
+def _matched(
+    ripples: Sequence[int], place: Array, folds: Array, aside: Array
+) -> set[int]:
+    """Return which ripples to leave out, and folds that match one of them.
+
+    Where a curve comes to what a fold may be and leaves it on the same side, one of the
+    folds there stays that is known best; where it goes through, the others are paired.
+    """
+    left_out = set(ripples)
+    for at in ripples:
+        if not folds[at] or at not in left_out:
+            continue
+        far = np.flatnonzero(np.abs(place - place[at]) > aside[at])
+        before, after = far[far < at], far[far > at]
+        if not (before.size and after.size):
+            continue
+        first, last = int(before[-1]), int(after[0])
+        here = [each for each in range(first + 1, last) if folds[each]]
+        stay = [each for each in here if each not in left_out]
+        back = (place[first] - place[at]) * (place[last] - place[at]) > 0.0
+        if back and len(stay) % 2 == 0:
+            left_out.discard(min(set(here) & left_out, key=aside.item))
+        elif not back and len(stay) % 2 == 1:
+            left_out.add(max(stay, key=aside.item))
+    return left_out
 
 
 def _passed(at: int, place: Array, folds: Array) -> int:

@@ -62,7 +62,7 @@ def stepped(
     """Return the point once orders beyond have moved it, and others as far again.
 
     That is twice a Newton step with all of them, or two where both lead farther, as
-    contacts slip elsewhere after the first. Nothing where no iteration gives that.
+    contacts slip elsewhere after the first. None where iterations do not give that.
     Parameters are those of :func:`answered`.
     """
     low = rank * fourier.coefficients

@@ -131,6 +131,12 @@ def _probes(given: ProbeForms | None, names: tuple[str, ...]) -> Probes:
     ):
         raise ValueError(f"probes = {given!r}: give the names of one or more")
     if not isinstance(given, Mapping):
+        listed = [str(name) for name in given]
+        if len(set(listed)) < len(listed):
+            twice = max(listed, key=listed.count)
+            raise ValueError(
+                f"probes: {twice} stands there more than once: give it once"
+            )
         given = {str(name): name for name in given}
     rows = [_probe(name, wanted, names) for name, wanted in given.items()]
     return Probes(tuple(given), np.array(rows))

@@ -282,6 +282,7 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     ),
     "ends that are a number": ({"probes": {"tip": 3}}, ("probe tip = 3", "two ends")),
     "probes that are a number": ({"probes": 3}, ("probes = 3", "names")),
+    "probe twice": ({"probes": ["x1", "x2", "x1"]}, ("probes: x1", "more than once")),
     "probe without a name": ({"probes": [True]}, ("probe True", "two ends")),
     "stiffness of another shape": (
         {"stiffness": np.eye(3)},

@@ -163,6 +163,15 @@ def test_a_close_up_of_nearly_everything_is_none(small_curve: ResponseCurve) -> 
     assert not worth(_located(small_curve, hertz, ("",) * 41))
 
 
+def test_a_branch_and_its_point_at_one_place_have_no_close_up(
+    small_curve: ResponseCurve,
+) -> None:
+    hertz = [125.0, 130.0, 135.0, 145.0, 135.0, 140.0]
+    events = ("", "", "branch point", "", "branch", "")
+
+    assert not worth(_located(small_curve, hertz, events))
+
+
 def test_a_curve_without_points_has_no_crowd(small_curve: ResponseCurve) -> None:
     assert crowd(_located(small_curve, [], ())) == []
 

@@ -32,12 +32,15 @@ CLOSE = 0.6
 
 
 def worth(curve: ResponseCurve) -> bool:
-    """Return whether a close-up shows more than the picture of the whole curve."""
+    """Return whether a close-up shows more than the picture of the whole curve.
+
+    What lies at one place, as a branch does with its point, none would tell apart.
+    """
     if not crowd(curve):
         return False
     low, high = _window(curve)
     at = abscissa(curve)
-    return high - low < CLOSE * float(np.ptp(at[np.isfinite(at)]))
+    return 0.0 < high - low < CLOSE * float(np.ptp(at[np.isfinite(at)]))
 
 
 def close_up(axes: Axes, curve: ResponseCurve) -> None:

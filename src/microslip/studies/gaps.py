@@ -20,6 +20,8 @@ BROKEN = "the curve breaks off on its way back, at"
 """begins the ending of one that comes to its end without what a fold has begun"""
 ALIKE = 0.05
 """relative difference of the amplitudes of points that may be beside each other"""
+SAME = 0.01
+"""the same where a piece has been before, between points of which it is interpolated"""
 OTHERS = ("branch", "detached")
 """marks of the first point of what does not belong to the curve itself"""
 
@@ -108,19 +110,38 @@ def broken(curve: ResponseCurve) -> list[float]:
     """Return where pieces break off on their way back, along what is followed.
 
     That is behind a fold, within the range, and where no later piece goes on with about
-    that amplitude: what a fold has begun does not lead there.
+    that amplitude: what a fold has begun does not lead there. Nor does what comes in at
+    an end, the last of a curve that is complete without it. Of a piece that goes back
+    on itself it is where it turned.
     """
-    own, size = _own(curve), curve.amplitude.max(axis=1, initial=0.0)
+    own = _own(curve)
+    size = curve.amplitude[: own.size].max(axis=1, initial=0.0)
     begins = [n for n, name in enumerate(curve.event[: own.size]) if name == "restart"]
     found: list[float] = []
-    for first, after in zip([0, *begins], begins, strict=False):
+    for first, after in zip([0, *begins], [*begins, own.size], strict=True):
         last = after - 1
         steps = np.diff(own[first:after])
         back = steps.size > 1 and steps[0] * steps[-1] < 0.0
+        back |= after == own.size and curve.ending == "complete"
         inside = own.min() < own[last] < own.max()
-        if back and inside and not _goes_on(own, size[: own.size], last):
-            found.append(float(own[last]))
+        if back and inside and not _goes_on(own, size, last):
+            found.append(_end(own[first:after], size[first:after]))
     return found
+
+
+def _end(own: np.ndarray, size: np.ndarray) -> float:
+    """Return where a piece breaks off: where it turned if it then went back on itself.
+
+    That is what lies between its end and where it had been there before.
+    """
+    place = float(own[-1])
+    before, sizes = own[:-1], size[:-1]
+    passes = np.flatnonzero((before[:-1] - place) * (before[1:] - place) < 0.0)
+    shares = (place - before[passes]) / (before[passes + 1] - before[passes])
+    there = sizes[passes] + shares * (sizes[passes + 1] - sizes[passes])
+    alike = passes[np.abs(there - size[-1]) <= SAME * size[-1]]
+    since = before[alike[-1] + 1 :] if alike.size else own[-1:]
+    return float(since[np.abs(since - place).argmax()])
 
 
 def _goes_on(own: np.ndarray, size: np.ndarray, last: int) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,10 @@ BETTER = 0.1
 """of that: how well they are solved"""
 HEAD = 64
 """components of points, the first ones, that are compared with all that is known"""
+BACK = 10
+"""points in a row that steps pass the other way, from which on a curve retraces its
+own: one that does so for seven has found a corner behind them
+"""
 AWAY = 1.1
 """length of a step, over its own, beyond which it passes no point"""
 
@@ -48,8 +53,17 @@ class _Known(NamedTuple):
         return _Known(np.where(has, self.point, 0.0), np.where(has, self.along, 0.0))
 
 
+class _Passed(NamedTuple):
+    """A point that a step passes."""
+
+    number: int
+    """of those known"""
+    onwards: bool
+    """whether in the direction that the curve had there"""
+
+
 class Trail:
-    """Knows whether a step passes, the same way, where the curve has been."""
+    """Knows whether a step passes where the curve has been."""
 
     def __init__(self, system: System, control: StepControl) -> None:
         """Begin without points of a ``system``, to be solved as ``control`` asks."""
@@ -57,6 +71,7 @@ class Trail:
         self._known: list[_Known] = []
         self._heads: list[Array] = []
         self._last: Array = np.empty(0)
+        self._turns: list[float] = []  # of steps in a row that passed points backwards
 
     def append(self, correction: Correction) -> None:
         """Add the point that comes next."""
@@ -71,21 +86,36 @@ class Trail:
         Raises
         ------
         ReturnedError
-            If it passes another one: a curve does not run into itself, but steps may
-            have led from one branch to another, and would go round for ever.
+            If it passes another one, or several in a row the other way: a curve does
+            not run into itself, but steps may have led from one branch to another, and
+            would go round for ever, or back the whole way.
         """
-        number = self._passed(after, scale)
-        if number:
-            raise ReturnedError(
-                f"the curve comes back at {PLACE} to where it has been: a step has led "
-                "from one branch to another; a smaller tolerance, or more harmonics, "
-                "may tell them apart",
-                float(self._known[number].point[-1]),
-            )
-        return number == 0
+        passed = self._passed(after, scale)
+        if passed is None:
+            self._turns.clear()
+            return False
+        if passed == (0, True):
+            return True
+        if not passed.onwards:
+            self._turns.append(self._turned(passed.number))
+            if len(self._turns) < BACK:
+                return False
+        raise ReturnedError(
+            f"the curve comes back at {PLACE} to where it has been: a step has led "
+            "from one branch to another; a smaller tolerance, or more harmonics, may "
+            "tell them apart",
+            float(self._heads[passed.number][-1]) if passed.onwards else self._turns[0],
+        )
 
-    def _passed(self, after: Array, scale: Array) -> int | None:
-        """Return the number of the point that a step to ``after`` passes; None if none.
+    def _turned(self, number: int) -> float:
+        """Return the parameter farthest ahead since a point, where the curve turned."""
+        ahead = math.copysign(1.0, self._known[number].along[-1])
+        return max(
+            (float(each[-1]) for each in self._heads[number:]), key=ahead.__mul__
+        )
+
+    def _passed(self, after: Array, scale: Array) -> _Passed | None:
+        """Return the point that a step to ``after`` passes; None if none.
 
         Those that it has just left are not looked at.
         """
@@ -98,14 +128,15 @@ class Trail:
         near = np.linalg.norm(away, axis=1) <= AWAY * length
         for number in np.flatnonzero(near).tolist():
             known = self._known[number].whole(before.size)
-            share = _share(known, before, step, scale)
-            if share is None:
+            passed = _share(known, before, step, scale)
+            if passed is None:
                 continue
+            share, onwards = passed
             has = after != 0.0
             has[-1] = True
             guess = np.where(has, before + share * (after - before), 0.0)
             if self._is(known.with_only(has), guess, scale, ALIKE * length):
-                return int(number)
+                return _Passed(number, onwards)
         return None
 
     def _is(self, known: _Known, guess: Array, scale: Array, little: float) -> bool:
@@ -126,8 +157,12 @@ class Trail:
         return solved and distance(one.point, other.point, scale) <= little
 
 
-def _share(known: _Known, before: Array, step: Array, scale: Array) -> float | None:
-    """Return the share of a step at which it passes a point in its direction, or None.
+def _share(
+    known: _Known, before: Array, step: Array, scale: Array
+) -> tuple[float, bool] | None:
+    """Return the share of a step at which it passes a point along its tangent, or None.
+
+    And whether it does so in the direction of that.
 
     ``step`` is in units of the ``scale``.
     """
@@ -135,8 +170,10 @@ def _share(known: _Known, before: Array, step: Array, scale: Array) -> float | N
     away = (known.point - before) / scale
     share = float(step @ away) / length**2
     aside = float(np.linalg.norm(away - share * step))
-    same = float((known.along / scale) @ step) > 0.5 * length
-    return share if 0.0 < share <= 1.0 and aside < ASIDE * length and same else None
+    straight = float((known.along / scale) @ step) / length
+    if not (0.0 < share <= 1.0 and aside < ASIDE * length and abs(straight) > 0.5):
+        return None
+    return share, straight > 0.0
 
 
 def _across(guess: Array, known: _Known, scale: Array) -> Array:

@@ -70,14 +70,15 @@ class Piece:
         """Return the leaps that are left to try, and a new beginning, if there is one.
 
         It lies behind what resists if more harmonics lead no further, as where a curve
-        goes round.
+        goes round, and behind its turn where it goes back on itself.
         """
-        finer = None
-        if not isinstance(error, ReturnedError):
-            finer = self.restart.finer(way, begun.control)
-        if finer is not None:
+        last = way[-1].point if way else begun.guess
+        reached = float(last[-1])
+        if isinstance(error, ReturnedError):
+            reached = reached if error.parameter is None else error.parameter
+        elif (finer := self.restart.finer(way, begun.control)) is not None:
             return leaps, finer
-        return self.restart.behind(way, begun, heading, leaps)
+        return self.restart.behind(reached, begun, heading, leaps)
 
     def _cornered(self, begun: Beginning, heading: float) -> Iterator[Correction]:
         """Yield corrections, round corners, while the curve is bounded."""

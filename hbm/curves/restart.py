@@ -110,17 +110,16 @@ class Restart:
 
     def behind(
         self,
-        way: Sequence[Correction],
+        reached: float,
         begun: Beginning,
         heading: float,
         left: Iterator[float],
     ) -> tuple[Iterator[float], Beginning | None]:
-        """Return the leaps to try, and a point behind what resists a way, if any.
+        """Return the leaps to try, and a point behind where a piece came to, if any.
 
-        All leaps if the piece came nearer to the end than it was, else those ``left``.
+        All leaps if that is nearer to the end than its beginning, else those ``left``.
         """
         first = float(begun.guess[-1])
-        reached = float(way[-1].point[-1]) if way else first
         nearer = (reached - first) / self._way(first, heading) > LEAPS[0]
         leaps = iter(LEAPS) if nearer else left
         guess = self.point(reached, heading, leaps)

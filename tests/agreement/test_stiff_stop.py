@@ -1,5 +1,6 @@
 """A mass that strikes a stiff stop, against its exact piecewise linear motion."""
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -224,6 +225,38 @@ def test_amplitudes_of_folds_err_by_no_more_than_is_told(
         size = float(each.amplitudes(problem.probes.rows).max())
         assert abs(each.frequency - exact) <= each.parameter_error
         assert abs(size / amplitude - 1.0) <= each.error < 2e-3
+
+
+@pytest.mark.long
+def test_each_response_is_told_once_though_a_curve_turns_where_it_grazes() -> None:
+    # by 1 % the curve has no way past that fold: it went back, and all was told thrice
+    drive, place = 0.1, 40.0
+    scene = load_scene("gap", [f"drive.x={drive}", "element.stop.stiffness=6e4"])
+    problem = problem_of(scene)
+    options = CurveOptions(
+        2.0 * np.pi * 4.5, 2.0 * np.pi * 8.0, error=1e-2, stability=False
+    )
+
+    found = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    there = [
+        min(pair, key=lambda each: abs(each.frequency - place))
+        for pair in itertools.pairwise(found)
+        if not pair[1].event
+        and (pair[0].frequency < place) is not (pair[1].frequency < place)
+    ]
+    struck = Struck(6e4, drive)
+    loud, unstable, quiet = (np.hypot(*each.coefficients[1:3, 0]) for each in there)
+    assert found[-1].frequency == options.end
+    assert [each.event for each in found].count("restart") == 1
+    for each, size in zip(there, (loud, unstable), strict=False):
+        phase, *unknown = struck.at(each)
+        exact = struck.amplitude(np.array(unknown), phase)
+        assert size == pytest.approx(exact, rel=0.01)
+    omega = there[-1].frequency
+    exact = drive / abs(STIFFNESS - MASS * omega**2 + 1j * DAMPING * omega)
+    assert quiet == pytest.approx(exact, rel=1e-9)
+    assert loud > 1.05 * unstable > 3.0 * quiet
 
 
 @pytest.mark.parametrize("ends", [(4.6, 5.0), (5.0, 4.6)])

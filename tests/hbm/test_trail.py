@@ -1,13 +1,16 @@
 """Curves that come back to where they have been."""
 
 import itertools
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
 
 from hbm.balance.linearisation import Linearisation
 from hbm.continuation.continuation import trace
+from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.step_control import StepControl
+from hbm.continuation.trail import Trail
 from hbm.errors import ReturnedError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
@@ -34,6 +37,34 @@ def six(point: Array) -> tuple[Array, Dense]:
         return np.array([circle]), Unoriented(rows)
     rows = rows * (x - 1.0) + circle * np.array([[1.0, 0.0]])
     return np.array([(x - 1.0) * circle]), Unoriented(rows)
+
+
+def circle(point: Array) -> tuple[Array, Dense]:
+    """Return what is zero on a circle."""
+    return np.array([point @ point - 1.0]), Dense(2.0 * point[None])
+
+
+def thin(point: Array) -> tuple[Array, Dense]:
+    """Return what is zero on an ellipse, two hundred times as long as it is wide."""
+    scaled = point / np.array([5e-3, 1.0])
+    rows = 2.0 * scaled / np.array([5e-3, 1.0])
+    return np.array([scaled @ scaled - 1.0]), Dense(rows[None])
+
+
+def on_circle(turn: float, way: float) -> Correction:
+    """Return the point of the circle at an angle, followed in one direction."""
+    point = np.array([np.cos(turn), np.sin(turn)])
+    residual, linearised = circle(point)
+    tangent = way * np.array([-np.sin(turn), np.cos(turn)])
+    return Correction(point, residual, linearised, Outcome.CONVERGED, (0.0,), tangent)
+
+
+def go_back(trail: Trail, turns: Iterator[float]) -> None:
+    """Take steps along the circle, against its direction before."""
+    for turn in turns:
+        each = on_circle(turn, -1.0)
+        assert not trail.comes_back(each.point, np.ones(2))
+        trail.append(each)
 
 
 def helix(point: Array) -> tuple[Array, Dense]:
@@ -66,6 +97,30 @@ def test_a_curve_may_wind_close_by_where_it_has_been() -> None:
     assert heights.size == 150
     assert (np.diff(heights) > 0.0).all()
     assert heights[-1] > 0.02
+
+
+def test_a_curve_that_goes_back_the_way_it_came_ends_and_says_where_it_turned() -> None:
+    """What has turned on its own branch would retrace all of it."""
+    trail = Trail(circle, CONTROL)
+    for turn in np.linspace(-0.5, 1.0, 31):
+        trail.append(on_circle(turn, 1.0))
+    back = iter(np.linspace(0.97, -0.23, 25))
+
+    with pytest.raises(ReturnedError, match=r"comes back at parameter 0\.841"):
+        go_back(trail, back)
+
+    assert len(list(back)) == 13  # two pass what it has just left, ten are enough
+
+
+def test_a_curve_may_go_back_close_by_where_it_came() -> None:
+    """A hundredth of a step away, as on a branch that a fold parts from another."""
+    start = np.array([-5e-3, 0.0])
+    curve = trace(thin, start, 2.0, metric=np.ones_like, control=CONTROL, begin=-2.0)
+
+    points = [each.point for each in curve]
+
+    np.testing.assert_allclose(points[-1], points[0], atol=1e-12)
+    assert max(point[0] for point in points) == pytest.approx(5e-3, rel=0.1)
 
 
 @pytest.mark.long

@@ -9,6 +9,7 @@ import scipy.linalg
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.structures.structure import Structure
+from microslip_mechanics.structures.stuck import DRIVEN
 from microslip_mechanics.structures.undamped_modes import undamped_modes
 from microslip_mechanics.structures.unheld import dragged, unheld_motions
 
@@ -47,9 +48,6 @@ def stuck_motions(structure: Structure, selection: Array) -> StuckMotions:
     held, direct = free.T @ stiffness, np.linalg.pinv(selection)
     stuck = held @ free
     if (undamped_modes(stuck)[0] < 0.0).any():
-        raise ValueError(
-            "the stiffness of the structure drives it away while all contacts stick: "
-            "it has a negative eigenvalue; hold that motion by a spring"
-        )
+        raise ValueError(DRIVEN)
     static = direct - free @ np.linalg.solve(stuck, held @ direct)
     return StuckMotions(static - unheld @ (momenta @ static), free, unheld)

@@ -128,7 +128,22 @@ def _resolved(
         for key, pairs in given.items()
         for place, pair in enumerate(pairs)
     }
+    for key in KEYS[2:]:
+        if counts.get(key, 0) > 1:
+            _check_apart(directions[key, 0], directions[key, 1], f"{name}: {key}")
     return element.law.rows(counts), directions
+
+
+def _check_apart(one: Array, other: Array, what: str) -> None:
+    """Check that two tangents, or two rotations, are not one motion.
+
+    That would be twice as stiff as it says, and slip at √2 of its limit.
+    """
+    if np.array_equal(one, other) or np.array_equal(one, -other):
+        raise ValueError(
+            f"element {what} are the same motion twice: give it once, or two that "
+            "differ"
+        )
 
 
 def _numbered(key: str, place: int) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
 import os
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numba
 from numba.core import config
+from numba.core.caching import FunctionCache, NullCache
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -72,14 +74,36 @@ def _compiled(function: Function, *, counted: bool, inline: str = "never") -> Fu
     choices["no_cfunc_wrapper"] = True  # nobody takes the address of a kernel
     dispatcher = numba.njit(**choices)(function)
     folder = _cache_folder(_package(Path(function.__code__.co_filename)))
-    if folder is None:
-        return cast("Function", dispatcher)
-    shared, options["CACHE_DIR"] = options["CACHE_DIR"], str(folder)
-    try:
-        dispatcher.enable_caching()
-    finally:
-        options["CACHE_DIR"] = shared
+    if folder is not None:
+        shared, options["CACHE_DIR"] = options["CACHE_DIR"], str(folder)
+        try:
+            dispatcher._cache = _cache(function, folder)
+        finally:
+            options["CACHE_DIR"] = shared
     return cast("Function", dispatcher)
+
+
+class _Cache(FunctionCache):
+    """Machine code on disk; what cannot be read or written there is compiled anew."""
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:  # noqa: ANN401
+        with contextlib.suppress(OSError):
+            return super().load_overload(sig, target_context)  # type: ignore[no-untyped-call]
+        return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:  # noqa: ANN401
+        with contextlib.suppress(OSError):
+            super().save_overload(sig, data)  # type: ignore[no-untyped-call]
+
+
+def _cache(function: Function, folder: Path) -> _Cache | NullCache:
+    """Return the cache in a folder; none where numba would take another folder."""
+    try:
+        cache = _Cache(function)  # type: ignore[no-untyped-call]
+    except RuntimeError:  # there is no folder at all that can be written to
+        return NullCache()
+    inside = Path(cache.cache_path).is_relative_to(folder)
+    return cache if inside else NullCache()
 
 
 def _package(source: Path) -> Path:

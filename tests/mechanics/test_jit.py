@@ -182,6 +182,34 @@ def test_kernels_run_where_no_cache_folder_can_be_made(
     assert list(tmp_path.iterdir()) == [file]
 
 
+def test_kernels_run_where_the_disk_is_full(tmp_path: Path) -> None:
+    # No file may be larger than 4 kB: an index is smaller, machine code is larger.
+    full = "import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))\n"
+
+    for _ in range(2):
+        assert run(f"{full}{POWER}", XDG_CACHE_HOME=tmp_path) == ["8.0", "0"]
+    assert not [path for path in files(tmp_path) if path.suffix == ".nbc"]
+
+    assert run(POWER, XDG_CACHE_HOME=tmp_path) == ["8.0", "0"]
+    assert run(POWER, XDG_CACHE_HOME=tmp_path) == ["8.0", "1"]
+
+
+def test_kernels_leave_no_code_beside_their_source(tmp_path: Path) -> None:
+    # A file stands where the cache wants a folder; numba would take __pycache__ then.
+    package = tmp_path / "copy" / "microslip_mechanics"
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+    places = {"PYTHONPATH": package.parent, "XDG_CACHE_HOME": tmp_path / "cache"}
+    run(POWER, **places)
+    (folder,) = (tmp_path / "cache" / "microslip").glob("*/contact_*")
+    shutil.rmtree(folder)
+    folder.touch()
+
+    printed = run(POWER, **places)
+
+    assert printed == ["8.0", "0"]
+    assert not list(package.rglob("*.nbi"))
+
+
 def test_cache_lives_below_home_unless_told_otherwise(tmp_path: Path) -> None:
     run(POWER, HOME=tmp_path)
 

@@ -1,6 +1,7 @@
 """The catalogue: every law has examples; its tangents are those of differences."""
 
 import dataclasses
+import inspect
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from microslip_mechanics.contact.memory import Press, beyond_motion, remembers, 
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.element import interface_of
 from microslip_mechanics.laws.catalogue import LAWS, law_name
+from microslip_mechanics.laws.hunt_crossley import HuntCrossleyContact
 from microslip_mechanics.laws.jenkins import Jenkins
 
 STEP = 1e-6
@@ -53,6 +55,21 @@ def test_laws_say_what_they_are_in_one_line_with_an_equation() -> None:
         assert dataclasses.is_dataclass(law)
         line = str(law.__doc__).splitlines()[0]
         assert "=" in line, law
+
+
+def test_help_of_a_law_tells_unit_range_and_what_stands_for_each_number() -> None:
+    assert inspect.getdoc(Jenkins) == (
+        "dF = k_t dw while |F| < R, else F = ±R (elastic Coulomb; Jenkins, 1962).\n\n"
+        "Parameters\n----------\n"
+        "stiffness\n    [N/m], above 0\n"
+        "limit\n    [N], at least 0"
+    )
+    contact = str(inspect.getdoc(HuntCrossleyContact))
+    assert "\nexponent\n    at least 1, at most 10, 1.5 if left out\n" in contact
+    for law in LAWS.values():
+        told = str(inspect.getdoc(law)).split("\nParameters\n----------\n")[1]
+        names = [line for line in told.splitlines() if not line.startswith(" ")]
+        assert names == [field.name for field in dataclasses.fields(law)]
 
 
 @pytest.mark.parametrize("case", CASES)

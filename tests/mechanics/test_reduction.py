@@ -1,6 +1,7 @@
 """Reduction of sparse problems: nothing lost with all modes, statics with none."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -168,6 +169,22 @@ def test_a_mechanism_is_refused() -> None:
     )
     with pytest.raises(ValueError, match=f"^{re.escape(text)}$"):
         reduced(pair, 100.0)
+
+
+@pytest.mark.parametrize("beyond", [1e-6, 1.0])
+def test_a_stiffness_that_drives_away_is_refused(beyond: float) -> None:
+    problem = net(9, 8)
+    structure = problem.structure
+    stuck = stuck_structure(structure, problem.interface.displacement[1:2])
+    lowest = scipy.linalg.eigvalsh(stuck.stiffness.toarray(), stuck.mass.toarray())[0]
+    driven = structure.stiffness - (1.0 + beyond) * lowest * structure.mass
+
+    text = (
+        "the stiffness of the structure drives it away while all contacts stick: it "
+        "has a negative eigenvalue; hold that motion by a spring"
+    )
+    with pytest.raises(ValueError, match=f"^{re.escape(text)}$"):
+        reduced(replace(problem, structure=replace(structure, stiffness=driven)), 100.0)
 
 
 def test_too_many_modes_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,5 +1,6 @@
 """The functions of plain Python, and what they say of arguments of no use."""
 
+import dataclasses
 import importlib.metadata
 from pathlib import Path
 from typing import Any
@@ -128,6 +129,25 @@ def test_results_tell_what_they_are_in_a_line(
     assert ", ".join(small_curve.probes) in lines[0]
     assert small_curve.ending in lines[0]
     assert small_history.ending in lines[1]
+
+
+@pytest.mark.parametrize(
+    ("hertz", "span"),
+    [
+        ([130.0, 131.0, 133.0, 134.0], "130 to 134 Hz"),
+        ([134.0, 133.0, 131.0, 130.0], "134 to 130 Hz"),
+        (
+            [130.0, 133.0, 134.0, 130.0],
+            "130 to 134 Hz",
+        ),  # it turns back, or begins anew
+    ],
+)
+def test_a_curve_tells_how_far_it_comes(
+    small_curve: ResponseCurve, hertz: list[float], span: str
+) -> None:
+    curve = dataclasses.replace(small_curve, frequency=2.0 * np.pi * np.array(hertz))
+
+    assert f"<ResponseCurve: 4 points, {span};" in repr(curve)
 
 
 def test_a_body_that_only_a_dashpot_holds_is_told_as_an_error_of_microslip() -> None:

@@ -3,6 +3,7 @@
 import copy
 import math
 import pickle
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -48,6 +49,23 @@ def test_a_function_of_a_value_is_followed_as_a_key_of_a_scene_is() -> None:
     np.testing.assert_allclose(curve.parameter, by_key.parameter, rtol=1e-12)
     np.testing.assert_allclose(curve.amplitude, by_key.amplitude, rtol=1e-12)
     check_labels(microslip.figure(curve, "duffing"))
+
+
+def test_results_have_what_the_docstrings_say() -> None:
+    curve = microslip.curve(spring(), 0.5, 0.6, harmonics=3)
+    along = microslip.follow(spring, 1.0, 2.0, frequency=0.5, harmonics=3)
+    march = microslip.sweep(spring(), 0.5, 0.6, duration=1.0, time_step=0.01)
+
+    made = {microslip.curve: curve, microslip.follow: along, microslip.sweep: march}
+    for function, result in made.items():
+        returned = str(function.__doc__).split("Returns\n")[1].split("Raises\n")[0]
+        for name in re.findall(r"``(\w+)[`(]", returned):
+            assert hasattr(result, name), name
+    np.testing.assert_allclose(curve.frequency[[0, -1]], [math.pi, 1.2 * math.pi])
+    assert curve.amplitude.shape == curve.peak.shape == (curve.frequency.size, 1)
+    assert march.displacement.shape == march.velocity.shape == (march.time.size, 1)
+    assert march.normal_force.shape == march.displacement.shape
+    assert march.frequency[-1] == pytest.approx(1.2 * math.pi)
 
 
 def test_what_scales_with_the_parameter_does_along_it() -> None:

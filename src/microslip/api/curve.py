@@ -38,6 +38,14 @@ def curve(
     harmonics, samples
         Fixed numbers instead.
 
+    Returns
+    -------
+    ResponseCurve
+        Point by point as it was traced: ``frequency`` [rad/s], ``amplitude`` of the
+        first harmonic and ``peak``, half of the swing in time [m], (points, probes);
+        ``error``, estimated, of the amplitude, relative; ``unstable``, the number of
+        Floquet multipliers outside the unit circle; ``event``, such as "peak".
+
     Raises
     ------
     MicroslipError

@@ -55,11 +55,16 @@ def follow(
     tolerance, harmonics, samples
         As for :func:`microslip.curve`.
 
+    Returns
+    -------
+    ResponseCurve
+        As of :func:`microslip.curve`; ``parameter`` holds the values.
+
     Raises
     ------
     MicroslipError
         If an argument is of no use, or if there is not even a first point; else
-        ``ending`` says how the curve ends, and ``parameter`` holds the values.
+        ``ending`` says how the curve ends.
     """
     from microslip.studies.follow import along
 

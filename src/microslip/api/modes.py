@@ -50,7 +50,8 @@ def modes(
     lowest, highest
         Between which natural frequencies of small motions lie [Hz].
     smallest, largest
-        Amplitudes between which each mode is followed [m].
+        Amplitudes between which each mode is followed [m]: of the linear mode's
+        largest probe; as the shape changes, that of a point becomes another one.
     tolerance
         Relative error of the damping ratio at each point, of the frequency a hundredth
         of it, from which harmonics follow; 0.01 if it is left out.

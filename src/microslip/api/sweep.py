@@ -63,6 +63,13 @@ def sweep(
         the steps follow; equal steps if left out. Contacts that remember, or are
         rigid, are marched with equal steps in any case.
 
+    Returns
+    -------
+    TimeHistory
+        ``time`` [s] and ``frequency`` of the drive [rad/s]; ``displacement`` [m] and
+        ``velocity`` [m/s], (times, probes); ``normal_force`` [N], (times, contacts);
+        ``of("friction")`` [J], what friction took out so far.
+
     Raises
     ------
     MicroslipError

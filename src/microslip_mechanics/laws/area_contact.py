@@ -15,6 +15,8 @@ class AreaContact:
 
     A bed of equal springs over the face, all of them in contact, has these resultants;
     a face that opens at an edge needs points instead, each a unilateral spring.
+    ``width`` is b across the axis of the first rotation, ``depth`` across that of the
+    second one.
     """
 
     stiffness: float = quantity("N/m", positive=True)

@@ -13,6 +13,7 @@ from microslip_mechanics.laws.gkf import GeneralKineticFriction
 from microslip_mechanics.laws.hunt_crossley import HuntCrossleyContact
 from microslip_mechanics.laws.iwan import Iwan
 from microslip_mechanics.laws.jenkins import Jenkins
+from microslip_mechanics.laws.parameters import described
 from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
 from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
 from microslip_mechanics.laws.unilateral import UnilateralSpring
@@ -35,6 +36,9 @@ LAWS: dict[str, type[Any]] = {
     "gkf": GeneralKineticFriction,
 }
 """name in a scene, and class in Python, of each law"""
+
+for _law in LAWS.values():  # what help(microslip.Jenkins) shows
+    _law.__doc__ = described(_law)
 
 
 def law_name(kind: type[Any]) -> str:

@@ -7,6 +7,8 @@ import inspect
 from typing import Any
 
 from microslip_mechanics.laws.catalogue import LAWS
+from microslip_mechanics.laws.parameters import HEAD as PARAMETERS
+from microslip_mechanics.laws.parameters import left_out, values
 
 HEAD = """\
 # Laws of elements
@@ -30,7 +32,8 @@ def laws_page() -> str:
 
 def _law(name: str, law: type[Any]) -> str:
     """Return the section of one law."""
-    equation, _, more = inspect.cleandoc(str(law.__doc__)).partition("\n")
+    text = inspect.cleandoc(str(law.__doc__)).partition(PARAMETERS)[0]
+    equation, _, more = text.partition("\n")
     lines = [f"## `{name}`", "", f"Python: `microslip.{law.__name__}`", "", equation]
     if more.strip():
         lines += ["", more.strip()]
@@ -43,32 +46,8 @@ def _law(name: str, law: type[Any]) -> str:
 
 def _row(field: dataclasses.Field[Any]) -> str:
     """Return the line of one number."""
-    kind, told = field.metadata["quantity"], field.metadata["told"]
-    if told:
-        missing = told[1]
-    elif field.default is dataclasses.MISSING:
-        missing = "must be given"
-    elif field.default is None:
-        missing = "none"
-    else:
-        missing = str(field.default).lower()
-    values = told[0] if told and told[0] else _range(field)
-    return f"| `{field.name}` | {kind.unit} | {values} | {missing} |"
-
-
-def _range(field: dataclasses.Field[Any]) -> str:
-    """Return what a number may be."""
-    kind = field.metadata["quantity"]
-    if field.type == "bool":
-        return "`true` or `false`"
-    if "Mapping" in str(field.type):
-        return "a table: number for each power"
-    parts = []
-    if kind.lowest > float("-inf"):
-        parts.append(f"{'above' if kind.positive else 'at least'} {kind.lowest:g}")
-    if kind.highest < float("inf"):
-        parts.append(f"at most {kind.highest:g}")
-    return ", ".join(parts) or "any"
+    unit = field.metadata["quantity"].unit
+    return f"| `{field.name}` | {unit} | {values(field)} | {left_out(field)} |"
 
 
 if __name__ == "__main__":

@@ -23,7 +23,11 @@ Drive: TypeAlias = Mapping[str, float | tuple[float, float]]
 
 @dataclass(frozen=True, slots=True)
 class EngineOrder:
-    """A wave that stands still around a disk that turns."""
+    """A wave that stands still around a disk that turns.
+
+    ``blades`` are the loaded degree of freedom of each blade, in the order around the
+    disk, ``order`` the number of maxima, ``amplitude`` the force on each blade [N].
+    """
 
     blades: Sequence[str]
     """the loaded degree of freedom of each blade, in the order around the disk"""
@@ -52,7 +56,11 @@ class EngineOrder:
 
 @dataclass(frozen=True, slots=True)
 class BaseMotion:
-    """Ground that moves all supports alike; motions are then relative to it."""
+    """Ground that moves all supports alike; motions are then relative to it.
+
+    ``direction`` is x, y, z, of any length, ``acceleration`` the amplitude along it
+    [m/s²].
+    """
 
     direction: Sequence[float]
     """x, y, z, of any length; degrees of freedom say theirs by names such as ``12.z``

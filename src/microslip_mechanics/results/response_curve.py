@@ -86,10 +86,14 @@ class ResponseCurve(ByValue):
         return pulling(self.normal_smallest, self.normal_largest)
 
     def __repr__(self) -> str:
-        """Return what kind of curve it is, in a line."""
+        """Return what kind of curve it is, in a line.
+
+        It may turn back, or begin anew: it spans as far as it comes from its beginning.
+        """
         values = self.parameter if self.along else self.frequency / (2.0 * np.pi)
         name = self.along or "Hz"
-        ends = apart(values[0], values[-1]) if values.size else ()
+        away = np.abs(values - values[:1])
+        ends = apart(values[0], values[away.argmax()]) if values.size else ()
         span = f", {' to '.join(ends)} {name}" if ends else ""
         counts = Counter(event for event in self.event if event)
         events = "".join(f"; {event}: {number}" for event, number in counts.items())

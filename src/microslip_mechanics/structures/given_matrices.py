@@ -23,6 +23,7 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
     if masked(given):
         raise ValueError(f"{what} has masked entries: give a number for each")
     if sparse:
+        _check_square(given.shape, what)
         return scipy.sparse.csc_array(given, dtype=float, copy=True)
     try:
         matrix = np.array(given, dtype=float)
@@ -33,12 +34,17 @@ def square_matrix(given: Matrix, what: str) -> Matrix:
         raise ValueError(f"{what} {_no_matrix(given)}")
     if matrix.ndim == 1:
         matrix = np.diag(matrix)
-    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or matrix.size == 0:
-        raise ValueError(
-            f"{what} has shape {matrix.shape}: give a square matrix, or its diagonal"
-        )
+    _check_square(matrix.shape, what)
     _check_entries(matrix, what)
     return matrix
+
+
+def _check_square(shape: tuple[int, ...], what: str) -> None:
+    """Check that a shape is that of a square matrix with entries."""
+    if len(shape) != 2 or shape[0] != shape[1] or shape[0] == 0:
+        raise ValueError(
+            f"{what} has shape {shape}: give a square matrix, or its diagonal"
+        )
 
 
 def _any_truth(given: object) -> bool:

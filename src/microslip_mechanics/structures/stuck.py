@@ -11,8 +11,24 @@ from scipy.sparse.linalg import LinearOperator, aslinearoperator
 
 from microslip_mechanics.arrays import Array, Matrix
 from microslip_mechanics.structures.extended import extended_product
-from microslip_mechanics.structures.factors import Factors, factors
+from microslip_mechanics.structures.factors import (
+    Factors,
+    factors,
+    indefinite_factors,
+)
 from microslip_mechanics.structures.structure import Structure
+
+DRIVEN = (
+    "the stiffness of the structure drives it away while all contacts stick: it has a "
+    "negative eigenvalue; hold that motion by a spring"
+)
+FREE = (
+    "the structure can move freely while all contacts stick: hold it by a spring, a "
+    "soft one perhaps, or give dense matrices"
+)
+NEGATIVE = 1e-9
+"""pivot over the matrix's own diagonal element, from which on a negative one is more
+than rounding makes of what moves freely"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +55,7 @@ def stuck_structure(structure: Structure, selection: Array) -> StuckStructure:
     Raises
     ------
     ValueError
-        If it can move freely all the same.
+        If it can move freely all the same, or if its stiffness drives it away.
     """
     direct, free = _null_basis(selection)
     mass, damping, stiffness = (
@@ -48,15 +64,20 @@ def stuck_structure(structure: Structure, selection: Array) -> StuckStructure:
     )
     found = factors(stiffness)
     if found is None:
-        raise ValueError(
-            "the structure can move freely while all contacts stick: hold it by a "
-            "spring, a soft one perhaps, or give dense matrices"
-        )
+        raise ValueError(DRIVEN if _driven(stiffness) else FREE)
     static = direct
     for _ in range(2):  # once more, for what rounding leaves
         held = free.T @ extended_product(structure.stiffness, static)
         static = static - free @ found.solve(held)
     return StuckStructure(static, free, mass, damping, stiffness, found)
+
+
+def _driven(stiffness: Matrix) -> bool:
+    """Return whether a sparse stiffness has a negative eigenvalue beyond rounding."""
+    found = indefinite_factors(stiffness)
+    if found is None:
+        return False
+    return bool((found.pivots < -NEGATIVE * np.abs(stiffness.diagonal())).any())
 
 
 def _restricted(matrix: Matrix, free: Matrix) -> Matrix:

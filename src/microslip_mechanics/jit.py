@@ -116,14 +116,33 @@ def _package(source: Path) -> Path:
 
 @functools.cache
 def _cache_folder(package: Path) -> Path | None:
-    """Return a writable folder for machine code, or None where there is none."""
+    """Return a writable folder for machine code, or None where there is none.
+
+    Of one that can only be read, as in a container, it is a copy for this process:
+    numba does not look where it cannot write.
+    """
     try:
         home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
         folder = Path(home) / "microslip" / _content(package)
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, RuntimeError):
         return None
-    return folder if os.access(folder, os.W_OK) else None
+    return folder if os.access(folder, os.W_OK) else _copied(folder)
+
+
+def _copied(folder: Path) -> Path | None:
+    """Return a copy of a folder, for as long as the process; None without room."""
+    import shutil
+    import tempfile
+    import weakref
+
+    try:
+        copy = Path(tempfile.mkdtemp(prefix="microslip-"))
+        weakref.finalize(_copied, shutil.rmtree, copy, ignore_errors=True)
+        shutil.copytree(folder, copy, dirs_exist_ok=True)
+    except (OSError, shutil.Error):
+        return None
+    return copy
 
 
 def _content(package: Path) -> str:

@@ -194,6 +194,18 @@ def test_kernels_run_where_the_disk_is_full(tmp_path: Path) -> None:
     assert run(POWER, XDG_CACHE_HOME=tmp_path) == ["8.0", "1"]
 
 
+def test_a_filled_cache_that_can_only_be_read_is_used(tmp_path: Path) -> None:
+    reading = "import os\nos.access = lambda path, mode: mode != os.W_OK\n"
+    places = {"XDG_CACHE_HOME": tmp_path / "cache", "TMPDIR": tmp_path}
+    run(POWER, **places)
+    kept = files(tmp_path / "cache")
+
+    assert run(f"{reading}{POWER}", **places) == ["8.0", "1"]
+    assert run(f"{reading}{ENERGY}", **places) == run(ENERGY, XDG_CACHE_HOME=tmp_path)
+    assert files(tmp_path / "cache") == kept
+    assert not list(tmp_path.glob("microslip-*"))  # the copies are gone
+
+
 def test_kernels_leave_no_code_beside_their_source(tmp_path: Path) -> None:
     # A file stands where the cache wants a folder; numba would take __pycache__ then.
     package = tmp_path / "copy" / "microslip_mechanics"

@@ -27,9 +27,8 @@ BETTER = 0.1
 HEAD = 64
 """components of points, the first ones, that are compared with all that is known"""
 BACK = 10
-"""points in a row that steps pass the other way, from which on a curve retraces its
-own: one that does so for seven has found a corner behind them
-"""
+"""points in a row that steps pass the other way, as a curve does that retraces itself:
+one has found a corner behind seven"""
 AWAY = 1.1
 """length of a step, over its own, beyond which it passes no point"""
 

@@ -252,7 +252,7 @@ def test_each_response_is_told_once_though_a_curve_turns_where_it_grazes() -> No
     for each, size in zip(there, (loud, unstable), strict=False):
         phase, *unknown = struck.at(each)
         exact = struck.amplitude(np.array(unknown), phase)
-        assert size == pytest.approx(exact, rel=0.01)
+        assert abs(size / exact - 1.0) <= each.error < 1e-2  # 5e-5, 3e-4
     omega = there[-1].frequency
     exact = drive / abs(STIFFNESS - MASS * omega**2 + 1j * DAMPING * omega)
     assert quiet == pytest.approx(exact, rel=1e-9)

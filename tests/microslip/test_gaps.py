@@ -96,7 +96,10 @@ def test_a_gap_beside_the_largest_amplitude_counts_earlier(
         ([1.0, 2.0, 1.5, 1.6, 3.0], [1.0, 4.0, 3.0, 3.1, 0.1], [3], []),
         ([1.0, 2.0, 1.5, 3.0, 1.8, 1.0], [1.0, 4.0, 3.0, 0.1, 3.9, 2.0], [3], []),
         ([1.0, 2.0, 1.0, 3.0, 1.0], [1.0, 4.0, 0.5, 0.1, 0.1], [3], []),
-        ([1.0, 1.5, 2.0, 2.0, 3.0], [1.0, 2.0, 4.0, 0.1, 0.1], [3], []),
+        ([1.0, 1.5, 2.0, 2.0, 3.0], [1.0, 2.0, 4.0, 0.1, 0.1], [3], [2.0]),
+        ([3.0, 2.5, 2.0, 2.1, 1.0], [1.0, 2.0, 4.0, 0.1, 0.1], [3], [2.0]),
+        ([1.0, 1.5, 2.0, 1.9, 3.0], [1.0, 2.0, 4.0, 4.1, 0.1], [3], []),
+        ([1.0, 1.5, 2.0, 2.01, 3.0], [1.0, 2.0, 4.0, 0.1, 0.1], [3], []),
         ([3.0, 2.0, 2.5, 2.0, 1.0], [1.0, 4.0, 3.0, 0.1, 0.1], [3], [2.5]),
         ([1.0, 3.0, 3.0, 2.0, 2.5], [1.0, 4.0, 0.1, 3.0, 3.5], [2], [2.5]),
         ([1.0, 3.0, 3.0, 1.9, 2.5], [1.0, 4.0, 0.1, 0.3, 0.19], [2], [1.9]),
@@ -107,12 +110,15 @@ def test_a_gap_beside_the_largest_amplitude_counts_earlier(
         "comes from the other end",
         "back to where it began",
         "ahead",
+        "ahead, downwards",
+        "ahead, goes on beside",
+        "ahead, behind a gap",
         "downwards",
         "behind a fold, the last piece",
         "on itself",
     ],
 )
-def test_a_piece_that_breaks_off_on_its_way_back_is_told(
+def test_a_piece_that_breaks_off_is_told(
     small_curve: ResponseCurve,
     places: list[float],
     sizes: list[float],
@@ -125,7 +131,7 @@ def test_a_piece_that_breaks_off_on_its_way_back_is_told(
 
     assert broken(curve) == expected
     for place in expected:
-        said = f"breaks off on its way back, at {place} of mass, and what lies behind"
+        said = f"breaks off at {place:g} of mass, and what lies behind"
         assert said in told(curve).ending
         assert said in "\n".join(lines(curve))
 

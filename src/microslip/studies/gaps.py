@@ -16,7 +16,7 @@ SLIGHT = 1e-3
 """share of its range that it may leave out beside its largest amplitude"""
 MISSING = "no curve is found between"
 """begins the ending of a curve that comes to its end with a gap"""
-BROKEN = "the curve breaks off on its way back, at"
+BROKEN = "the curve breaks off at"
 """begins the ending of one that comes to its end without what a fold has begun"""
 ALIKE = 0.05
 """relative difference of the amplitudes of points that may be beside each other"""
@@ -107,12 +107,13 @@ def gaps(curve: ResponseCurve) -> list[tuple[float, float]]:
 
 
 def broken(curve: ResponseCurve) -> list[float]:
-    """Return where pieces break off on their way back, along what is followed.
+    """Return where pieces break off, along what the curve is followed.
 
-    That is behind a fold, within the range, and where no later piece goes on with about
-    that amplitude: what a fold has begun does not lead there. Nor does what comes in at
-    an end, the last of a curve that is complete without it. Of a piece that goes back
-    on itself it is where it turned.
+    That is within the range, and where no later piece goes on with about that
+    amplitude, though one should: behind a fold, whose way back does not lead there;
+    where the next piece begins no farther on, so that no gap lies between; or where
+    what comes in at an end ends, the last of a curve that is complete without it. Of a
+    piece that goes back on itself it is where it turned.
     """
     own = _own(curve)
     size = curve.amplitude[: own.size].max(axis=1, initial=0.0)
@@ -122,7 +123,10 @@ def broken(curve: ResponseCurve) -> list[float]:
         last = after - 1
         steps = np.diff(own[first:after])
         back = steps.size > 1 and steps[0] * steps[-1] < 0.0
-        back |= after == own.size and curve.ending == "complete"
+        if after == own.size:
+            back |= curve.ending == "complete"
+        else:
+            back |= (own[after] - own[last]) * steps.sum() <= 0.0
         inside = own.min() < own[last] < own.max()
         if back and inside and not _goes_on(own, size, last):
             found.append(_end(own[first:after], size[first:after]))

@@ -13,6 +13,8 @@ from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import load_scene
+from microslip.studies.curve import trace_curve
+from microslip.studies.gaps import broken
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
@@ -257,6 +259,21 @@ def test_each_response_is_told_once_though_a_curve_turns_where_it_grazes() -> No
     exact = drive / abs(STIFFNESS - MASS * omega**2 + 1j * DAMPING * omega)
     assert quiet == pytest.approx(exact, rel=1e-9)
     assert loud > 1.05 * unstable > 3.0 * quiet
+
+
+@pytest.mark.long
+def test_where_a_curve_breaks_off_at_its_fold_is_told() -> None:
+    # the loud motion is not followed round it, and the quiet one begins beneath it
+    scene = load_scene("gap", ["element.stop.stiffness=1e7", "curve.highest=11"])
+    problem = problem_of(scene)
+
+    traced = trace_curve(problem, scene.curve, stability=False)
+
+    (place,) = broken(traced.curve)
+    last = next(each for each in traced.responses if each.frequency == place)
+    exact, _ = Struck(1e7, drive=0.1).fold(last)
+    assert place == pytest.approx(exact, rel=1e-4)  # 5e-5
+    assert traced.curve.ending.startswith("the curve breaks off at 8.07")
 
 
 @pytest.mark.parametrize("ends", [(4.6, 5.0), (5.0, 4.6)])

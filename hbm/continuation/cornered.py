@@ -43,7 +43,7 @@ class Cornered:
         way: deque[Correction] = deque(maxlen=REMEMBERED)
         for corner in range(CORNERS + 1):
             try:
-                for correction in self._taken_up(guess, direction):
+                for correction in self._taken_up(guess, direction, taken_up):
                     joined = correction.joined or taken_up
                     way.append(replace(correction, joined=joined, turns=turns))
                     yield way[-1]
@@ -66,14 +66,16 @@ class Cornered:
             else:
                 return
 
-    def _taken_up(self, guess: Array, direction: Array | None) -> Iterator[Correction]:
-        """Yield the corrections from a guess, behind a corner in a ``direction``.
+    def _taken_up(
+        self, guess: Array, direction: Array | None, behind: bool
+    ) -> Iterator[Correction]:
+        """Yield the corrections from a guess in a direction, or ``behind`` a corner.
 
         With more harmonics the corner may lie a little further on: what is before it
         has a tangent along which the parameter goes back, and is passed over.
         """
-        if direction is None:
-            yield from self.tracing.points(guess, None)
+        if direction is None or not behind:
+            yield from self.tracing.points(guess, direction)
             return
         for ahead in AHEAD:
             traced = self.tracing.points(guess + ahead * direction, direction)

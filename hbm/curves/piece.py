@@ -76,7 +76,7 @@ class Piece:
         reached = float(last[-1])
         if isinstance(error, ReturnedError):
             reached = reached if error.parameter is None else error.parameter
-        elif (finer := self.restart.finer(way, begun.control)) is not None:
+        elif (finer := self.restart.finer(list(way), begun.control)) is not None:
             return leaps, finer
         return self.restart.behind(reached, begun, heading, leaps)
 

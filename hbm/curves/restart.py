@@ -16,6 +16,7 @@ from hbm.continuation.effort import Effort
 from hbm.continuation.step_control import StepControl
 from hbm.curves.grown import Resolved
 from hbm.curves.homotopy import approaches
+from hbm.curves.onwards import onwards
 from hbm.errors import ContinuationError
 from hbm.paths.path import Path
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -105,7 +106,9 @@ class Restart:
                 continue
             scale = self.metric(known.point)
             if distance(found.point, known.point, scale) <= control.shift:
-                return Beginning(known.point, known.along, strict)
+                come = way[: len(way) - back + 1]
+                on = onwards(self.system, come, found.point, scale, strict)
+                return Beginning(known.point, on, strict)
         return None
 
     def behind(

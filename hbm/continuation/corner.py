@@ -84,8 +84,12 @@ def round_corner(
 
 
 def _back(way: Sequence[Correction], scale: Array) -> Array | None:
-    """Return the unit direction of the way back, in the metric; None if it is short."""
-    direction: Array | None = None
+    """Return the unit direction of the way back, in the metric; None if not known.
+
+    Of a short way it is that in which it has begun.
+    """
+    begun = way[0].along / scale
+    direction = -begun / float(np.linalg.norm(begun)) if begun.any() else None
     for before in reversed(way):
         chord = (before.point - way[-1].point) / scale
         length = float(np.linalg.norm(chord))

@@ -265,6 +265,31 @@ def test_each_response_is_told_once_where_few_harmonics_lead_to_and_fro(
     assert loud > 1.02 * unstable > 3.0 * quiet
 
 
+@pytest.mark.long
+def test_unstable_motions_are_found_that_begin_where_a_stop_is_grazed() -> None:
+    # ten thousand times as stiff as the spring; the curve comes there at rest
+    scene = load_scene("gap", ["element.stop.stiffness=1e7"])
+    problem, drive = problem_of(scene), 0.1
+    options = CurveOptions(2.0 * np.pi * 7.0, 2.0 * np.pi * 4.0, stability=False)
+    square = STIFFNESS - 0.5 * DAMPING**2
+    grazed = np.sqrt(square + np.sqrt(square**2 - STIFFNESS**2 + (drive / GAP) ** 2))
+
+    found = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    (fold,) = (each for each in found if each.event == "fold")
+    behind = list(
+        itertools.takewhile(lambda each: not each.event, found[found.index(fold) + 2 :])
+    )
+    assert fold.frequency == pytest.approx(grazed, rel=1e-6)
+    assert abs(fold.frequency - grazed) <= fold.parameter_error
+    assert behind[-1].frequency == options.start
+    for each in behind[::4]:
+        phase, *unknown = Struck(1e7, drive).at(each)
+        exact = Struck(1e7, drive).amplitude(np.array(unknown), phase)
+        size = float(np.hypot(*each.coefficients[1:3, 0]))
+        assert abs(size / exact - 1.0) <= max(each.error, 1e-6)
+
+
 @pytest.mark.parametrize("ends", [(4.6, 5.0), (5.0, 4.6)])
 def test_stability_of_brief_touches_is_known_as_exactly_as_it_is_told(
     ends: tuple[float, float],

@@ -1,6 +1,7 @@
 """Corners of a curve: turned round where its halves make an acute angle."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +48,26 @@ def traced(slope: float) -> list[Correction]:
     except ContinuationError:
         return found
     raise AssertionError("plain continuation gets round the corner")
+
+
+@pytest.mark.parametrize("length", [1e-4, 1e-7])
+def test_a_corner_is_turned_that_lies_next_to_the_beginning(length: float) -> None:
+    # as of a piece that is taken up just before it, with more harmonics
+    way = traced(3.0)[-3:]
+    begins = np.array([-length, -length])
+    way = [
+        replace(each, point=share * begins)
+        for each, share in zip(way, (1, 0.5, 0.1), strict=True)
+    ]
+
+    turned = round_corner(lambda point: bent(3.0, point), way, unit, 1e-12)
+
+    assert turned is not None
+    point, direction, folds = turned
+    assert point[0] > 0.0
+    assert point[1] == pytest.approx(-3.0 * point[0])
+    assert direction[-1] < 0.0
+    assert folds
 
 
 @pytest.mark.parametrize("slope", [1.5, 3.0, 10.0])

@@ -36,6 +36,7 @@ def trace(
     settler: Settler = UNSETTLED,
     begin: float | None = None,
     direction: Array | None = None,
+    trail: Trail | None = None,
 ) -> Iterator[Correction]:
     """Yield the points of a curve from one value of its parameter to another.
 
@@ -54,6 +55,8 @@ def trace(
         ``start`` if left out.
     direction
         Where to go first, shape ``(n + 1,)``; towards ``end`` if left out.
+    trail
+        The curve up to ``start``, if it has turned round a corner there.
     metric
         Scale of each component, by which arc length is measured near a point.
     control
@@ -76,12 +79,12 @@ def trace(
         direction[-1] = math.copysign(1.0, end - begin)
     scale = metric(accepted.point)
     along = _begun(accepted, direction, scale)
-    first = accepted = replace(accepted, tangent=along, joined=False)
+    accepted = replace(accepted, tangent=along, joined=False)
     accepted.linearised.forget()
     yield accepted
     limits = min(begin, end), max(begin, end)
     past, step, went, sharp = Predictor(), control.initial, 0.0, 0
-    trail = Trail(system, control)
+    trail = trail or Trail(system, control)
     for _ in range(control.most_points):
         trail.append(accepted)
         missed = past.append(accepted.point, along, scale, went)
@@ -93,7 +96,7 @@ def trace(
             yield border(accepted, candidate, limits, at, scale)
             return
         if trail.comes_back(candidate.point, scale):
-            yield replace(at(first.point), tangent=first.tangent)
+            yield replace(at(trail.first.point), tangent=trail.first.tangent)
             return
         scale = metric(candidate.point)
         along = candidate.along / float(np.linalg.norm(candidate.along / scale))

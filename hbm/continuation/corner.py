@@ -8,7 +8,7 @@ derivative on its own side, and leads away against what continuity would have.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -46,7 +46,11 @@ class Turned(NamedTuple):
 
 
 def round_corner(
-    system: System, way: Sequence[Correction], metric: Metric, tolerance: float
+    system: System,
+    way: Sequence[Correction],
+    metric: Metric,
+    tolerance: float,
+    has_been_at: Callable[[Array, Array], bool] = lambda *_: False,
 ) -> Turned | None:
     """Return where and how the curve goes on behind a corner; None if there is none.
 
@@ -60,6 +64,8 @@ def round_corner(
         Scale of each component near a point.
     tolerance
         Of the largest residual.
+    has_been_at
+        Point and scale ↦ whether the curve has been there: it does not lead there.
     """
     last = way[-1]
     scale = metric(last.point)
@@ -78,7 +84,9 @@ def round_corner(
             continue
         tried.append(onwards / scale)
         found = _stepped(system, last.point, onwards, scale, tolerance)
-        if found is not None and not _along(found - last.point, back, scale):
+        if found is None or _along(found - last.point, back, scale):
+            continue
+        if not has_been_at(found, scale):
             return Turned(found, onwards, bool(back[-1] * onwards[-1] > 0.0))
     return None
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from hbm.continuation.corner import round_corner
 from hbm.continuation.correction import Correction
 from hbm.continuation.tracing import Tracing
+from hbm.continuation.trail import Trail
 from hbm.errors import ContinuationError, ReturnedError
 from microslip_mechanics.arrays import Array
 
@@ -41,9 +42,10 @@ class Cornered:
         guess: Array = self.start
         direction, taken_up, turns = self.direction, False, False
         way: deque[Correction] = deque(maxlen=REMEMBERED)
+        trail = Trail(self.tracing.system, self.tracing.control)
         for corner in range(CORNERS + 1):
             try:
-                for correction in self._taken_up(guess, direction, taken_up):
+                for correction in self._taken_up(guess, direction, trail, taken_up):
                     joined = correction.joined or taken_up
                     way.append(replace(correction, joined=joined, turns=turns))
                     yield way[-1]
@@ -58,6 +60,7 @@ class Cornered:
                     way,
                     self.tracing.metric,
                     self.tracing.control.tolerance,
+                    trail.has_been_at,
                 )
                 if turned is None:
                     raise
@@ -67,7 +70,7 @@ class Cornered:
                 return
 
     def _taken_up(
-        self, guess: Array, direction: Array | None, behind: bool
+        self, guess: Array, direction: Array | None, trail: Trail, behind: bool
     ) -> Iterator[Correction]:
         """Yield the corrections from a guess in a direction, or ``behind`` a corner.
 
@@ -75,10 +78,10 @@ class Cornered:
         has a tangent along which the parameter goes back, and is passed over.
         """
         if direction is None or not behind:
-            yield from self.tracing.points(guess, direction)
+            yield from self.tracing.points(guess, direction, trail)
             return
         for ahead in AHEAD:
-            traced = self.tracing.points(guess + ahead * direction, direction)
+            traced = self.tracing.points(guess + ahead * direction, direction, trail)
             first = next(traced)
             if first.along[-1] * direction[-1] >= 0.0:
                 break

@@ -11,6 +11,7 @@ from hbm.continuation.correction import Correction
 from hbm.continuation.linearised import System
 from hbm.continuation.settler import Settler
 from hbm.continuation.step_control import StepControl
+from hbm.continuation.trail import Trail
 from microslip_mechanics.arrays import Array
 
 
@@ -27,8 +28,10 @@ class Tracing:
     control: StepControl
     settler: Settler
 
-    def points(self, guess: Array, direction: Array | None) -> Iterator[Correction]:
-        """Yield the corrections from a guess in a direction."""
+    def points(
+        self, guess: Array, direction: Array | None, trail: Trail | None = None
+    ) -> Iterator[Correction]:
+        """Yield the corrections from a guess in a direction, after a ``trail``."""
         return trace(
             self.system,
             guess,
@@ -38,4 +41,5 @@ class Tracing:
             settler=self.settler,
             begin=self.begin,
             direction=direction,
+            trail=trail,
         )

@@ -70,10 +70,19 @@ class Trail:
         self._known: list[_Known] = []
         self._heads: list[Array] = []
         self._last: Array = np.empty(0)
+        self._first: Correction | None = None
         self._turns: list[float] = []  # of steps in a row that passed points backwards
+
+    @property
+    def first(self) -> Correction:
+        """The first point, to which a closed curve comes back."""
+        if self._first is None:
+            raise IndexError("a trail without points has no first one")
+        return self._first
 
     def append(self, correction: Correction) -> None:
         """Add the point that comes next."""
+        self._first = self._first or correction
         self._last = correction.point
         known = _Known(_shortened(correction.point), _shortened(correction.along))
         self._known.append(known)
@@ -105,6 +114,28 @@ class Trail:
             "tell them apart",
             float(self._heads[passed.number][-1]) if passed.onwards else self._turns[0],
         )
+
+    def has_been_at(self, point: Array, scale: Array) -> bool:
+        """Return whether a point of the system lies between two that are known.
+
+        What is between the last ones is not looked at.
+        """
+        heads = np.array(self._heads[:-FEWEST]) / _head(scale)
+        if len(heads) < 2:
+            return False
+        chords, away = np.diff(heads, axis=0), _head(point) / _head(scale) - heads[:-1]
+        lengths = np.linalg.norm(chords, axis=1)
+        shares = np.einsum("ij,ij->i", chords, away) / lengths**2
+        aside = np.linalg.norm(away - shares[:, None] * chords, axis=1)
+        between = (shares >= 0.0) & (shares <= 1.0) & (aside <= ASIDE * lengths)
+        for number in np.flatnonzero(between).tolist():
+            one, two = (self._known[n].whole(point.size) for n in (number, number + 1))
+            guess = one.point + shares[number] * (two.point - one.point)
+            if self._is(
+                _Known(point, one.along), guess, scale, ALIKE * lengths[number]
+            ):
+                return True
+        return False
 
     def _turned(self, number: int) -> float:
         """Return the parameter farthest ahead since a point, where the curve turned."""

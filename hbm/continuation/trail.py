@@ -6,50 +6,27 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hbm.continuation.arc import distance, plane_across
 from hbm.continuation.correction import Correction, Outcome
+from hbm.continuation.known import ASIDE, Known, head, shortened
 from hbm.continuation.linearised import System
 from hbm.continuation.newton import Small, correct
 from hbm.continuation.step_control import StepControl
 from hbm.errors import PLACE, ReturnedError
-from microslip_mechanics.arrays import Array
+from microslip_mechanics.arrays import TINY, Array
 
 FEWEST = 4
 """steps of a closed curve"""
-ASIDE = 0.1
-"""length of a step from which it may pass a point, over its own"""
 ALIKE = 1e-3
 """of the length of a step: points of one plane that are one are not farther apart"""
 BETTER = 0.1
 """of that: how well they are solved"""
-HEAD = 64
-"""components of points, the first ones, that are compared with all that is known"""
 BACK = 10
 """points in a row that steps pass the other way, as a curve does that retraces itself:
 one has found a corner behind seven"""
 AWAY = 1.1
 """length of a step, over its own, beyond which it passes no point"""
-
-
-class _Known(NamedTuple):
-    """A point where the curve has been, without the zeros of orders that it leaves out.
-
-    There is room for far more components than most points of a long curve have.
-    """
-
-    point: Array
-    along: Array
-    """its unit tangent there"""
-
-    def whole(self, size: int) -> _Known:
-        """Return it with all components."""
-        return _Known(_lengthened(self.point, size), _lengthened(self.along, size))
-
-    def with_only(self, has: NDArray[np.bool_]) -> _Known:
-        """Return it without what a coarser point has not."""
-        return _Known(np.where(has, self.point, 0.0), np.where(has, self.along, 0.0))
 
 
 class _Passed(NamedTuple):
@@ -67,7 +44,7 @@ class Trail:
     def __init__(self, system: System, control: StepControl) -> None:
         """Begin without points of a ``system``, to be solved as ``control`` asks."""
         self._system, self._control = system, control
-        self._known: list[_Known] = []
+        self._known: list[Known] = []
         self._heads: list[Array] = []
         self._last: Array = np.empty(0)
         self._first: Correction | None = None
@@ -84,9 +61,9 @@ class Trail:
         """Add the point that comes next."""
         self._first = self._first or correction
         self._last = correction.point
-        known = _Known(_shortened(correction.point), _shortened(correction.along))
+        known = Known(shortened(correction.point), shortened(correction.along))
         self._known.append(known)
-        self._heads.append(_head(correction.point))
+        self._heads.append(head(correction.point))
 
     def comes_back(self, after: Array, scale: Array) -> bool:
         """Return whether a step to ``after`` passes the first point: the curve closes.
@@ -120,20 +97,18 @@ class Trail:
 
         What is between the last ones is not looked at.
         """
-        heads = np.array(self._heads[:-FEWEST]) / _head(scale)
-        if len(heads) < 2:
+        if len(self._heads) < FEWEST + 2:
             return False
-        chords, away = np.diff(heads, axis=0), _head(point) / _head(scale) - heads[:-1]
-        lengths = np.linalg.norm(chords, axis=1)
+        heads = np.array(self._heads[:-FEWEST]) / head(scale)
+        chords, away = np.diff(heads, axis=0), head(point) / head(scale) - heads[:-1]
+        lengths = np.linalg.norm(chords, axis=1).clip(min=TINY)
         shares = np.einsum("ij,ij->i", chords, away) / lengths**2
         aside = np.linalg.norm(away - shares[:, None] * chords, axis=1)
         between = (shares >= 0.0) & (shares <= 1.0) & (aside <= ASIDE * lengths)
         for number in np.flatnonzero(between).tolist():
             one, two = (self._known[n].whole(point.size) for n in (number, number + 1))
             guess = one.point + shares[number] * (two.point - one.point)
-            if self._is(
-                _Known(point, one.along), guess, scale, ALIKE * lengths[number]
-            ):
+            if self._is(Known(point, one.along), guess, scale, ALIKE * lengths[number]):
                 return True
         return False
 
@@ -154,11 +129,11 @@ class Trail:
         length = float(np.linalg.norm(step))
         if len(self._heads) <= FEWEST:
             return None
-        away = (np.array(self._heads[:-FEWEST]) - _head(before)) / _head(scale)
+        away = (np.array(self._heads[:-FEWEST]) - head(before)) / head(scale)
         near = np.linalg.norm(away, axis=1) <= AWAY * length
         for number in np.flatnonzero(near).tolist():
             known = self._known[number].whole(before.size)
-            passed = _share(known, before, step, scale)
+            passed = known.passed(before, step, scale)
             if passed is None:
                 continue
             share, onwards = passed
@@ -169,7 +144,7 @@ class Trail:
                 return _Passed(number, onwards)
         return None
 
-    def _is(self, known: _Known, guess: Array, scale: Array, little: float) -> bool:
+    def _is(self, known: Known, guess: Array, scale: Array, little: float) -> bool:
         """Return whether the curve at a guess is that at a known point.
 
         The system may have become finer or coarser since: both are solved in one plane,
@@ -181,51 +156,7 @@ class Trail:
             correct(
                 self._system, each, normal, tolerance=control.tolerance, small=small
             )
-            for each in (guess + _across(guess, known, scale), known.point)
+            for each in (known.across(guess, scale), known.point)
         )
         solved = one.outcome is other.outcome is Outcome.CONVERGED
         return solved and distance(one.point, other.point, scale) <= little
-
-
-def _share(
-    known: _Known, before: Array, step: Array, scale: Array
-) -> tuple[float, bool] | None:
-    """Return the share of a step at which it passes a point along its tangent, or None.
-
-    And whether it does so in the direction of that.
-
-    ``step`` is in units of the ``scale``.
-    """
-    length = float(np.linalg.norm(step))
-    away = (known.point - before) / scale
-    share = float(step @ away) / length**2
-    aside = float(np.linalg.norm(away - share * step))
-    straight = float((known.along / scale) @ step) / length
-    if not (0.0 < share <= 1.0 and aside < ASIDE * length and abs(straight) > 0.5):
-        return None
-    return share, straight > 0.0
-
-
-def _across(guess: Array, known: _Known, scale: Array) -> Array:
-    """Return what leads from a guess into the plane across a known point."""
-    along = known.along / scale
-    way = float(along @ ((known.point - guess) / scale))
-    return way / float(along @ along) * known.along
-
-
-def _head(vector: Array) -> Array:
-    """Return the first components and the parameter."""
-    return np.append(vector[: min(HEAD, vector.size - 1)], vector[-1])
-
-
-def _shortened(vector: Array) -> Array:
-    """Return a vector without the zeros before its parameter."""
-    kept = np.flatnonzero(vector[:-1])
-    return np.append(vector[: kept[-1] + 1 if kept.size else 0], vector[-1])
-
-
-def _lengthened(vector: Array, size: int) -> Array:
-    """Return a shortened vector as it was."""
-    whole = np.zeros(size)
-    whole[: vector.size - 1], whole[-1] = vector[:-1], vector[-1]
-    return whole

@@ -70,6 +70,21 @@ def test_a_corner_is_turned_that_lies_next_to_the_beginning(length: float) -> No
     assert folds
 
 
+def test_a_corner_does_not_lead_to_where_the_curve_has_been() -> None:
+    way, asked = traced(3.0), []
+
+    def has_been_at(point: Array, scale: Array) -> bool:
+        asked.append(point)
+        assert np.array_equal(scale, unit(point))
+        return True
+
+    turned = round_corner(lambda point: bent(3.0, point), way, unit, 1e-12, has_been_at)
+
+    assert turned is None
+    assert all(point[1] == pytest.approx(-3.0 * point[0]) for point in asked)
+    assert asked
+
+
 @pytest.mark.parametrize("slope", [1.5, 3.0, 10.0])
 def test_a_sharp_corner_is_turned_onto_its_second_half(slope: float) -> None:
     way = traced(slope)

@@ -142,3 +142,22 @@ def test_a_curve_begins_anew_beyond_a_closed_one_that_it_was_led_to(
     assert curve[-1].parameter == 60.0
     assert events.count("restart") == 1
     assert len(curve) < 200  # 5138 where it went round until points ran out
+
+
+def test_a_trail_knows_where_its_curve_has_been_between_its_points() -> None:
+    trail = Trail(six, CONTROL)
+    for turn in np.linspace(-1.5, 1.0, 26):
+        trail.append(on_circle(float(turn), 1.0))
+
+    def been(point: Array) -> bool:
+        return trail.has_been_at(point, np.ones(2))
+
+    assert been(on_circle(-0.33, 1.0).point)
+    assert been(on_circle(0.4, -1.0).point)
+    assert not been(on_circle(1.3, 1.0).point)  # farther than it has come
+    assert not been(on_circle(0.98, 1.0).point)  # where it is now
+    assert not been(np.array([1.0, -0.05]))  # on the line beside the circle
+
+
+def test_a_trail_without_points_has_been_nowhere() -> None:
+    assert not Trail(six, CONTROL).has_been_at(np.array([1.0, 0.0]), np.ones(2))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -29,10 +29,15 @@ class RingDown:
     """natural, that is of the undamped motion [rad/s], shape (swings,)"""
     damping: Array
     """ratio, from the logarithmic decrement of a cycle, shape (swings,)"""
+    energy_damping: Array = field(default_factory=lambda: np.zeros(0))
+    """ratio, from the energies of a cycle, like ``damping``, or empty if not told"""
 
     def until(self, count: int) -> RingDown:
         """Return so many swings of it, the first ones."""
-        columns = self.time, self.amplitude, self.frequency, self.damping
+        columns = (
+            *(self.time, self.amplitude, self.frequency),
+            *(self.damping, self.energy_damping),
+        )
         return RingDown(*(each[:count] for each in columns))
 
 

@@ -10,6 +10,7 @@ import scipy.optimize
 
 from hbm.modes.mode_options import ModeOptions
 from hbm.modes.modes import modes_in_range, nonlinear_mode
+from microslip.commands.decay_tables import cycles
 from microslip.scenes.experiments import March
 from microslip.studies.decay import measured, released
 from microslip_mechanics.arrays import Array
@@ -152,3 +153,19 @@ def test_both_are_alike_in_a_linear_decay(rows: int) -> None:
     decay = measured(problem, joined(list(blocks), "complete"), 0)
 
     np.testing.assert_allclose(decay.energy_damping, 0.03, rtol=1e-2)
+
+
+def test_beside_gyroscopic_forces_no_energy_is_told() -> None:
+    across = [[0.0, -3.0], [3.0, 0.0]]
+    problem = system(
+        mass=[1.0, 1.0], stiffness=[100.0, 100.0], damping_ratio=0.02, gyroscopic=across
+    )
+    march = March(1e-3, 10)
+    start = Start(np.array([1.0, 0.0]), np.zeros(2))
+
+    blocks = list(released(problem, start, march, frequency=10.0, periods=9))
+    decay = measured(problem, joined(blocks, "complete"), 0)
+
+    assert decay.damping.size > 10
+    assert decay.energy_damping.size == 0
+    assert "energy" not in "".join(cycles(decay, "x1"))

@@ -89,7 +89,8 @@ def _run(options: argparse.Namespace) -> int:
         return arguments.ended(_lost(problem, history, probe))
     columns = (
         *(decay.time, decay.amplitude, decay.frequency / math.tau),
-        *(decay.damping, decay.energy_damping),
+        decay.damping,
+        decay.energy_damping if decay.energy_damping.size else decay.time * math.nan,
     )
     with named(f"decay in {data}"):
         save_table(table, COLUMNS, zip(*columns, strict=True))

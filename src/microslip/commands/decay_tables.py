@@ -27,13 +27,15 @@ def cycles(decay: RingDown, probe: str, too_fast: int = 0) -> list[str]:
     ``too_fast`` is how many are left out at its end.
     """
     count = decay.time.size
+    both = decay.damping, decay.energy_damping
+    percents = [100.0 * ratio for ratio in both if ratio.size]
     rows = [
         f"free decay of {probe}",
         f"{'damping ratio [%] by':>63}",
-        "time [s]  amplitude [mm]  frequency [Hz]   amplitude      energy",
+        "time [s]  amplitude [mm]  frequency [Hz]   amplitude"
+        + "      energy" * (len(percents) - 1),
     ]
     chosen = sorted({round(n * (count - 1) / (SHOWN - 1)) for n in range(SHOWN)})
-    percents = 100.0 * decay.damping, 100.0 * decay.energy_damping
     frequencies = decay.frequency / math.tau
     # about zero digits say nothing
     largest = [each.max() if (each > 0.0).all() else 1.0 for each in percents]
@@ -41,8 +43,10 @@ def cycles(decay: RingDown, probe: str, too_fast: int = 0) -> list[str]:
         f"{decimal(decay.time[place], decay.time[-1], 4, 8)} "
         f"{1e3 * decay.amplitude[place]:15.6g} "
         f"{hertz(frequencies[place], frequencies):>15} "
-        f"{decimal(percents[0][place], largest[0], 4, 11)} "
-        f"{decimal(percents[1][place], largest[1], 4, 11)}"
+        + " ".join(
+            decimal(ratio[place], most, 4, 11)
+            for ratio, most in zip(percents, largest, strict=True)
+        )
         for place in chosen
     ]
     grows = int((decay.damping < GROWS).sum())

@@ -58,6 +58,8 @@ def _damping(axes: Axes, decay: RingDown) -> None:
         (decay.damping, "-", COLOURS[0], "by amplitude"),
         (decay.energy_damping, "--", COLOURS[1], "by energy, as modes have it"),
     ):
+        if not ratio.size:
+            continue
         axes.plot(
             millimetres, 100.0 * ratio, style, color=color, lw=1.5 * WIDTH, label=label
         )

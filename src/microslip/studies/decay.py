@@ -129,10 +129,16 @@ def too_fast(problem: Problem, history: TimeHistory, probe: int) -> int:
 def swings(
     problem: Problem, history: TimeHistory, probe: int, *, every: int = 1
 ) -> RingDown:
-    """Return what ``every`` so many rows tell of a decay."""
+    """Return what ``every`` so many rows tell of a decay.
+
+    The kinetic energy of what gyroscopic forces couple is not half of its energy, of
+    which the rows do not tell the rest: there is no damping by energy.
+    """
     time, rest = history.time[::every], _rest(problem, history, probe)
     rows = (each[::every, probe] for each in (history.displacement, history.velocity))
     found = ring_down(time, *rows, rest=rest)
+    if problem.structure.gyroscopic:
+        return found
     return replace(found, energy_damping=energy_damping(history, found, every=every))
 
 

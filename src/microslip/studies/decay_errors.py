@@ -54,11 +54,12 @@ def step_errors(
     def share(one: Array, two: Array) -> float:
         return float(apart(one, two).max()) / (float(np.abs(one[both]).max()) or 1.0)
 
+    damping = (
+        (fine.damping, other.damping),
+        (fine.energy_damping, other.energy_damping),
+    )
     return StepErrors(
         share(fine.frequency, other.frequency),
-        max(
-            share(fine.damping, other.damping),
-            share(fine.energy_damping, other.energy_damping),
-        ),
+        max(share(*pair) for pair in damping if pair[0].size),
         float(np.median(apart(fine.damping, other.damping))),
     )

@@ -1,6 +1,7 @@
 """The command that compares jumps with folds: verdict, picture, refusals."""
 
 import dataclasses
+import math
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -199,6 +200,36 @@ def test_jumps_far_from_their_folds_decide_the_status(
     )
     assert rows[4][5] == rows[9][5] == ("DISAGREE" if status else "agree")
     assert (quick_scene.parent / "quick-jumps.png").is_file()
+
+
+@pytest.mark.parametrize(("error", "status"), [(8e-3, 0), (3e-3, 1), (math.nan, 1)])
+def test_a_fold_of_few_harmonics_is_not_known_better_than_it_tells(
+    error: float,
+    status: int,
+    traced: Traced,
+    run: Run,
+    quick_scene: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def marched(*_: object) -> Iterator[Jump]:
+        for jump in made(traced, 1e-3):
+            told = dataclasses.replace(jump.fold.response, parameter_error=error)
+            yield dataclasses.replace(
+                jump, fold=dataclasses.replace(jump.fold, response=told)
+            )
+
+    monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: traced)
+    monkeypatch.setattr(
+        "microslip.studies.jumps.folds.folds_of", lambda *_, **__: [1, 2]
+    )
+    monkeypatch.setattr("microslip.studies.jumps.jumps.jumps", marched)
+
+    ended, output, _ = run("jumps", str(quick_scene))
+
+    assert ended == status
+    known = f"the fold is known to {error / (2.0 * np.pi):.1e}"
+    assert output.count(known) == (0 if math.isnan(error) else 2)
+    assert output.count("DISAGREE") == 2 * status
 
 
 @pytest.mark.parametrize(

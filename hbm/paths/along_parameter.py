@@ -82,6 +82,25 @@ class AlongParameter:
             self._past[parameter] = whole.restricted(self._kept, self._odd)
         return self._past[parameter], self._frequency
 
+    def beyond(self, parameter: float) -> AlongParameter:
+        """Return the path up to a value beyond its range.
+
+        Where nobody asked for a problem none may be made, for whatever cause.
+        """
+        path, problem_at = copy(self), self._problem_at
+
+        def made(value: float) -> Problem:
+            try:
+                return problem_at(value)
+            except Exception as error:  # a user's function may fail in any way
+                text = f"there is no problem at {PLACE}: {error}"
+                raise ContinuationError(text, value) from error
+
+        low, high = self._limits
+        path._problem_at, path._past = made, {}
+        path._limits = min(low, parameter), max(high, parameter)
+        return path
+
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
         return extended(self._active, harmonics)

@@ -104,6 +104,14 @@ x = {DRIVE}
         load_scene(str(path), [])
 
 
+def test_what_does_not_turn_has_no_gyroscopic_forces() -> None:
+    problem = microslip.system(
+        mass=[1.0, 1.0], stiffness=[1.0, 2.0], gyroscopic=0.0 * ACROSS
+    )
+
+    assert not problem.structure.gyroscopic
+
+
 @pytest.mark.parametrize("ratios", [None, [0.01]])
 def test_sparse_matrices_take_a_sparse_one_and_are_reduced(
     ratios: list[float] | None,

@@ -32,6 +32,8 @@ def turning(structure: Structure, given: ArrayLike | Matrix) -> Structure:
     matrix = square_matrix(given, "gyroscopic")
     check_like(matrix, structure.mass, "gyroscopic")
     _check_skew(matrix, structure.names)
+    if abs(matrix).max() == 0.0:
+        return structure
     damping = structure.damping
     if isinstance(damping, LinearOperator):
         matrix = aslinearoperator(matrix)

@@ -169,3 +169,18 @@ def test_beside_gyroscopic_forces_no_energy_is_told() -> None:
     assert decay.damping.size > 10
     assert decay.energy_damping.size == 0
     assert "energy" not in "".join(cycles(decay, "x1"))
+
+
+def test_what_rounding_hides_of_a_long_decay_is_not_told() -> None:
+    problem = system(mass=[2.0], stiffness=[300.0], damping_ratio=0.03)
+
+    decay = decay_of(problem, 1.0, np.sqrt(150.0), 100)
+
+    # a cycle loses 1e-16 of the energy that the march has added up
+    told = np.isfinite(decay.energy_damping)
+    assert decay.amplitude[-1] < 2e-8
+    assert decay.amplitude[told].min() < 1e-4
+    np.testing.assert_allclose(decay.energy_damping[told], 0.03, rtol=2e-3)
+    assert not np.isfinite(decay.energy_damping[told.argmin() :]).any()
+    lines = cycles(decay, "x1")
+    assert lines[3].split()[-1] != lines[-1].split()[-1] == "-"

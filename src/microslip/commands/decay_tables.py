@@ -38,13 +38,16 @@ def cycles(decay: RingDown, probe: str, too_fast: int = 0) -> list[str]:
     chosen = sorted({round(n * (count - 1) / (SHOWN - 1)) for n in range(SHOWN)})
     frequencies = decay.frequency / math.tau
     # about zero digits say nothing
-    largest = [each.max() if (each > 0.0).all() else 1.0 for each in percents]
+    known = [each[abs(each) < math.inf] for each in percents]
+    largest = [each.max(initial=0.0) if (each > 0.0).all() else 1.0 for each in known]
     rows += [
         f"{decimal(decay.time[place], decay.time[-1], 4, 8)} "
         f"{1e3 * decay.amplitude[place]:15.6g} "
         f"{hertz(frequencies[place], frequencies):>15} "
         + " ".join(
-            decimal(ratio[place], most, 4, 11)
+            f"{'-':>11}"
+            if math.isnan(ratio[place])
+            else decimal(ratio[place], most, 4, 11)
             for ratio, most in zip(percents, largest, strict=True)
         )
         for place in chosen

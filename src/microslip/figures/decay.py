@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -66,9 +67,8 @@ def _damping(axes: Axes, decay: RingDown) -> None:
     framed(axes, x="amplitude [mm]", y="damping ratio [%]", title="Damping")
     axes.legend(frameon=False)
     if (decay.damping > 0.0).all():
-        highest = max(
-            each.max(initial=1e-9) for each in (decay.damping, decay.energy_damping)
-        )
+        both = np.append(decay.damping, decay.energy_damping)
+        highest = np.nanmax(both, initial=1e-9)
         axes.set_ylim(0.0, 108.0 * highest)
     else:
         widened(axes, ROUNDING)

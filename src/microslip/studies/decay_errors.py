@@ -52,7 +52,8 @@ def step_errors(
         return away
 
     def share(one: Array, two: Array) -> float:
-        return float(apart(one, two).max()) / (float(np.abs(one[both]).max()) or 1.0)
+        largest = float(np.nanmax(np.abs(one[both]), initial=0.0)) or 1.0
+        return float(np.nanmax(apart(one, two), initial=0.0)) / largest
 
     damping = (
         (fine.damping, other.damping),

@@ -12,7 +12,8 @@ from hbm.continuation.settler import UNSETTLED
 from hbm.continuation.tracing import Tracing
 from hbm.curves.restart import Restart
 from hbm.errors import ContinuationError
-from hbm.paths.path import AlongFrequency
+from hbm.paths.along_parameter import AlongParameter
+from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array
 
 BEYOND, NEAR, LEAST = 0.5, 0.05, 0.5
@@ -66,24 +67,26 @@ class Incoming:
     def _returned(self, known: Array) -> Array | None:
         """Return about where a curve comes back that leaves the range at a known point.
 
-        None if it does not fold soon, or not along frequency: other parameters may mean
-        nothing beyond their range.
+        None if it does not fold soon, or if there are no problems beyond the range; no
+        parameter is taken to zero, or looked for below it.
         """
         restart, here = self._restart, float(known[-1])
-        if not isinstance(restart.path, AlongFrequency):
+        if here <= 0.0:
             return None
         width = max(BEYOND * abs(self._end - self._start), NEAR * here)
         outwards = math.copysign(width, 2.0 * here - self._start - self._end)
+        until = max(here + outwards, LEAST * here)
+        system = self._system(until)
 
         def metric(point: Array) -> Array:
             scale = restart.metric(point)
             scale[-1] = width / STEPS
             return scale
 
-        restart.system.restart(ROUGHLY)
+        system.restart(ROUGHLY)
         way = Tracing(
-            restart.system,
-            max(here + outwards, LEAST * here),
+            system,
+            until,
             here,
             metric,
             replace(restart.control, initial=1.0, largest=1.0, most_points=LOOKS),
@@ -94,3 +97,10 @@ class Incoming:
         except ContinuationError:
             return None
         return last.point if last.point[-1] == here else None
+
+    def _system(self, until: float) -> AdaptiveBalance:
+        """Return what is traced up to a place beyond the range."""
+        restart = self._restart
+        if restart.resolved is None or not isinstance(restart.path, AlongParameter):
+            return restart.system  # along frequency there is one problem
+        return restart.resolved(restart.path.beyond(until), restart.effort)

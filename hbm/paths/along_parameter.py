@@ -16,6 +16,7 @@ from hbm.balance.relative_problem import relative_problem
 from hbm.balance.rigid import with_pushes
 from hbm.errors import PLACE, ContinuationError
 from hbm.forces.fourier import FourierBasis
+from hbm.paths.unchanged import one_equilibrium, one_structure
 from hbm.stability.stability import SmallMotions, small_motions
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.errors import MicroslipError
@@ -82,6 +83,24 @@ class AlongParameter:
             self._past[parameter] = whole.restricted(self._kept, self._odd)
         return self._past[parameter], self._frequency
 
+    def beyond(self, parameter: float) -> AlongParameter:
+        """Return the path up to a value beyond its range.
+
+        Where nobody asked for a problem none may be made, for whatever cause.
+        """
+        path, problem_at = copy(self), self._problem_at
+
+        def made(value: float) -> Problem:
+            try:
+                return problem_at(value)
+            except Exception as error:  # a user's function may fail in any way
+                raise ValueError(str(error)) from error
+
+        low, high = self._limits
+        path._problem_at, path._past = made, {}
+        path._limits = min(low, parameter), max(high, parameter)
+        return path
+
     def mask(self, harmonics: int) -> NDArray[np.bool_]:
         """Return the active coefficients, shape (2 harmonics + 1, rank)."""
         return extended(self._active, harmonics)
@@ -136,7 +155,7 @@ class AlongParameter:
     def motions(self, parameter: float) -> SmallMotions:
         """Return the structure for small motions."""
         problem = self._problem(parameter)
-        if self._motions is None or not _alike(problem, self._motions[0]):
+        if self._motions is None or not one_structure(problem, self._motions[0]):
             self._motions = problem, small_motions(problem)
         return self._motions[1]
 
@@ -161,32 +180,12 @@ class AlongParameter:
         known = rest = None
         if self._last is not None:
             earlier, known, rest = self._last
-            if not _same_at_rest(problem, earlier):
+            if not one_equilibrium(problem, earlier):
                 rest = None
-            if not _alike(problem, earlier):
+            if not one_structure(problem, earlier):
                 known = rest = None
         rest = rest or static_equilibrium(problem)
         made = relative_problem(problem, rest, known, self._basis)
         self._basis = made.basis if self._basis is None else self._basis
         self._last = problem, made, rest
         return with_pushes(made, self._frequency)
-
-
-def _same_at_rest(one: Problem, two: Problem) -> bool:
-    """Return whether two problems of one structure have one equilibrium."""
-    pairs = zip(one.interface.points, two.interface.points, strict=True)
-    return _equal(one.preload, two.preload) and all(_equal(*pair) for pair in pairs)
-
-
-def _alike(one: Problem, two: Problem) -> bool:
-    """Return whether two problems have one structure, seen by the same contacts."""
-    names = ("mass", "damping", "stiffness")
-    pairs = [
-        (getattr(one.structure, name), getattr(two.structure, name)) for name in names
-    ]
-    pairs.append((one.interface.displacement, two.interface.displacement))
-    return all(first is last or _equal(first, last) for first, last in pairs)
-
-
-def _equal(first: np.ndarray, last: np.ndarray) -> bool:
-    return first.shape == last.shape and not np.any(first != last)

@@ -33,6 +33,7 @@ from microslip_mechanics.structures.given_matrices import (
     dof_names,
     square_matrix,
 )
+from microslip_mechanics.structures.gyroscopic import turning
 from microslip_mechanics.structures.structure import Structure
 
 ProbeForms: TypeAlias = Sequence[str] | Mapping[str, Form | Pair]
@@ -49,6 +50,7 @@ def system(
     damping_ratio: float | Sequence[float] | Array | None = None,
     rayleigh_damping: Sequence[float] | Array | None = None,
     loss_factor: float | None = None,
+    gyroscopic: ArrayLike | Matrix | None = None,
     names: Sequence[str] | None = None,
     elements: Iterable[Element] | None = None,
     drive: Drive | None = None,
@@ -73,6 +75,8 @@ def system(
         η of the stiffness, in place of C: the ratio η/2 of all modes, the same at
         resonance and nowhere off by more than η (:func:`~microslip_mechanics.\
 structures.hysteretic.equivalent_viscous`).
+    gyroscopic
+        G [N s/m], skew-symmetric, beside any of these: M ü + (C + G) u̇ + K u = p.
     names
         Of the degrees of freedom; x1, x2, … if left out.
     elements
@@ -104,6 +108,8 @@ structures.hysteretic.equivalent_viscous`).
     check_massive(masses, known)
     lossy = Damping(damping, damping_ratio, rayleigh_damping, loss_factor)
     structure = Structure(masses, lossy.of(masses, elastic, known), elastic, known)
+    if gyroscopic is not None:
+        structure = turning(structure, gyroscopic)
     return Problem(
         structure,
         interface_of(() if elements is None else elements, known),

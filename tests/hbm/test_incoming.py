@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hbm.curves.parameter_curves import parameter_response
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.unilateral import UnilateralSpring
+from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import static_equilibrium
 from microslip_mechanics.system import system
@@ -147,3 +149,47 @@ def test_a_fold_that_more_harmonics_have_beyond_the_end_is_none_of_the_range() -
     for end in (share * fold for fold in folds for share in (0.99999, 0.9999)):
         found = list(frequency_response(problem, rest, replace(options, end=end)))
         assert max(each.frequency for each in found) == end
+
+
+def along_drive(
+    start: float, end: float, *, possible: float = np.inf
+) -> list[tuple[float, float, str]]:
+    """Return drives, amplitudes at one frequency and events; up to a possible drive."""
+
+    def driven(force: float) -> Problem:
+        if force > possible:
+            raise KeyError(force)
+        return cubic_oscillator(damping=DAMPING, drive=force)
+
+    options = CurveOptions(start, end, harmonics=1, samples=1024)
+    found = parameter_response(driven, WITHIN, options)
+    return [(each.parameter, amplitude(each), each.event) for each in found]
+
+
+def balanced(drive: float) -> list[float]:
+    """Return the amplitudes that balance a drive, as above."""
+    linear, damped = 1.0 - WITHIN**2, (DAMPING * WITHIN) ** 2
+    roots = np.roots([9.0 / 16.0, 1.5 * linear, linear**2 + damped, -(drive**2)])
+    return sorted(float(np.sqrt(each.real)) for each in roots if abs(each.imag) < 1e-9)
+
+
+# folds of the drive are at 0.798 and 2.356
+@pytest.mark.parametrize(("start", "end"), [(0.2, 2.0), (2.2, 1.0), (1.0, 2.0)])
+def test_drives_that_end_between_folds_have_all_responses(
+    start: float, end: float
+) -> None:
+    found = along_drive(start, end)
+
+    for place in (start, end):
+        seen = sorted(size for drive, size, _ in found if drive == place)
+        assert seen == pytest.approx(balanced(place), rel=1e-6)
+    assert "restart" in [event for *_, event in found]
+
+
+def test_where_there_are_no_problems_beyond_the_end_nothing_comes_back() -> None:
+    found = along_drive(0.2, 2.0, possible=2.2)
+
+    assert "restart" not in [event for *_, event in found]
+    assert [size for drive, size, _ in found if drive == 2.0] == pytest.approx(
+        balanced(2.0)[:1]
+    )

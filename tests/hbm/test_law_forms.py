@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy.integrate
 
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.contact_cycle import ContactCycle
@@ -147,6 +148,39 @@ def test_iwan_dissipates_microslips_power_law(share: float) -> None:
     _, cycle = cycled(IWAN, amplitude)
 
     assert cycle.friction == pytest.approx(loss(amplitude), rel=0.02)
+
+
+@pytest.mark.parametrize("share", [0.005, 0.3, 1.0, 3.0])
+@pytest.mark.parametrize("beta", [0.0, 2.0])
+def test_iwan_tells_how_far_the_energy_of_a_cycle_is_off(
+    share: float, beta: float
+) -> None:
+    law = Iwan(10.0, 2e6, -0.5, beta, smallest=1e-3)
+    amplitude = share * law.largest_slip
+
+    _, cycle = cycled(law, amplitude, samples=2**15)
+
+    def lost(slip: float) -> float:
+        return float(4.0 * law.density * slip ** (law.chi + 1.0) * (amplitude - slip))
+
+    most = min(amplitude, law.largest_slip)
+    exact, _ = scipy.integrate.quad(lost, 0.0, most, epsrel=1e-10)
+    last = law.stiffness * beta / (1.0 + beta) * law.largest_slip
+    exact += 4.0 * last * max(amplitude - law.largest_slip, 0.0)
+    away = cycle.friction / exact - 1.0
+    assert law.energy_error(amplitude) == pytest.approx(away, abs=1e-3)
+
+
+def test_error_of_iwans_energy_falls_with_the_square_of_the_sliders() -> None:
+    errors = []
+    for sliders in (20, 40, 80):
+        law = Iwan(10.0, 2e6, -0.5, 0.0, sliders=sliders)
+        shares = np.linspace(0.5, 1.0, 500) * law.largest_slip
+        errors.append(max(abs(law.energy_error(float(each))) for each in shares))
+
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders == pytest.approx(2.0, abs=0.15)
+    assert errors[0] == pytest.approx(0.02, rel=0.02)  # as the law's help says
 
 
 def test_iwan_in_macroslip_adds_the_rigid_loop() -> None:

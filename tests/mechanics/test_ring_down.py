@@ -103,3 +103,29 @@ def test_what_does_not_move_has_no_end_of_rows_to_a_cycle() -> None:
     time = np.linspace(0.0, 1.0, 50)
 
     assert cycle_rows(time, np.ones(50), np.zeros(50)) == np.inf
+
+
+@pytest.mark.parametrize("ratio", [1e-3, 0.01, 0.05])
+def test_a_motion_with_a_stop_on_one_side_has_one_frequency(ratio: float) -> None:
+    # half cycles of 10 and of 20 rad/s in turn, with one dashpot
+    loss = 10.0 * ratio
+    turning = np.sqrt(np.array([10.0, 20.0]) ** 2 - loss**2)
+    period = np.pi * (1.0 / turning).sum()
+    time = np.arange(0.1, 12.0, period / 97.3)
+    cycle, phase = np.divmod(time, period)
+    second = phase > np.pi / turning[0]
+    rate, side = np.where(second, turning[1], turning[0]), np.where(second, -1.0, 1.0)
+    angle = rate * (phase - np.where(second, np.pi / turning[0], 0.0))
+    fallen = np.exp(-loss * time)
+    place = side * fallen * np.sin(angle) / rate
+    speed = side * fallen * np.cos(angle) - loss * place
+
+    found = ring_down(time, place, speed)
+
+    assert cycle[-1] > 20
+    natural = np.hypot(2.0 * np.pi / period, loss)
+    # half cycles that differ leave something of second order in the damping
+    within = 3e-5 + 0.02 * ratio**2
+    np.testing.assert_allclose(found.frequency, natural, rtol=within)
+    expected = loss / natural
+    np.testing.assert_allclose(found.damping, expected, rtol=2e-3)

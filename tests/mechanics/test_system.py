@@ -178,7 +178,19 @@ FAULTS: Mapping[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     ),
     "skew damping": (
         {"damping": [[0.1, 0.2], [-0.2, 0.1]]},
-        ("damping is not symmetric", "only symmetric"),
+        ("damping is not symmetric", "beside a skew-symmetric gyroscopic matrix"),
+    ),
+    "symmetric gyroscopic matrix": (
+        {"gyroscopic": [[0.0, 0.2], [0.2, 0.0]]},
+        ("gyroscopic is not skew-symmetric: 0.2 of x1 by x2 but 0.2 of x2 by x1",),
+    ),
+    "diagonal as gyroscopic matrix": (
+        {"gyroscopic": [0.1, 0.0]},
+        ("gyroscopic is not skew-symmetric: 0.1 of x1 by x1", "as damping"),
+    ),
+    "gyroscopic matrix of others": (
+        {"gyroscopic": np.zeros((3, 3))},
+        ("gyroscopic has shape (3, 3), but mass has (2, 2)",),
     ),
     "one Rayleigh coefficient": (
         {"rayleigh_damping": (0.1,)},

@@ -22,10 +22,10 @@ from microslip.studies.decay import (
     liveliest,
     measured,
     released,
-    step_errors,
     too_fast,
     unmeasured,
 )
+from microslip.studies.decay_errors import step_errors
 from microslip.studies.dwell import dwelling
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.jenkins import Jenkins
@@ -121,11 +121,13 @@ def test_swings_that_one_decay_has_more_are_not_taken_for_the_next_ones() -> Non
         shown += extra * np.exp(-2.0 * time) * np.cos(31.0 * time)
         base = linear_decay(600, 10, periods=10)
         moved = np.interp(time, time, shown)[:, None]
+        first, last = base.energy[0], base.energy[-1]
         return dataclasses.replace(
             base,
             time=time,
             displacement=moved,
             velocity=np.gradient(moved, time, axis=0),
+            energy=np.linspace(first, last, time.size),
         )
 
     told = step_errors(oscillator(preload=0.0), history(1.0), history(0.2), 0)

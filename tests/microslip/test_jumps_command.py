@@ -1,8 +1,9 @@
 """The command that compares jumps with folds: verdict, picture, refusals."""
 
-import dataclasses
+import math
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -33,16 +34,28 @@ def traced() -> Traced:
 
 
 def made(
-    traced: Traced, away: float, fit: float = 1e-6, step: float = 0.0
+    traced: Traced,
+    away: float,
+    fit: float = 1e-6,
+    step: float = 0.0,
+    known: float = math.nan,
 ) -> list[Jump]:
-    """Return jumps that lie so far behind their folds once extrapolated [Hz]."""
+    """Return jumps that lie so far behind their folds once extrapolated [Hz].
+
+    Their folds are ``known`` to that [Hz].
+    """
     problem, found = cubic_oscillator(drive=0.3, damping=0.1), []
     for fold in folds_of(problem, traced, lead=0.1):
         sign = 1.0 if fold.upward else -1.0
         late = away + 1e-3 * RATES ** (2.0 / 3.0)
         places, slow = fold.hertz + sign * late, fold.hertz + sign * away
         envelopes = tuple((places, 0.1 * places) for _ in RATES)
-        found.append(Jump(fold, RATES, places, slow, fit, step, envelopes))
+        told = replace(fold.response, parameter_error=2.0 * np.pi * known)
+        found.append(
+            Jump(
+                replace(fold, response=told), RATES, places, slow, fit, step, envelopes
+            )
+        )
     return found
 
 
@@ -51,7 +64,7 @@ def beside(
 ) -> Traced:
     """Return a curve with a second piece, of so many times its first stable points."""
     others = [
-        dataclasses.replace(
+        replace(
             each,
             coefficients=factor * each.coefficients,
             multipliers=np.array([0.5 if stable else 2.0 + 0j]),
@@ -60,7 +73,7 @@ def beside(
         for each in traced.responses
         if each.unstable == 0
     ][:count]
-    others[0] = dataclasses.replace(others[0], event="restart")
+    others[0] = replace(others[0], event="restart")
     every = (*traced.responses, *others)
     problem = cubic_oscillator(drive=0.3, damping=0.1)
     return Traced(response_curve(problem, every, "complete"), every, traced.rest)
@@ -102,10 +115,10 @@ def test_a_jump_is_seen_where_the_motion_jumps(traced: Traced) -> None:
     problem = cubic_oscillator(drive=0.3, damping=0.1)
     rows = problem.probes.rows
     still = np.concatenate([1e-9 * rows, rows])
-    watched = dataclasses.replace(problem, probes=Probes(("still", "mass"), still))
+    watched = replace(problem, probes=Probes(("still", "mass"), still))
     curve = response_curve(watched, traced.responses, "complete")
 
-    seen = folds_of(watched, dataclasses.replace(traced, curve=curve), lead=0.1)
+    seen = folds_of(watched, replace(traced, curve=curve), lead=0.1)
 
     for fold, alone in zip(seen, folds_of(problem, traced, lead=0.1), strict=True):
         assert (alone.probe, fold.probe) == (0, 1)
@@ -121,7 +134,7 @@ def upper_fold(traced: Traced) -> int:
 def test_sweeps_begin_on_the_piece_of_their_fold(behind: int, traced: Traced) -> None:
     place = upper_fold(traced)
     first = place - behind
-    mark = dataclasses.replace(traced.responses[first], event="restart")
+    mark = replace(traced.responses[first], event="restart")
     piece = [mark, *traced.responses[first + 1 :]]
 
     # what is traced before the piece is stable, and as near to the fold
@@ -135,12 +148,12 @@ def test_sweeps_begin_on_the_piece_of_their_fold(behind: int, traced: Traced) ->
 def test_no_sweep_begins_on_the_piece_behind_the_fold(traced: Traced) -> None:
     place = upper_fold(traced)
     before, fold = traced.responses[place - 1 : place + 1]
-    unstable = dataclasses.replace(before, multipliers=np.array([2.0 + 0j]))
-    behind = dataclasses.replace(before, event="restart")
+    unstable = replace(before, multipliers=np.array([2.0 + 0j]))
+    behind = replace(before, event="restart")
 
     assert begun(traced, [before, fold, behind])[1] is before
     problem = cubic_oscillator(drive=0.3, damping=0.1)
-    cut = dataclasses.replace(traced, responses=(unstable, fold, behind))
+    cut = replace(traced, responses=(unstable, fold, behind))
     assert folds_of(problem, cut, lead=0.5) == []
 
 
@@ -149,33 +162,36 @@ def begun(
 ) -> tuple[PeriodicResponse, PeriodicResponse]:
     """Return the first fold of such a curve, and where sweeps to it begin."""
     problem = cubic_oscillator(drive=0.3, damping=0.1)
-    made = dataclasses.replace(traced, responses=tuple(responses))
+    made = replace(traced, responses=tuple(responses))
     first = folds_of(problem, made, lead=0.5)[0]
     return first.response, first.begin
 
 
 @pytest.mark.parametrize(
-    ("away", "fit", "step", "status"),
+    ("away", "fit", "step", "known", "status"),
     [
-        (1e-6, 1e-6, 0.0, 0),
-        (-2e-5, 1e-6, 0.0, 0),
-        (1e-3, 1e-6, 0.0, 1),
-        (1e-3, 1e-6, 1e-3, 0),
-        (1e-3, 3.3e-4, 0.0, 0),
-        (1e-3, 1e-6, 3.3e-4, 1),
+        (1e-6, 1e-6, 0.0, math.nan, 0),
+        (-2e-5, 1e-6, 0.0, 1e-6, 0),
+        (1e-3, 1e-6, 0.0, math.nan, 1),
+        (1e-3, 1e-6, 1e-3, 1e-6, 0),
+        (1e-3, 3.3e-4, 0.0, math.nan, 0),
+        (1e-3, 1e-6, 3.3e-4, 1e-6, 1),
+        (1e-3, 1e-6, 0.0, 5e-4, 1),
+        (1e-3, 1e-6, 0.0, 1.2e-3, 0),
     ],
 )
 def test_jumps_far_from_their_folds_decide_the_status(
     away: float,
     fit: float,
     step: float,
+    known: float,
     status: int,
     traced: Traced,
     run: Run,
     quick_scene: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    jumps = made(traced, away, fit, step)
+    jumps = made(traced, away, fit, step, known)
 
     def marched(*_: object) -> Iterator[Jump]:
         yield from jumps
@@ -189,6 +205,8 @@ def test_jumps_far_from_their_folds_decide_the_status(
     ended, output, error = run("jumps", str(quick_scene))
 
     assert (ended, error) == (status, "")
+    assert output.count(f"the fold is known to {known:.1e}\n") == 2 * (known > 1e-4)
+    output = re.sub(", the fold is known to .*", "", output)
     rows = re.findall(r"(up|down) +(\S+) +(\S+) +(\S+)(?: ± (\S+)  (\w+))?\n", output)
     assert [row[0] for row in rows] == ["up"] * 5 + ["down"] * 5
     assert [float(row[1]) for row in rows[:5]] == [8.0, 4.0, 2.0, 1.0, 0.0]
@@ -296,7 +314,7 @@ def test_the_picture_shows_curve_envelopes_and_delays(
     hertz = np.linspace(131.0, 133.0, 5)
     late = 1e-2 * RATES ** (2.0 / 3.0)
     line = JumpLine("up", 132.0, RATES, late, 2e-3, 1e-3, [(hertz, 1e-5 * hertz)] * 4)
-    plain = dataclasses.replace(small_curve, event=("",) * 4)
+    plain = replace(small_curve, event=("",) * 4)
 
     figure = jumps_figure(plain, [line], "title")
 
@@ -323,9 +341,7 @@ def test_the_picture_is_as_high_as_what_it_shows(small_curve: ResponseCurve) -> 
     hertz = np.linspace(130.0, 130.5, 5)
     line = JumpLine("up", 130.2, RATES, RATES, 0.0, 1e-3, [(hertz, 1e-6 * hertz)])
     size = np.array([1e-4, 5e-2, 5e-2, 5e-2])[:, None]
-    high = dataclasses.replace(
-        small_curve, peak=np.broadcast_to(size, small_curve.peak.shape)
-    )
+    high = replace(small_curve, peak=np.broadcast_to(size, small_curve.peak.shape))
 
     left, _ = jumps_figure(high, [line], "title").axes
 
@@ -370,8 +386,8 @@ def test_sweeps_before_one_fails_are_kept(
 def test_a_curve_that_is_not_whole_leaves_no_file_and_says_so(
     ending: str, code: int, traced: Traced, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    curve = dataclasses.replace(traced.curve, ending=ending)
-    half = dataclasses.replace(traced, curve=curve)
+    curve = replace(traced.curve, ending=ending)
+    half = replace(traced, curve=curve)
     monkeypatch.setattr("microslip.studies.curve.trace_curve", lambda *_: half)
 
     status, output, error = run("jumps", "duffing")

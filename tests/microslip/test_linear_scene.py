@@ -108,5 +108,6 @@ sliders = 5
     assert reduction.startswith("not in it: the reduction to modes up to 50 Hz, ")
     assert sliders == (
         "not in it: element joint is 5 sliders, whose force is up to 4.5e-02 of "
-        "slip_force above its law's: twice as many have a quarter of that"
+        "slip_force above its law's: more of them, or a smaller "
+        "element.joint.smallest, are nearer to it"
     )

@@ -268,6 +268,8 @@ def test_small_amplitudes_and_damping_keep_their_digits(run: Run) -> None:
         (("friction", "-1"), "mu_dynamic"),
         (("friction.mu_dynamic",), "give values"),
         (("friction.my_dynamic", "1"), "mu_dynamic"),
+        (("friction", "0.1", "0.10"), "0.10 stands there twice: give different"),
+        (("excitation.force", "1 N", "2", "1"), "1 stands there twice"),
     ],
 )
 def test_wrong_values_are_refused_in_one_line(

@@ -126,7 +126,7 @@ def test_a_decay_of_one_frequency_does_not_show_rounding(
 ) -> None:
     hertz = np.array([19.4921763, 19.4921767, 19.4921763])
     size = np.array([1e-3, 1e-4, 1e-5])
-    decay = RingDown(np.arange(3.0), size, math.tau * hertz, np.full(3, 0.004))
+    decay = RingDown(np.arange(3.0), size, math.tau * hertz, *[np.full(3, 0.004)] * 2)
 
     frequency = decay_figure(small_history, decay, 0, "").axes[2]
 
@@ -137,7 +137,7 @@ def test_a_decay_that_does_not_decay_does_not_show_rounding(
     small_history: TimeHistory,
 ) -> None:
     away = 1e-12 * np.array([1.0, -1.0, 1.0])
-    decay = RingDown(np.arange(3.0), 2e-3 * (1.0 + away), 100.0 + away, away)
+    decay = RingDown(np.arange(3.0), 2e-3 * (1.0 + away), 100.0 + away, away, away)
 
     _, shrinking, frequency, damping = decay_figure(small_history, decay, 0, "").axes
 

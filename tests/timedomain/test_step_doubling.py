@@ -142,6 +142,19 @@ def test_a_regular_motion_is_told_about_its_tolerance(tolerance: float) -> None:
     assert abs(told.of("friction")[-1] - energy) <= told.energy_error[-1]
 
 
+@pytest.mark.parametrize("tolerance", [1e-2, None])
+def test_without_friction_its_energy_has_no_error(tolerance: float | None) -> None:
+    problem, _ = bouncing(0.7)
+    options = MarchOptions(1e-2, 1, tolerance, estimate=True)
+
+    told = marched(problem, Dwell(0.7, 9.0), options)
+
+    assert not told.of("friction").any()
+    assert told.energy_error.size == told.time.size
+    assert not told.energy_error.any()
+    assert told.peak_error[-1] > 0.0  # the stop does err
+
+
 @pytest.mark.parametrize(
     "options",
     [

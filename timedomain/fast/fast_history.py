@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.points import rubs
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.checkpoint import Checkpoint
 from microslip_mechanics.results.time_history import TimeHistory
@@ -53,16 +54,25 @@ def fast_history(
     )
     difference = history.of("friction") - more[:, OTHER_WORK]
     history = replace(history, work_difference=difference)
-    return history if tolerance is None else _estimated(history, more, tolerance)
+    if tolerance is None:
+        return history
+    return _estimated(history, more, tolerance, friction=rubs(problem.interface.points))
 
 
-def _estimated(history: TimeHistory, more: Array, least: float) -> TimeHistory:
-    """Return a history with estimated errors, none below the tolerance."""
+def _estimated(
+    history: TimeHistory, more: Array, least: float, *, friction: bool
+) -> TimeHistory:
+    """Return a history with estimated errors, none below the tolerance.
+
+    The work of the steps' errors is that of all contacts: without friction, that of
+    its energy, which is zero, is none.
+    """
     drift, unkept = np.abs(more[:, DRIFT]), more[:, UNKEPT]
     drift = CANCELLED * (drift + np.abs(history.work_difference)) + unkept
     lost = (more[:, LARGEST_DRIFT] + unkept) / more[:, REFERENCE]
+    energy = np.maximum(drift, least * np.abs(history.of("friction")))
     return replace(
         history,
-        energy_error=np.maximum(drift, least * np.abs(history.of("friction"))),
+        energy_error=energy if friction else np.zeros(len(energy)),
         peak_error=np.maximum(lost, least),
     )

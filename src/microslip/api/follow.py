@@ -45,7 +45,9 @@ def follow(
     ----------
     problem_at
         Function that makes the problem of a value, by :func:`microslip.system` or
-        :func:`microslip.scene`. It may change every number, not what there is.
+        :func:`microslip.scene`. It may change every number, not what there is. It is
+        tried beyond both ends too, from which the curve may come back; errors that it
+        raises there are none.
     first, last
         Values between which the parameter changes.
     frequency

@@ -65,8 +65,10 @@ def modes(
         ``frequency`` [rad/s] and ``damping`` (ratio), their relative errors
         ``frequency_error`` and ``damping_error``, and an ``ending``. From the point
         ``coarser`` on, unless it is None, they have fewer harmonics than the tolerance
-        asks for: with those the mode did not go on. Where ``apart``, the first point's
-        motion is not that of the linear mode: begin with a smaller one.
+        asks for: with those the mode did not go on. ``damping`` is what a cycle
+        dissipates: an amplitude on which the frequency depends falls faster or more
+        slowly in a free decay (``microslip decay`` tells both). Where ``apart``, the
+        first point's motion is not that of the linear mode: begin with a smaller one.
 
     Raises
     ------

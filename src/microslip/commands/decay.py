@@ -33,8 +33,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="free decay: frequency and damping by amplitude",
         description="Drive the scene at one frequency until it is steady, or take the "
         "state at the end of a file; let the drive go, and measure natural frequency "
-        "and damping ratio of each cycle of the decay; tell what they err by, from a "
-        "second decay with steps twice as long; write SCENE-decay.csv, "
+        "and damping ratio of each cycle of the decay, the latter by how the amplitude "
+        "falls and by the energy that is lost, as modes has it; tell what they err by, "
+        "from a second decay with steps twice as long; write SCENE-decay.csv, "
         "SCENE-decay.nc and SCENE-decay.png.",
         epilog="example: microslip decay two-blades --frequency 136.8",
     )
@@ -86,7 +87,11 @@ def _run(options: argparse.Namespace) -> int:
         discard(table, picture)
         print(f"decay in {data}")
         return arguments.ended(_lost(problem, history, probe))
-    columns = decay.time, decay.amplitude, decay.frequency / math.tau, decay.damping
+    columns = (
+        *(decay.time, decay.amplitude, decay.frequency / math.tau),
+        decay.damping,
+        decay.energy_damping if decay.energy_damping.size else decay.time * math.nan,
+    )
     with named(f"decay in {data}"):
         save_table(table, COLUMNS, zip(*columns, strict=True))
     title = f"{arguments.title(options)}, let go at {begin[1] / math.tau:.9g} Hz"
@@ -176,7 +181,8 @@ def _tell_step_errors(
     probe: int,
 ) -> str:
     """Print what a march with steps twice as long changes; return how it ended."""
-    from microslip.studies.decay import measured, step_errors
+    from microslip.studies.decay import measured
+    from microslip.studies.decay_errors import step_errors
 
     twice = replace(
         scene.march,

@@ -10,7 +10,10 @@ from microslip.commands.columns import decimal, hertz
 if TYPE_CHECKING:
     from microslip_mechanics.results.ring_down import RingDown
 
-COLUMNS = ("time_s", "amplitude_m", "frequency_hz", "damping_ratio")
+COLUMNS = (
+    *("time_s", "amplitude_m", "frequency_hz"),
+    *("damping_ratio", "energy_damping_ratio"),
+)
 SHOWN = 20
 SMALL = 0.1
 """of the damping, that its error is where it is known"""
@@ -24,19 +27,29 @@ def cycles(decay: RingDown, probe: str, too_fast: int = 0) -> list[str]:
     ``too_fast`` is how many are left out at its end.
     """
     count = decay.time.size
+    both = decay.damping, decay.energy_damping
+    percents = [100.0 * ratio for ratio in both if ratio.size]
     rows = [
         f"free decay of {probe}",
-        "time [s]  amplitude [mm]  frequency [Hz]  damping ratio [%]",
+        f"{'damping ratio [%] by':>63}",
+        "time [s]  amplitude [mm]  frequency [Hz]   amplitude"
+        + "      energy" * (len(percents) - 1),
     ]
     chosen = sorted({round(n * (count - 1) / (SHOWN - 1)) for n in range(SHOWN)})
-    percent, frequencies = 100.0 * decay.damping, decay.frequency / math.tau
+    frequencies = decay.frequency / math.tau
     # about zero digits say nothing
-    largest = percent.max() if (percent > 0.0).all() else 1.0
+    known = [each[abs(each) < math.inf] for each in percents]
+    largest = [each.max(initial=0.0) if (each > 0.0).all() else 1.0 for each in known]
     rows += [
         f"{decimal(decay.time[place], decay.time[-1], 4, 8)} "
         f"{1e3 * decay.amplitude[place]:15.6g} "
         f"{hertz(frequencies[place], frequencies):>15} "
-        f"{decimal(percent[place], largest, 4, 18)}"
+        + " ".join(
+            f"{'-':>11}"
+            if math.isnan(ratio[place])
+            else decimal(ratio[place], most, 4, 11)
+            for ratio, most in zip(percents, largest, strict=True)
+        )
         for place in chosen
     ]
     grows = int((decay.damping < GROWS).sum())

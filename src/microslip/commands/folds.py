@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
-from microslip.commands.columns import KEY, decimal, hertz, keyed
+from microslip.commands.columns import KEY, decimal, hertz, keyed, span
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -96,8 +96,9 @@ def _lines(fold: FollowedFold, number: int) -> list[str]:
     count = len(fold.points)
     places = {*range(0, count, max(1, count // 12)), count - 1}
     places |= {place for place, name in enumerate(fold.curve.event) if name}
+    harmonics = span([fold.points[0].response.harmonics], "harmonic")
     return [
-        f"fold {number}, {fold.points[0].response.harmonics} harmonics",
+        f"fold {number}, {harmonics}",
         HEADER,
         *(_line(fold, place) for place in sorted(places)),
     ]

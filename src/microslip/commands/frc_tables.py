@@ -229,7 +229,7 @@ def uncounted(scene: Scene) -> list[str]:
         if isinstance(law, Iwan):
             lines.append(
                 f"not in it: element {name} is {law.sliders} sliders, whose force is "
-                f"up to {law.backbone_error:.1e} of slip_force above its law's: twice "
-                "as many have a quarter of that"
+                f"up to {law.backbone_error:.1e} of slip_force above its law's: more "
+                f"of them, or a smaller element.{name}.smallest, are nearer to it"
             )
     return lines

@@ -23,7 +23,7 @@ HEADER = """\
 SPREAD = 3.0
 """errors of the fit within which a jump is on its fold"""
 HARMONICS = 1e-4
-"""of a fold's frequency: what harmonics that it lacks may shift it by"""
+"""of a fold's frequency, by which it may be off whatever its estimated error"""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -35,8 +35,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "stable motion ends, at several rates, up or down; extrapolate the jump to no "
         "rate, compare it with the fold; write SCENE-jumps.png. Exit status 1 if one "
         f"is further from its fold than {SPREAD:g} errors of the fit, the error of "
-        f"time steps and {HARMONICS:g} of the frequency; a curve without folds is "
-        "told, and is 0.",
+        f"time steps and that of the fold, at least {HARMONICS:g} of it; a curve "
+        "without folds is told, and is 0.",
         epilog="example: microslip jumps two-blades --set model=A --set "
         "friction.law=gkf --set excitation.force=1.9",
     )
@@ -124,6 +124,8 @@ def _lines(jump: Jump) -> str:
     if not jump.whole:
         return "\n".join(rows)
     word = "agree" if _agrees(jump) else "DISAGREE"
+    if jump.fold.error > HARMONICS * jump.fold.hertz:
+        word += f", the fold is known to {jump.fold.error:.1e}"
     rows.append(
         f"{fold}        0 {hertz(jump.extrapolated, seen):>8} "
         f"{_late(jump, jump.extrapolated):16.2e} ± {jump.error:.1e}  {word}"
@@ -138,7 +140,7 @@ def _late(jump: Jump, place: float) -> float:
 
 def _agrees(jump: Jump) -> bool:
     accepted = SPREAD * jump.fit_error + jump.step_error
-    accepted += HARMONICS * jump.fold.hertz
+    accepted += max(HARMONICS * jump.fold.hertz, jump.fold.error)
     return abs(_late(jump, jump.extrapolated)) <= accepted
 
 

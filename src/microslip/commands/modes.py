@@ -42,7 +42,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="natural frequency and damping against amplitude",
         description="Follow the modes of free decaying motion of a scene from sticking "
         "to sliding contacts; print natural frequency and damping ratio against the "
-        "amplitude of the highest probe, write SCENE-modes.csv and SCENE-modes.png.",
+        "amplitude of the highest probe, write SCENE-modes.csv and SCENE-modes.png. "
+        "The damping ratio is what a cycle dissipates; an amplitude on which the "
+        "frequency depends falls faster or more slowly (microslip decay tells both).",
         epilog="example: microslip modes two-blades --set model=A",
     )
     arguments.add_scene(parser)

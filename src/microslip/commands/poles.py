@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.columns import KEY, decimal, hertz, keyed
+from microslip.commands.distinct import check_distinct
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -68,7 +69,6 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
-    from microslip.scenes.rigs import solvable
     from microslip.studies.pole_question import Question
     from microslip.studies.poles import linearised
 
@@ -76,8 +76,7 @@ def _run(options: argparse.Namespace) -> int:
     frequency = options.frequency and math.tau * options.frequency
     question = Question(options.scene, tuple(options.overrides), options.key, frequency)
     values = options.values or question.usual_values()
-    for value in values:
-        solvable(question.at(value))
+    check_distinct(options.key, values, map(question.at, values))
     found: list[Linearised] = []
     print(HEADER)
     ending = "complete"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from microslip.commands import arguments
 from microslip.commands.columns import KEY, about, decimal, hertz, keyed
+from microslip.commands.distinct import check_distinct
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -46,10 +47,18 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from microslip.progress import collected
+    from microslip.scenes.scene_file import load_scene
     from microslip.studies.track import tracked
 
     data, picture = arguments.outputs(options, "track", ".csv", ".png")
-    _check(options)
+    check_distinct(
+        options.key,
+        options.values,
+        (
+            load_scene(options.scene, [*options.overrides, f"{options.key}={value}"])
+            for value in options.values
+        ),
+    )
     found: list[Tracked] = []
     print(HEADER)
     ending = "complete"
@@ -70,28 +79,6 @@ def _run(options: argparse.Namespace) -> int:
     if torn and ending == "complete":
         ending = f"{torn} of {len(found)} curves are not whole"
     return arguments.ended(ending, kept=bool(found))
-
-
-def _check(options: argparse.Namespace) -> None:
-    """Raise an error if a scene cannot be solved, or would be solved twice."""
-    from microslip.scenes.key_path import key_path
-    from microslip.scenes.key_value import reached
-    from microslip.scenes.quantity import SceneError
-    from microslip.scenes.rigs import solvable
-    from microslip.scenes.scene_file import load_scene
-
-    values = []
-    for text in options.values:
-        scene = load_scene(options.scene, [*options.overrides, f"{options.key}={text}"])
-        solvable(scene)
-        value = reached(scene.rig, key_path(options.key))
-        # what is no value of the rig, such as one of [curve], is known by its text
-        values.append(text if value is None else value)
-        if values[-1] in values[:-1]:
-            raise SceneError(
-                f"{options.key} {' '.join(options.values)}: {text} stands there "
-                "twice: give different values"
-            )
 
 
 def _lines(each: Tracked) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -40,21 +41,37 @@ def decay_figure(
     shrinking.plot(decay.time, millimetres, **line)
     framed(shrinking, x="time [s]", y="amplitude [mm]", title="Amplitude")
     frequency.plot(millimetres, decay.frequency / math.tau, **line)
-    below = "amplitude [mm]"
-    framed(frequency, x=below, y="natural frequency [Hz]", title="Frequency")
+    framed(frequency, x="amplitude [mm]", y="natural frequency [Hz]", title="Frequency")
     frequency.ticklabel_format(axis="y", useOffset=False)
     widened(frequency)
-    damping.plot(millimetres, 100.0 * decay.damping, **line)
-    framed(damping, x=below, y="damping ratio [%]", title="Damping")
-    if (decay.damping > 0.0).all():
-        damping.set_ylim(0.0, 108.0 * decay.damping.max(initial=1e-9))
-    else:
-        widened(damping, ROUNDING)
+    _damping(damping, decay)
     if (decay.amplitude > 0.0).all() and decay.amplitude.size:
         _by_decades(shrinking, frequency, damping)
     fitted(figure)
     headline(figure, title)
     return figure
+
+
+def _damping(axes: Axes, decay: RingDown) -> None:
+    """Draw both damping ratios against the amplitude."""
+    millimetres = 1e3 * decay.amplitude
+    for ratio, style, color, label in (
+        (decay.damping, "-", COLOURS[0], "by amplitude"),
+        (decay.energy_damping, "--", COLOURS[1], "by energy, as modes have it"),
+    ):
+        if not ratio.size:
+            continue
+        axes.plot(
+            millimetres, 100.0 * ratio, style, color=color, lw=1.5 * WIDTH, label=label
+        )
+    framed(axes, x="amplitude [mm]", y="damping ratio [%]", title="Damping")
+    axes.legend(frameon=False)
+    if (decay.damping > 0.0).all():
+        both = np.append(decay.damping, decay.energy_damping)
+        highest = np.nanmax(both, initial=1e-9)
+        axes.set_ylim(0.0, 108.0 * highest)
+    else:
+        widened(axes, ROUNDING)
 
 
 def _by_decades(shrinking: Axes, frequency: Axes, damping: Axes) -> None:

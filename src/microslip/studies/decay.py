@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from microslip_mechanics.contact.memory import beyond_motion
 from microslip_mechanics.loads.sine_test import SineTest, Tone
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.checkpoint import Checkpoint
+from microslip_mechanics.results.energy_damping import energy_damping
 from microslip_mechanics.results.ring_down import (
     FEWEST_ROWS,
     RingDown,
@@ -29,7 +29,6 @@ from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.checkpoint import at_end
 from timedomain.record.driftless import undragged_motions
 from timedomain.record.start import Start
-from timedomain.step_doubling import CAUTION
 
 ROWS = 60
 """per period at least, if the steps are not longer"""
@@ -115,81 +114,38 @@ def measured(problem: Problem, history: TimeHistory, probe: int) -> RingDown:
     """
     if _cycle_rows(problem, history, probe) < FEWEST_ROWS:
         return no_swings()
-    found = _swings(problem, history, probe)
+    found = swings(problem, history, probe)
     return found.until(found.time.size - too_fast(problem, history, probe))
 
 
 def too_fast(problem: Problem, history: TimeHistory, probe: int) -> int:
     """Return how many swings at the end have too few rows, as where contacts stick."""
     step = float(np.diff(history.time[:2])[0])
-    turning = _swings(problem, history, probe).frequency * step
+    turning = swings(problem, history, probe).frequency * step
     told = np.flatnonzero(FEWEST_ROWS * turning <= 2.0 * math.pi)
     return int(turning.size - 1 - told[-1]) if told.size else turning.size
 
 
-def _swings(
+def swings(
     problem: Problem, history: TimeHistory, probe: int, *, every: int = 1
 ) -> RingDown:
-    """Return what ``every`` so many rows tell of a decay."""
+    """Return what ``every`` so many rows tell of a decay.
+
+    The kinetic energy of what gyroscopic forces couple is not half of its energy, of
+    which the rows do not tell the rest: there is no damping by energy.
+    """
     time, rest = history.time[::every], _rest(problem, history, probe)
     rows = (each[::every, probe] for each in (history.displacement, history.velocity))
-    return ring_down(time, *rows, rest=rest)
+    found = ring_down(time, *rows, rest=rest)
+    if problem.structure.gyroscopic:
+        return found
+    return replace(found, energy_damping=energy_damping(history, found, every=every))
 
 
 def _cycle_rows(problem: Problem, history: TimeHistory, probe: int) -> float:
     """Return how many rows a cycle of a probe's decay has."""
     rows = history.displacement[:, probe], history.velocity[:, probe]
     return cycle_rows(history.time, *rows, rest=_rest(problem, history, probe))
-
-
-class StepErrors(NamedTuple):
-    """What steps and rows change in a decay; NaN where there are no swings."""
-
-    frequency: float
-    """largest, over the largest natural frequency"""
-    damping: float
-    """largest, over the largest damping ratio"""
-    usual: float
-    """of the damping ratio, in the median"""
-
-
-def step_errors(
-    problem: Problem, history: TimeHistory, coarse: TimeHistory, probe: int
-) -> StepErrors:
-    """Return what steps and rows change in a decay, as longer ones tell.
-
-    Rows of the other decay are taken two by two: extremes lie between rows, by a cubic.
-
-    Parameters
-    ----------
-    problem, history, probe
-        The decay that is measured.
-    coarse
-        The same decay, marched with steps twice as long. Where several motions beat
-        one of both may have a swing more: they are compared at the same time.
-    """
-    fine = measured(problem, history, probe)
-    other = _swings(problem, coarse, probe, every=2)
-    if not (fine.time.size and other.time.size):
-        return StepErrors(math.nan, math.nan, math.nan)
-    both = fine.time <= max(other.time[-1], fine.time[0])
-    nearest = np.searchsorted(0.5 * (other.time[1:] + other.time[:-1]), fine.time)
-    apart = [
-        CAUTION * np.abs(one - two[nearest])[both]
-        for one, two in (
-            (fine.frequency, other.frequency),
-            (fine.damping, other.damping),
-        )
-    ]
-    largest = [
-        float(np.abs(each[both]).max()) or 1.0
-        for each in (fine.frequency, fine.damping)
-    ]
-    return StepErrors(
-        float(apart[0].max()) / largest[0],
-        float(apart[1].max()) / largest[1],
-        float(np.median(apart[1])),
-    )
 
 
 def unmeasured(problem: Problem, history: TimeHistory, probe: int) -> str:

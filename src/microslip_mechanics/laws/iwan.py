@@ -20,9 +20,13 @@ class Iwan:
     The density up to φ_max is cut into geometric intervals, each of them one slider of
     the interval's stiffness that slips at its mean slip displacement. So K_T and F_S
     are exact, as are force and stiffness on first loading at the edges of all
-    intervals; in between the force is too large, by ``backbone_error`` at the most.
-    Dissipation is an integral over that; it has no error that counts above the first
-    edge, below which nothing slips. Twice as many sliders have a quarter of the error.
+    intervals; in between the force is too large, by ``backbone_error`` at the most,
+    and the energy that a cycle dissipates is off by ``energy_error`` of its amplitude.
+    With χ = −0.5, β = 0 and 20 sliders these are 0.9 % of F_S, and at the most 2 %
+    above a tenth of φ_max and 12 % above twice the first edge; motions below the slip
+    displacement of the first slider dissipate nothing. Twice as many sliders have a
+    quarter of both errors, but for what the first interval adds, of which a smaller
+    first edge leaves less.
     """
 
     slip_force: float = quantity("N", positive=True)
@@ -91,6 +95,25 @@ class Iwan:
         bend = self.density * slip ** (self.chi + 2.0)
         exact = self.stiffness * slip - bend / ((self.chi + 1.0) * (self.chi + 2.0))
         return float((made - exact).max() / self.slip_force)
+
+    def energy_error(self, amplitude: float) -> float:
+        """Return that of the energy dissipated in a cycle, relative.
+
+        Parameters
+        ----------
+        amplitude
+            Of the cycle [m], above zero. The exact energy is 4 ∫ ρ(φ) φ (a − φ) dφ over
+            what slips.
+        """
+        stiffness, slip = self.spectrum
+        made = 4.0 * float(stiffness @ (slip * np.maximum(amplitude - slip, 0.0)))
+        two, three, most = self.chi + 2.0, self.chi + 3.0, self.largest_slip
+        slips = min(amplitude, most)
+        exact = 4.0 * self.density * slips**two * (amplitude / two - slips / three)
+        if amplitude > most:
+            last = self.stiffness * self.beta / (1.0 + self.beta)
+            exact += 4.0 * last * most * (amplitude - most)
+        return float(made / exact - 1.0)
 
     def rows(self, given: dict[str, int]) -> tuple[Row, ...]:  # noqa: ARG002
         """Return a row for each slider."""

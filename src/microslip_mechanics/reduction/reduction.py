@@ -101,8 +101,8 @@ def reduced(problem: Problem, highest: float) -> Reduction:
     """
     if problem.structure.gyroscopic:
         raise ValueError(
-            "a sparse structure with Coriolis terms: reduce it first "
-            "(microslip_mechanics.reduction.reduced_structure.craig_bampton)"
+            "a sparse structure with gyroscopic forces: give dense matrices, or reduce "
+            "it first by microslip.reduced_problem"
         )
     basis, selection = problem.interface.relative_motion()
     stuck = stuck_structure(problem.structure, selection)

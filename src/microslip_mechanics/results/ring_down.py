@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -29,10 +29,15 @@ class RingDown:
     """natural, that is of the undamped motion [rad/s], shape (swings,)"""
     damping: Array
     """ratio, from the logarithmic decrement of a cycle, shape (swings,)"""
+    energy_damping: Array = field(default_factory=lambda: np.zeros(0))
+    """ratio, from the energies of a cycle, like ``damping``, or empty if not told"""
 
     def until(self, count: int) -> RingDown:
         """Return so many swings of it, the first ones."""
-        columns = self.time, self.amplitude, self.frequency, self.damping
+        columns = (
+            *(self.time, self.amplitude, self.frequency),
+            *(self.damping, self.energy_damping),
+        )
         return RingDown(*(each[:count] for each in columns))
 
 
@@ -48,7 +53,9 @@ def ring_down(
 
     The natural frequency is √(ω² + a″/a) of the one with which the motion turns and the
     envelope a, with one a″/a over three swings: exact for both decays, since a dashpot
-    slows the motion by ζ²/2 of its frequency and constant friction does not.
+    slows the motion by ζ²/2 of its frequency and constant friction does not. Where a
+    stop holds a motion on one side half cycles are not alike, and bend to and fro: the
+    mean of neighbours is taken.
 
     Parameters
     ----------
@@ -69,14 +76,22 @@ def ring_down(
     middle = 0.5 * (moments[1:] + moments[:-1])
     half = 0.5 * (middle[2:] - middle[:-2])
     decrement = np.log(swing[:-2] / swing[2:])
-    curved = 0.5 * (swing[:-2] + swing[2:]) / swing[1:-1]
-    bent = (np.arccosh(curved.astype(complex)) ** 2).real  # a″/a of half a cycle
     return RingDown(
         middle[1:-1],
         np.sqrt(swing[:-2] * swing[2:]),
-        np.sqrt(np.pi**2 + bent) / half,
+        np.sqrt(np.pi**2 + _bent(swing)) / half,
         decrement / np.hypot(2.0 * np.pi, decrement),
     )
+
+
+def _bent(swing: Array) -> Array:
+    """Return a″/a of half a cycle, shape (swings - 2,)."""
+    curved = 0.5 * (swing[:-2] + swing[2:]) / swing[1:-1]
+    bent = (np.arccosh(curved.astype(complex)) ** 2).real
+    beside = np.pad(bent, 1, mode="reflect")
+    beside = 0.5 * (beside[:-2] + beside[2:])
+    found: Array = np.where(bent * beside < 0.0, 0.5 * (bent + beside), bent)
+    return found
 
 
 def no_swings() -> RingDown:

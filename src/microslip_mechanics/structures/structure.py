@@ -111,7 +111,8 @@ class Structure:
         power = motions.T @ (self.damping @ motions)
         if not np.all(np.isfinite(power)):
             raise ValueError("damping holds a value that is not finite")
-        if abs(power[0, 1] - power[1, 0]) > 1e-9 * np.abs(power).max():
+        away = abs(power[0, 1] - power[1, 0])
+        if not self.gyroscopic and away > 1e-9 * np.abs(power).max():
             raise ValueError("damping is not symmetric: only symmetric is supported")
 
     def _check_light(self) -> None:
@@ -145,9 +146,12 @@ def _check_symmetric(matrix: Matrix, name: str, names: tuple[str, ...]) -> None:
     if away.max() > 1e-9 * abs(matrix).max():
         row, column = np.unravel_index(int(away.argmax()), away.shape)
         there, back = apart(matrix[row, column], matrix[column, row])
+        remedy = "only symmetric is supported"
+        if name == "damping":
+            remedy += ", beside a skew-symmetric gyroscopic matrix"
         raise ValueError(
             f"{name} is not symmetric: {there} of {names[row]} by {names[column]} but "
-            f"{back} of {names[column]} by {names[row]}: only symmetric is supported"
+            f"{back} of {names[column]} by {names[row]}: {remedy}"
         )
 
 

@@ -153,6 +153,7 @@ def _matrices(rig: System) -> dict[str, Any]:
             "mass": given.mass,
             "stiffness": given.stiffness,
             "damping": given.damping,
+            "gyroscopic": given.gyroscopic,
             "names": given.names,
         }
     if len(files) < (2 if given.damping is None else 3):
@@ -163,7 +164,8 @@ def _matrices(rig: System) -> dict[str, Any]:
     matrices = {name: getattr(read, name) for name in files}
     if read.dofs <= SMALL:
         matrices = {name: matrix.toarray() for name, matrix in matrices.items()}
-    return {**matrices, "names": given.names or read.names}
+    others = {"gyroscopic": given.gyroscopic, "names": given.names or read.names}
+    return {**matrices, **others}
 
 
 def _damping(given: Numbers) -> dict[str, Any]:

@@ -39,26 +39,30 @@ def read_matrices(source: str, values: dict[str, Any]) -> Matrices:
         raise SceneError(
             f"{source}: [structure] names{shown(names)}: give a list of texts"
         )
-    mass, stiffness, damping = (_rows(source, key, values.get(key)) for key in MATRICES)
-    return Matrices(
-        mass,
-        stiffness,
-        damping,
-        None if names is None else tuple(names),
-        Path(source).parent,
-    )
+    swerve = values.get("gyroscopic")
+    if isinstance(swerve, str):
+        raise SceneError(
+            f"{source}: [structure] gyroscopic{shown(swerve)}: give its rows, those of "
+            "files are not read"
+        )
+    rows = {
+        key: _rows(source, key, values.get(key)) for key in (*MATRICES, "gyroscopic")
+    }
+    named = None if names is None else tuple(names)
+    return Matrices(**rows, names=named, folder=Path(source).parent)
 
 
 def _check_keys(source: str, values: dict[str, Any]) -> None:
     """Check that there are matrices or a beam, and nothing unknown."""
-    known = (*MATRICES, *NUMBERS, "names", "masses", "sets")
+    known = (*MATRICES, *NUMBERS, "gyroscopic", "names", "masses", "sets")
     for key in values:
         if key not in known:
             raise SceneError(
                 f"{source}: [structure] {key}{shown(values[key])} is unknown"
                 f"{meant(key, known)}"
             )
-    both = [key for key in (*MATRICES, "names") if key in values and "beam" in values]
+    alone = (*MATRICES, "gyroscopic", "names")
+    both = [key for key in alone if key in values and "beam" in values]
     if both:
         raise SceneError(
             f"{source}: [structure] {both[0]} and beam: give matrices or a beam, one "

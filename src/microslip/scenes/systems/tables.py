@@ -78,6 +78,7 @@ class Matrices:
     """none where a beam takes their place"""
     stiffness: Rows | None
     damping: Rows | None
+    gyroscopic: Rows | None
     names: tuple[str, ...] | None
     folder: Path
     """in which files are sought"""

@@ -44,6 +44,12 @@ class Fold:
         """Its frequency [Hz]."""
         return self.response.frequency / (2.0 * np.pi)
 
+    @property
+    def error(self) -> float:
+        """Estimated error of that [Hz]; 0 if it is not known."""
+        told = self.response.parameter_error / (2.0 * np.pi)
+        return told if np.isfinite(told) else 0.0
+
 
 def folds_of(problem: Problem, traced: Traced, *, lead: float) -> list[Fold]:
     """Return the folds of a curve from which a stable motion jumps.

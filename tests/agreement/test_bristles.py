@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
@@ -73,6 +74,21 @@ def bent_spring() -> Problem:
     )
 
 
+def carried() -> Problem:
+    """Return a mass on a spring that bends, and one that bristles alone carry along."""
+    return system(
+        names=["x", "free"],
+        mass=[1.0, 0.5],
+        stiffness=[[1e4, 0.0], [0.0, 0.0]],
+        damping=[[1.0, 0.0], [0.0, 0.0]],
+        elements=[
+            Element(Dahl(load=10.0, stiffness=5e3, mu=0.5), tangents=[("free", "x")]),
+            Element(PolynomialSpring(coefficients={2: 1e6}), between=("x", "ground")),
+        ],
+        drive={"x": 1.0},
+    )
+
+
 def first_harmonic(problem: Problem, harmonics: int, samples: int) -> Array:
     turn = 2.0 * np.pi * HERTZ
     options = CurveOptions(turn, 1.001 * turn, harmonics=harmonics, samples=samples)
@@ -135,7 +151,7 @@ def test_both_domains_have_one_orbit() -> None:
 
 def test_a_bristle_that_forgets_slowly_has_the_mean_that_a_march_ends_with() -> None:
     problem, rest = bent_spring(), static_equilibrium(bent_spring())
-    options = CurveOptions(2.0 * np.pi * 19.0, 2.0 * np.pi * 18.0)
+    options = CurveOptions(120.0, 114.0, stability=False, events=False)
 
     curve = list(frequency_response(problem, rest, options))
 
@@ -146,3 +162,17 @@ def test_a_bristle_that_forgets_slowly_has_the_mean_that_a_march_ends_with() -> 
     found = loud.amplitudes(problem.probes.rows)
     assert loud.error < 1e-3
     assert found == pytest.approx(orbit.amplitude, rel=loud.error + orbit.error)
+
+
+def test_bristles_alone_hold_no_mean_position() -> None:
+    problem, rest = carried(), static_equilibrium(carried())
+    turn, periods = 2.0 * np.pi * 9.0, 160
+
+    with pytest.raises(ContinuationError, match="drifts at 9 Hz"):
+        next(frequency_response(problem, rest, CurveOptions(turn, 1.1 * turn)))
+
+    dwell = Dwell(turn, periods / 9.0)
+    history = marched(problem, dwell, MarchOptions(1.0 / 9.0 / 128, 128 * 20))
+    away = np.diff(history.displacement[-3:, 1])
+    assert away[1] == pytest.approx(away[0], rel=1e-2)
+    assert np.abs(away[1]) > 0.1 * np.abs(history.displacement[:, 0]).max()

@@ -5,11 +5,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
 from microslip_mechanics.laws.bristles import Dahl, LuGre
+from microslip_mechanics.laws.polynomial_spring import PolynomialSpring
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.static import static_equilibrium
@@ -52,6 +54,38 @@ def pressed_dahl() -> Problem:
             Element(law, normal=("n", "ground"), tangents=[("t", "ground")]),
         ],
         drive={"n": (0.5, 0.4), "t": 0.3},
+    )
+
+
+def bent_spring() -> Problem:
+    """Return a mass on a spring that bends, with a bristle that forgets slowly."""
+    law = Dahl(load=2000.0, stiffness=5e3, mu=0.5)
+    bends = PolynomialSpring(coefficients={2: 1.25e6})
+    return system(
+        names=["x"],
+        mass=[1.0],
+        stiffness=[1e4],
+        damping_ratio=0.005,
+        elements=[
+            Element(law, tangents=[("x", "ground")]),
+            Element(bends, between=("x", "ground")),
+        ],
+        drive={"x": 1.0},
+    )
+
+
+def carried() -> Problem:
+    """Return a mass on a spring that bends, and one that bristles alone carry along."""
+    return system(
+        names=["x", "free"],
+        mass=[1.0, 0.5],
+        stiffness=[[1e4, 0.0], [0.0, 0.0]],
+        damping=[[1.0, 0.0], [0.0, 0.0]],
+        elements=[
+            Element(Dahl(load=10.0, stiffness=5e3, mu=0.5), tangents=[("free", "x")]),
+            Element(PolynomialSpring(coefficients={2: 1e6}), between=("x", "ground")),
+        ],
+        drive={"x": 1.0},
     )
 
 
@@ -113,3 +147,32 @@ def test_both_domains_have_one_orbit() -> None:
     assert abs(response.multipliers[0]) == pytest.approx(
         abs(orbit.multipliers).max(), abs=1e-3
     )
+
+
+def test_a_bristle_that_forgets_slowly_has_the_mean_that_a_march_ends_with() -> None:
+    problem, rest = bent_spring(), static_equilibrium(bent_spring())
+    options = CurveOptions(120.0, 114.0, stability=False, events=False)
+
+    curve = list(frequency_response(problem, rest, options))
+
+    loud = max(curve, key=lambda each: each.amplitudes(problem.probes.rows)[0])
+    start = on_orbit(problem, loud)
+    orbit = periodic_orbit(problem, loud.frequency, start=start, near=loud)
+    # of the mean with which a march begins a period leaves nine tenths
+    found = loud.amplitudes(problem.probes.rows)
+    assert loud.error < 1e-3
+    assert found == pytest.approx(orbit.amplitude, rel=loud.error + orbit.error)
+
+
+def test_bristles_alone_hold_no_mean_position() -> None:
+    problem, rest = carried(), static_equilibrium(carried())
+    turn, periods = 2.0 * np.pi * 9.0, 160
+
+    with pytest.raises(ContinuationError, match="drifts at 9 Hz"):
+        next(frequency_response(problem, rest, CurveOptions(turn, 1.1 * turn)))
+
+    dwell = Dwell(turn, periods / 9.0)
+    history = marched(problem, dwell, MarchOptions(1.0 / 9.0 / 128, 128 * 20))
+    away = np.diff(history.displacement[-3:, 1])
+    assert away[1] == pytest.approx(away[0], rel=1e-2)
+    assert np.abs(away[1]) > 0.1 * np.abs(history.displacement[:, 0]).max()

@@ -55,7 +55,9 @@ def whole(gradient: LoopGradient) -> Array:
 
 
 @pytest.mark.parametrize("case", ["elastic", "dahl", "lugre"])
-@pytest.mark.parametrize("size", [2e-3, 0.05, 0.3], ids=["sticks", "slips", "slides"])
+@pytest.mark.parametrize(
+    "size", [2e-5, 2e-3, 0.05, 0.3], ids=["creeps", "sticks", "slips", "slides"]
+)
 def test_derivatives_are_those_of_differences(case: str, size: float) -> None:
     points = driven(case).interface.points
     random = np.random.default_rng(3)
@@ -63,6 +65,23 @@ def test_derivatives_are_those_of_differences(case: str, size: float) -> None:
     motion[0, 0] = 0.02
 
     agree(points, motion, size)
+
+
+@pytest.mark.parametrize("case", ["dahl", "lugre"])
+def test_bristles_that_creep_pull_to_neither_side_along_their_way(case: str) -> None:
+    points = driven(case).interface.points
+    motion = np.zeros((2 * HARMONICS + 1, 3))
+    motion[0, 0] = 0.02
+    # a period forgets a fiftieth, and the middle of the way is not the mean in time
+    motion[1, 1], motion[3, 1] = 1e-4, 4e-5
+
+    traction, _ = loop(points, motion, loop_gradient(SAMPLES, 0))
+
+    # of ∮ dT = 0 and ∮ dw = 0 under a constant load ∮ T |dw| = 0 is left
+    way = series().value @ motion[:, 1]
+    slides = np.abs(np.diff(way, append=way[0]))
+    between = 0.5 * (traction[0] + np.roll(traction[0], -1))
+    assert abs(between @ slides) < 2e-3 * (np.abs(between) @ slides)
 
 
 def test_derivatives_know_where_a_slider_came_to_stick_for_good() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import TINY, Array
+from microslip_mechanics.contact.closed_gradient import close_gradient, last_gradient
 from microslip_mechanics.contact.loop_gradient import (
     LoopGradient,
     Step,
@@ -16,13 +17,15 @@ from microslip_mechanics.contact.loop_gradient import (
     carry_gradient,
 )
 from microslip_mechanics.contact.memory import pressed, traction
-from microslip_mechanics.contact.points import ContactPoints
+from microslip_mechanics.contact.points import BRISTLE, ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
 
 PERIODS = 20
 """most that are marched"""
 STEADY = 1e-12
 """change of the traction over a period, over its largest value"""
+FAINT = 1e-7
+"""share of their traction that bristles forget in a period, below which they stick"""
 
 
 class Motion(NamedTuple):
@@ -66,25 +69,66 @@ def steady_loop(
     asked, run = gradient.run.size > 0, 0
     if asked:
         begin_gradient(gradient, waves, points.tangential[point])
+    closed = False
     for sweep in range(PERIODS):
-        first = state[0].copy()
+        first, before = state.copy(), last_gradient(gradient, waves, axes, run)
         if asked:
             gradient.rest[0] = gradient.rest[run]
-            run = 0
-        for place in range(samples):
-            last = _last(place, samples, sweep == 0)
-            _take(motion, place, last, state, step)
-            if asked:
-                run = carry_gradient(
-                    gradient, waves, frequency, axes, step, place, last, run
-                )
-                gradient.run[place] = run
-            for axis in range(2):
-                made[axis, place], change[axis, place] = state[0, axis], state[1, axis]
+        kept, run = _around(
+            motion, sweep == 0, state, step, made, change, gradient, waves, frequency,
+            axes,
+        )  # fmt: skip
         largest = max(np.abs(made).max(), TINY)
-        if sweep > 0 and np.abs(state[0] - first).max() <= STEADY * largest:
+        steady = sweep > 0 and np.abs(state[0] - first[0]).max() <= STEADY * largest
+        more = _more(points, point, kept) if sweep > 0 else 0.0
+        if steady and (closed or more == 0.0):
             break
+        state += more * (state - first)
+        close_gradient(gradient, waves, axes, run, before, more)
+        closed = steady
     return made, change
+
+
+@bare_kernel
+def _around(
+    motion: Motion,
+    begins: bool,
+    state: Array,
+    step: Step,
+    made: Array,
+    change: Array,
+    gradient: LoopGradient,
+    waves: Waves,
+    frequency: float,
+    axes: NDArray[np.bool_],
+) -> tuple[float, int]:
+    """March a period; return what is left of the traction before, and the last run."""
+    kept, run, samples = 1.0, 0, made.shape[1]
+    for place in range(samples):
+        last = _last(place, samples, begins)
+        _take(motion, place, last, state, step)
+        kept *= step.by[0, 6]
+        if gradient.run.size > 0:
+            run = carry_gradient(
+                gradient, waves, frequency, axes, step, place, last, run
+            )
+            gradient.run[place] = run
+        for axis in range(2):
+            made[axis, place], change[axis, place] = state[0, axis], state[1, axis]
+    return kept, run
+
+
+@bare_kernel
+def _more(points: ContactPoints, point: int, kept: float) -> float:
+    """Return what all further periods change, over what the last one has changed.
+
+    Of bristles a period leaves the share ``kept``, whatever their traction is; what
+    others leave depends on it, and they settle at once.
+    """
+    forgets = STEADY < kept < 1.0 - FAINT
+    if points.friction[point] != BRISTLE or not forgets:
+        return 0.0
+    return kept / (1.0 - kept)
 
 
 @bare_kernel

@@ -13,6 +13,7 @@ from hbm.continuation.tracing import Tracing
 from hbm.curves.restart import Restart
 from hbm.errors import ContinuationError
 from hbm.paths.along_parameter import AlongParameter
+from hbm.paths.path import AlongFrequency
 from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array
 
@@ -77,6 +78,8 @@ class Incoming:
         outwards = math.copysign(width, 2.0 * here - self._start - self._end)
         until = max(here + outwards, LEAST * here)
         system = self._system(until)
+        if system is None:
+            return None
 
         def metric(point: Array) -> Array:
             scale = restart.metric(point)
@@ -98,9 +101,11 @@ class Incoming:
             return None
         return last.point if last.point[-1] == here else None
 
-    def _system(self, until: float) -> AdaptiveBalance:
-        """Return what is traced up to a place beyond the range."""
-        restart = self._restart
-        if restart.resolved is None or not isinstance(restart.path, AlongParameter):
-            return restart.system  # along frequency there is one problem
-        return restart.resolved(restart.path.beyond(until), restart.effort)
+    def _system(self, until: float) -> AdaptiveBalance | None:
+        """Return what is traced up to a place beyond the range, if there is such."""
+        restart, path = self._restart, self._restart.path
+        if isinstance(path, AlongFrequency):
+            return restart.system  # there is one problem, at any frequency
+        if restart.resolved is None or not isinstance(path, AlongParameter):
+            return None
+        return restart.resolved(path.beyond(until), restart.effort)

@@ -12,7 +12,6 @@ from hbm.continuation.settler import UNSETTLED
 from hbm.continuation.tracing import Tracing
 from hbm.curves.restart import Restart
 from hbm.errors import ContinuationError
-from hbm.paths.along_parameter import AlongParameter
 from hbm.paths.path import AlongFrequency
 from hbm.resolution.adaptive import AdaptiveBalance
 from microslip_mechanics.arrays import Array
@@ -106,6 +105,8 @@ class Incoming:
         restart, path = self._restart, self._restart.path
         if isinstance(path, AlongFrequency):
             return restart.system  # there is one problem, at any frequency
+        from hbm.paths.along_parameter import AlongParameter
+
         if restart.resolved is None or not isinstance(path, AlongParameter):
             return None
         return restart.resolved(path.beyond(until), restart.effort)

@@ -45,6 +45,10 @@ class ReturnedError(ContinuationError):
     """The curve is where it has been: it is no corner, and goes round for ever."""
 
 
+class RetracedError(ReturnedError):
+    """It goes back on itself, from the parameter that is told."""
+
+
 @contextlib.contextmanager
 def placed(name: Callable[[float], str]) -> Iterator[None]:
     """Name the places of errors by a function of the parameter."""

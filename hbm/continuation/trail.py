@@ -13,7 +13,7 @@ from hbm.continuation.known import ASIDE, Known, head, shortened
 from hbm.continuation.linearised import System
 from hbm.continuation.newton import Small, correct
 from hbm.continuation.step_control import StepControl
-from hbm.errors import PLACE, ReturnedError
+from hbm.errors import PLACE, RetracedError, ReturnedError
 from microslip_mechanics.arrays import TINY, Array
 
 FEWEST = 4
@@ -71,9 +71,10 @@ class Trail:
         Raises
         ------
         ReturnedError
-            If it passes another one, or several in a row the other way: a curve does
-            not run into itself, but steps may have led from one branch to another, and
-            would go round for ever, or back the whole way.
+            If it passes another one: a curve does not run into itself, but steps may
+            have led from one branch to another, and would go round for ever.
+        RetracedError
+            If it passes several in a row the other way, and would go back all the way.
         """
         passed = self._passed(after, scale)
         if passed is None:
@@ -81,16 +82,17 @@ class Trail:
             return False
         if passed == (0, True):
             return True
-        if not passed.onwards:
-            self._turns.append(self._turned(passed.number))
-            if len(self._turns) < BACK:
-                return False
-        raise ReturnedError(
+        text = (
             f"the curve comes back at {PLACE} to where it has been: a step has led "
             "from one branch to another; a smaller tolerance, or more harmonics, may "
-            "tell them apart",
-            float(self._heads[passed.number][-1]) if passed.onwards else self._turns[0],
+            "tell them apart"
         )
+        if passed.onwards:
+            raise ReturnedError(text, float(self._heads[passed.number][-1]))
+        self._turns.append(self._turned(passed.number))
+        if len(self._turns) >= BACK:
+            raise RetracedError(text, self._turns[0])
+        return False
 
     def has_been_at(self, point: Array, scale: Array) -> bool:
         """Return whether a point of the system lies between two that are known.

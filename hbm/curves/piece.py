@@ -12,7 +12,12 @@ from hbm.continuation.correction import Correction
 from hbm.continuation.tracing import Tracing
 from hbm.curves.bounded import bounded
 from hbm.curves.restart import Beginning, Restart
-from hbm.errors import ContinuationError, ReturnedError, UnboundedError
+from hbm.errors import (
+    ContinuationError,
+    RetracedError,
+    ReturnedError,
+    UnboundedError,
+)
 from hbm.paths.path import AlongFrequency
 from microslip_mechanics.arrays import Array
 
@@ -70,14 +75,18 @@ class Piece:
         """Return the leaps that are left to try, and a new beginning, if there is one.
 
         It lies behind what resists if more harmonics lead no further, as where a curve
-        goes round, and behind its turn where it goes back on itself.
+        goes round, or from where it has turned to go back on itself.
         """
-        last = way[-1].point if way else begun.guess
-        reached = float(last[-1])
-        if isinstance(error, ReturnedError):
-            reached = reached if error.parameter is None else error.parameter
-        elif (finer := self.restart.finer(list(way), begun.control)) is not None:
-            return leaps, finer
+        reached, known = float(begun.guess[-1]), list(way)
+        if isinstance(error, ReturnedError) and error.parameter is not None:
+            reached, known = error.parameter, _until(error.parameter, way)
+        elif known:
+            reached = float(known[-1].point[-1])
+        # what has come to another part of the curve is not led there again
+        if isinstance(error, RetracedError) or not isinstance(error, ReturnedError):
+            finer = self.restart.finer(known, begun.control)
+            if finer is not None:
+                return leaps, finer
         return self.restart.behind(reached, begun, heading, leaps)
 
     def _cornered(self, begun: Beginning, heading: float) -> Iterator[Correction]:
@@ -103,3 +112,9 @@ class Piece:
             return heading
         onwards = math.copysign(1.0, last.along[-1])
         return max(self.ends, key=lambda each: onwards * each)
+
+
+def _until(place: float, way: Sequence[Correction]) -> list[Correction]:
+    """Return a way up to where its parameter was at a place; none if it never was."""
+    places = [float(each.point[-1]) for each in way]
+    return list(way)[: places.index(place) + 1] if place in places else []

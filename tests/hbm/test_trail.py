@@ -11,7 +11,7 @@ from hbm.continuation.continuation import trace
 from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.step_control import StepControl
 from hbm.continuation.trail import Trail
-from hbm.errors import ReturnedError
+from hbm.errors import RetracedError, ReturnedError
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.arrays import Array
@@ -106,7 +106,7 @@ def test_a_curve_that_goes_back_the_way_it_came_ends_and_says_where_it_turned() 
         trail.append(on_circle(turn, 1.0))
     back = iter(np.linspace(0.97, -0.23, 25))
 
-    with pytest.raises(ReturnedError, match=r"comes back at parameter 0\.841"):
+    with pytest.raises(RetracedError, match=r"comes back at parameter 0\.841"):
         go_back(trail, back)
 
     assert len(list(back)) == 13  # two pass what it has just left, ten are enough

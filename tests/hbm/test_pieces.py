@@ -18,7 +18,7 @@ from hbm.continuation.step_control import StepControl
 from hbm.continuation.tracing import Tracing
 from hbm.curves.pieces import Pieces
 from hbm.curves.restart import FIRST
-from hbm.errors import ContinuationError
+from hbm.errors import ContinuationError, RetracedError, ReturnedError
 from hbm.forces.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
 from systems import Dense
@@ -140,6 +140,38 @@ def test_a_curve_goes_on_from_where_more_harmonics_have_it_too(
     assert [place for _, place in begun] == [0.0, 0.2]
     assert points == [0.1, 0.2, 0.21, RESISTS, 1.0]
     assert [each.negligible for each in controls] == [1e-5, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("error", "again"), [(RetracedError, 0.24), (ReturnedError, 0.2401)]
+)
+def test_what_goes_back_on_itself_is_taken_up_where_it_turned(
+    begun: list[tuple[float, float]],
+    monkeypatch: pytest.MonkeyPatch,
+    error: type[ReturnedError],
+    again: float,
+) -> None:
+    # where a step has led to another part more harmonics would go there again: a leap
+    def trace(
+        system: Finer, start: Array, _: float, **_options: Any
+    ) -> Iterator[Correction]:
+        begun.append((float(start[0]), float(start[1])))
+        first = len(begun) == 1
+        for place in (0.1, 0.2, 0.24, 0.23, 0.22) if first else (1.0,):
+            point, along = np.array([1.0, place]), np.array([0.0, 1.0])
+            residual, linearised = system(point)
+            yield Correction(
+                point, residual, linearised, Outcome.CONVERGED, (0.0,), along
+            )
+        if first:
+            raise error("the curve comes back", 0.24)
+
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
+
+    points = [each.point[-1] for each in pieces(0.0, 1.0, Finer())]
+
+    assert [place for _, place in begun] == pytest.approx([0.0, again])
+    assert points == [0.1, 0.2, 0.24, 0.23, 0.22, 1.0]
 
 
 def test_what_more_harmonics_do_not_have_is_followed_back_with_few(

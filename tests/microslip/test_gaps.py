@@ -103,6 +103,7 @@ def test_a_gap_beside_the_largest_amplitude_counts_earlier(
         ([3.0, 2.0, 2.5, 2.0, 1.0], [1.0, 4.0, 3.0, 0.1, 0.1], [3], [2.5]),
         ([1.0, 3.0, 3.0, 2.0, 2.5], [1.0, 4.0, 0.1, 3.0, 3.5], [2], [2.5]),
         ([1.0, 3.0, 3.0, 1.9, 2.5], [1.0, 4.0, 0.1, 0.3, 0.19], [2], [1.9]),
+        ([3.0, 1.9, 2.5, 1.9, 3.0], [0.1, 0.3, 0.19, 0.3, 0.5], [3], []),
     ],
     ids=[
         "behind a fold",
@@ -116,6 +117,7 @@ def test_a_gap_beside_the_largest_amplitude_counts_earlier(
         "downwards",
         "behind a fold, the last piece",
         "on itself",
+        "on itself, taken up where it turned",
     ],
 )
 def test_a_piece_that_breaks_off_is_told(

@@ -127,14 +127,15 @@ def broken(curve: ResponseCurve) -> list[float]:
             back |= curve.ending == "complete"
         else:
             back |= (own[after] - own[last]) * steps.sum() <= 0.0
+        end = first + _end(own[first:after], size[first:after])
         inside = own.min() < own[last] < own.max()
-        if back and inside and not _goes_on(own, size, last):
-            found.append(_end(own[first:after], size[first:after]))
+        if back and inside and not _goes_on(own, size, end, after):
+            found.append(float(own[end]))
     return found
 
 
-def _end(own: np.ndarray, size: np.ndarray) -> float:
-    """Return where a piece breaks off: where it turned if it then went back on itself.
+def _end(own: np.ndarray, size: np.ndarray) -> int:
+    """Return the point at which a piece ends: where it turned to go back on itself.
 
     That is what lies between its end and where it had been there before.
     """
@@ -144,16 +145,21 @@ def _end(own: np.ndarray, size: np.ndarray) -> float:
     shares = (place - before[passes]) / (before[passes + 1] - before[passes])
     there = sizes[passes] + shares * (sizes[passes + 1] - sizes[passes])
     alike = passes[np.abs(there - size[-1]) <= SAME * size[-1]]
-    since = before[alike[-1] + 1 :] if alike.size else own[-1:]
-    return float(since[np.abs(since - place).argmax()])
+    if not alike.size:
+        return own.size - 1
+    since = int(alike[-1]) + 1
+    return since + int(np.abs(before[since:] - place).argmax())
 
 
-def _goes_on(own: np.ndarray, size: np.ndarray, last: int) -> bool:
-    """Return whether a later piece begins where one ends, or passes there."""
-    later, sizes = own[last + 1 :], size[last + 1 :]
-    passing = (later[:-1] - own[last]) * (later[1:] - own[last]) <= 0.0
+def _goes_on(own: np.ndarray, size: np.ndarray, end: int, after: int) -> bool:
+    """Return whether a piece from ``after`` on begins where one ends, or passes there.
+
+    ``end`` is the number of the point at which it ends.
+    """
+    later, sizes = own[after:], size[after:]
+    passing = (later[:-1] - own[end]) * (later[1:] - own[end]) <= 0.0
     near = np.append(sizes[:1], 0.5 * (sizes[:-1] + sizes[1:])[passing])
-    alike = np.abs(near - size[last]) <= ALIKE * np.maximum(near, size[last])
+    alike = np.abs(near - size[end]) <= ALIKE * np.maximum(near, size[end])
     return bool(alike.any())
 
 

@@ -4,6 +4,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hbm.continuation.linearised import SingularError
+from hbm.continuation.settler import Unsettled
+from hbm.forces.fourier import FourierBasis
 from microslip_mechanics.arrays import Array
 
 
@@ -29,3 +31,21 @@ class Dense:
 
     def forget(self) -> None:
         """Keep the rows."""
+
+
+class Square(Unsettled):
+    """y² = 1, at any parameter."""
+
+    size = 2
+    fourier = settled = FourierBasis(1, 32)
+
+    def __call__(self, point: Array) -> tuple[Array, Dense]:
+        y, _ = point
+        return np.array([y**2 - 1.0]), Dense([[2.0 * y, 0.0]])
+
+    def restart(self, harmonics: int) -> None:
+        """Have nothing to begin anew."""
+
+    def raise_floor(self) -> bool:
+        """Have no more harmonics."""
+        return False

@@ -103,8 +103,8 @@ class Trail:
             return False
         heads = np.array(self._heads[:-FEWEST]) / head(scale)
         chords, away = np.diff(heads, axis=0), head(point) / head(scale) - heads[:-1]
-        lengths = np.linalg.norm(chords, axis=1).clip(min=TINY)
-        shares = np.einsum("ij,ij->i", chords, away) / lengths**2
+        lengths = np.linalg.norm(chords, axis=1)
+        shares = np.einsum("ij,ij->i", chords, away) / (lengths**2).clip(min=TINY)
         aside = np.linalg.norm(away - shares[:, None] * chords, axis=1)
         between = (shares >= 0.0) & (shares <= 1.0) & (aside <= ASIDE * lengths)
         for number in np.flatnonzero(between).tolist():

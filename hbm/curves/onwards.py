@@ -11,10 +11,8 @@ from hbm.continuation.correction import Correction, Outcome
 from hbm.continuation.linearised import System
 from hbm.continuation.newton import correct
 from hbm.continuation.step_control import StepControl
+from hbm.continuation.trail import ALIKE
 from microslip_mechanics.arrays import Array
-
-ALIKE = 1e-3
-"""of the length of a step: points of one plane that are one are not farther apart"""
 
 
 def onwards(

@@ -159,5 +159,14 @@ def test_a_trail_knows_where_its_curve_has_been_between_its_points() -> None:
     assert not been(np.array([1.0, -0.05]))  # on the line beside the circle
 
 
+def test_a_trail_that_tells_a_point_twice_knows_what_is_beside_it() -> None:
+    trail = Trail(six, CONTROL)
+    for turn in (-1.5, -1.4, -1.4, -1.3, *np.linspace(-1.2, 0.0, 8)):
+        trail.append(on_circle(float(turn), 1.0))
+
+    with np.errstate(invalid="raise", divide="raise"):
+        assert trail.has_been_at(on_circle(-1.45, 1.0).point, np.ones(2))
+
+
 def test_a_trail_without_points_has_been_nowhere() -> None:
     assert not Trail(six, CONTROL).has_been_at(np.array([1.0, 0.0]), np.ones(2))

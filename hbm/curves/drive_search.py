@@ -18,8 +18,9 @@ from hbm.paths.path import AlongFrequency
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import BEGINNINGS, PeriodicResponse
 
-LEAST, MOST = 0.05, 4.0
-"""drives between which is sought, over the wanted one"""
+LEAST, MOST, FAR = 0.05, 4.0, 40.0
+"""drives between which is sought, over the wanted one; the last where the response is
+linear up to the one before it, so that contact begins with more"""
 COARSE = 1e-2
 """relative error of amplitude while seeking"""
 HARMONICS = 31
@@ -63,10 +64,22 @@ class DriveSearch:
 
         And how far that curve was followed.
         """
+        passed, sought, linear = self._up_to(MOST, frequency)
+        if linear:
+            passed, sought, _ = self._up_to(FAR, frequency)
+        return passed, sought
+
+    def _up_to(
+        self, most: float, frequency: float
+    ) -> tuple[list[PeriodicResponse], Sought, bool]:
+        """Return what a curve of drives up to ``most`` passes, and how far it came.
+
+        And whether all of it is linear.
+        """
         options = replace(
             self.options,
             start=LEAST,
-            end=MOST,
+            end=most,
             error=COARSE,
             stability=False,
             events=False,
@@ -74,21 +87,23 @@ class DriveSearch:
             most_harmonics=HARMONICS,
             effort=SEEKING * self.effort,
         )
-        path = AlongParameter(self._driven, frequency, LEAST, MOST)
-        tracer = Tracer(self.problem, path, options)
+        path = AlongParameter(self._driven, frequency, LEAST, most)
         passed: list[PeriodicResponse] = []
-        before: PeriodicResponse | None = None
-        share, cause, stopped = 0.0, "", False
+        first: PeriodicResponse | None = None
+        share, cause, stopped, linear = 0.0, "", False, True
         try:
-            for each in tracer.responses():
-                stopped |= each.event in BEGINNINGS and each.parameter == MOST
-                if before is not None and _between(before, each):
+            for each in Tracer(self.problem, path, options).responses():
+                stopped |= each.event in BEGINNINGS and each.parameter == most
+                if first is None:
+                    first = before = each
+                if _between(before, each):
                     passed += self._wanted(before, each)
+                linear &= _proportional(first, each)
                 # a curve that stops is followed from the other end too
                 before, share = each, share if stopped else max(share, each.parameter)
         except ContinuationError as error:
-            cause = str(error.placed(drives))
-        return passed, Sought(frequency, share, cause, "")
+            cause, linear = str(error.placed(drives)), False
+        return passed, Sought(frequency, share, cause, ""), linear
 
     def from_fold(
         self, fold: PeriodicResponse, end: float
@@ -144,3 +159,11 @@ def _between(before: PeriodicResponse, after: PeriodicResponse) -> bool:
     """Return whether the wanted drive lies between two responses, or is the second."""
     first, last = before.parameter - 1.0, after.parameter - 1.0
     return first * last < 0.0 or (last == 0.0 and first != 0.0)
+
+
+def _proportional(one: PeriodicResponse, other: PeriodicResponse) -> bool:
+    """Return whether the vibrations of two responses are as their drives."""
+    orders = slice(1, min(len(one.coefficients), len(other.coefficients)))
+    expected = one.coefficients[orders] * (other.parameter / one.parameter)
+    beside = np.linalg.norm(other.coefficients[orders] - expected)
+    return bool(beside <= COARSE * np.linalg.norm(expected))

@@ -9,8 +9,9 @@ from scipy.integrate import simpson
 from scipy.linalg import expm
 from scipy.optimize import root
 
+from hbm.curves.drive_search import Sought
 from hbm.options import CurveOptions
-from hbm.solve import frequency_response
+from hbm.solve import detached, frequency_response
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene_file import load_scene
 from microslip_mechanics.arrays import Array
@@ -288,6 +289,32 @@ def test_unstable_motions_are_found_that_begin_where_a_stop_is_grazed() -> None:
         exact = Struck(1e7, drive).amplitude(np.array(unknown), phase)
         size = float(np.hypot(*each.coefficients[1:3, 0]))
         assert abs(size / exact - 1.0) <= max(each.error, 1e-6)
+
+
+def test_what_folds_far_beyond_a_range_is_found_by_the_drive() -> None:
+    # it hangs together with the quiet motion where the stop is grazed, at 5.5 Hz
+    stop, place, drive = 4e4, 7.1, 0.1
+    problem = problem_of(load_scene("gap", [f"element.stop.stiffness={stop}"]))
+    rest = static_equilibrium(problem)
+    low, high = (2.0 * np.pi * (place + shift) for shift in (-0.05, 0.05))
+    options = CurveOptions(low, high, stability=False)
+
+    quiet = list(frequency_response(problem, rest, options))
+    found = [
+        each
+        for each in detached(problem, rest, options, quiet, frequencies=1)
+        if not isinstance(each, Sought)
+    ]
+
+    loud = [each for each in found if each.frequency == low]
+    assert max(np.hypot(*each.coefficients[1:3, 0]) for each in quiet) < GAP
+    assert found[0].event == "detached"
+    assert loud
+    for each in found:
+        phase, *unknown = Struck(stop, drive).at(each)
+        exact = Struck(stop, drive).amplitude(np.array(unknown), phase)
+        size = float(np.hypot(*each.coefficients[1:3, 0]))
+        assert abs(size / exact - 1.0) <= each.error < options.error
 
 
 @pytest.mark.parametrize("ends", [(4.6, 5.0), (5.0, 4.6)])

@@ -31,6 +31,17 @@ def test_folds_that_were_followed_are_counted_and_those_lost_are_named() -> None
     ]
 
 
+def test_what_a_drive_is_needed_for_that_begins_contact_is_told() -> None:
+    steps = (sought(10.0, 40.0, ""), sought(12.0, 4.0, ""))
+
+    lines = Searched((), steps, 0, interrupted=False).lines()
+
+    assert lines[0] == (
+        "detached curves sought at 2 of 15 frequencies, 10.000 to 12.000 Hz, by 0.05 "
+        "to 4 times the drive, and to 40 times where it is linear up to there"
+    )
+
+
 def test_without_folds_nothing_is_said_of_them() -> None:
     lines = Searched((), (sought(10.0, 4.0, ""),), 0, interrupted=False).lines()
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from hbm.curves.drive_search import LEAST, MOST, Sought
+from hbm.curves.drive_search import FAR, LEAST, MOST, Sought
 from hbm.errors import drives
 from hbm.options import CurveOptions
 from hbm.solve import detached
@@ -51,6 +51,8 @@ class Searched:
             f"{min(hertz):.3f} to {max(hertz):.3f} Hz, by {LEAST:g} to {MOST:g} times "
             "the drive",
         ]
+        if any(not each.fold and each.share > MOST for each in self.sought):
+            lines[0] += f", and to {FAR:g} times where it is linear up to there"
         if self.folds:
             followed = sum(each.fold for each in self.sought) // 2
             lines.append(

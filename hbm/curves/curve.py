@@ -126,14 +126,17 @@ class Curve:
             correction, settled, told.multipliers, finer, asks, correction, settled
         )
 
-    def examined(self, known: PeriodicResponse, point: Array) -> PeriodicResponse:
-        """Return a response with its multipliers; ``point`` is where it lies.
+    def examined(
+        self, known: PeriodicResponse, point: Array
+    ) -> tuple[PeriodicResponse, FourierBasis]:
+        """Return a response with its multipliers, and the resolution they have.
 
-        Friction that was smooth for the curve is what it is here, where that converges.
+        ``point`` is where it lies. Friction that was smooth for the curve is what it is
+        here, where that converges.
         """
         fourier = FourierBasis(known.harmonics, known.samples)
         orbit = self.multipliers.orbits.finer(point, fourier)
-        return self._examined(known, point if orbit is None else orbit, fourier)[0]
+        return self._examined(known, point if orbit is None else orbit, fourier)
 
     def _examined(
         self,

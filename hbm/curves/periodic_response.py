@@ -5,6 +5,7 @@ What a symmetry keeps still is left out where the response that is known keeps i
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -16,10 +17,12 @@ from hbm.curves.curve import response
 from hbm.curves.dense_problem import RESOLVED, dense_problem, resolved_up_to
 from hbm.curves.tracer import Tracer
 from hbm.errors import hertz, placed
+from hbm.events.crossing_error import SLOWEST, witness
 from hbm.forces.fourier import FourierBasis
 from hbm.one_thread import one_thread
 from hbm.options import CurveOptions
 from hbm.paths.path import AlongFrequency, along_frequency
+from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.static import StaticState
@@ -116,13 +119,52 @@ def with_multipliers(
     response
         On the curve, which was traced without stability.
     """
+    tracer, point = _placed(problem, rest, response, options)
+    with one_thread():
+        return tracer.curve.examined(response, point)[0]
+
+
+def multiplier_error(
+    problem: Problem,
+    rest: StaticState,
+    response: PeriodicResponse,
+    options: CurveOptions,
+) -> float:
+    """Return how far the largest Floquet multiplier of a response may be off.
+
+    It is twice what the modulus changes by with another resolution (theory §6.4);
+    infinite where that has no such orbit at the response's frequency.
+
+    Parameters
+    ----------
+    problem, rest, options
+        As for :func:`hbm.solve.frequency_response`.
+    response
+        On the curve.
+    """
+    tracer, point = _placed(problem, rest, response, options)
+    with one_thread():
+        seen, used = tracer.curve.examined(response, point)
+        told = FourierBasis(response.harmonics, response.samples)
+        resolutions = used, witness(used, told)
+        *known, other = tracer.curve.multipliers.largest(point, resolutions)
+    known += [float(np.abs(each.multipliers).max()) for each in (response, seen)]
+    errors = [abs(each - other) for each in known]
+    return SLOWEST * max(errors) if np.isfinite([*known, other]).all() else math.inf
+
+
+def _placed(
+    problem: Problem,
+    rest: StaticState,
+    response: PeriodicResponse,
+    options: CurveOptions,
+) -> tuple[Tracer, Array]:
+    """Return what traces a curve, and the point on it of a response."""
     small, still, _ = dense_problem(problem, rest, resolved_up_to(options))
     path = along_frequency(small, still, options.start, options.end)
     path = _holding(path, problem, response)
     tracer = Tracer(small, path, replace(options, stability=True))
-    point = tracer.guess(response, path.problem.selection)
-    with one_thread():
-        return tracer.curve.examined(response, point)
+    return tracer, tracer.guess(response, path.problem.selection)
 
 
 def _holding(

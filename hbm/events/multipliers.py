@@ -6,7 +6,8 @@ harmonics may even balance where no orbit is.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -61,6 +62,18 @@ class Multipliers:
         balance.contact(*balance.split(orbit))
         motions = self.motions(float(point[-1]))
         return motions.multipliers(balance.contact, float(orbit[-1]))
+
+    def largest(self, point: Array, resolutions: Iterable[FourierBasis]) -> list[float]:
+        """Return the largest modulus of the orbit at a point with each resolution.
+
+        Infinite where there is none, or where multipliers are not known.
+        """
+        orbits = [(self.orbits.finer(point, each), each) for each in resolutions]
+        known = (
+            self.at(orbit, each) if orbit is not None else np.empty(0)
+            for orbit, each in orbits
+        )
+        return [float(np.abs(each).max()) if each.size else math.inf for each in known]
 
     def sure(
         self,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from microslip.commands.frc_tables import barren
+from microslip.commands.frc_events import barren
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
 from microslip.scenes.scene_file import load_scene

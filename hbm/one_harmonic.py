@@ -69,8 +69,7 @@ def one_harmonic_response(
     curve = frequency_response(problem, rest, options)
     if frequency is not None:
         return _met(curve, frequency)
-    rows = problem.probes.rows
-    best = max(curve, key=lambda each: float(each.amplitudes(rows).max()))
+    best = max(curve, key=lambda each: each.largest(problem.probes.rows))
     return fitted_peak(problem, rest, best) if best.event == "peak" else best
 
 

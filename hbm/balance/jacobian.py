@@ -7,7 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from microslip_mechanics.arrays import Array
+from hbm.forces.aft import AlternatingFrequencyTime
+from hbm.forces.touch_factors import touch_factors
+from microslip_mechanics.arrays import Array, ComplexArray
 from microslip_mechanics.jit import inner_kernel, kernel
 
 
@@ -22,6 +24,8 @@ class Terms(NamedTuple):
     """place of the sine among the unknowns; −1 for a mean"""
     unknowns: NDArray[np.int64]
     """flat place of each unknown among all coefficients, shape (unknowns,)"""
+    places: NDArray[np.int64]
+    """which unknown each coefficient is, −1 for the others, shape (2H + 1, rank)"""
 
 
 def terms(active: NDArray[np.bool_]) -> Terms:
@@ -29,22 +33,44 @@ def terms(active: NDArray[np.bool_]) -> Terms:
 
     Cosine and sine of one order are active together.
     """
-    place = numbered(active)
+    places = np.where(active, active.cumsum().reshape(active.shape) - 1, -1)
     rows = [
-        (coordinate, order, place[max(2 * order - 1, 0), coordinate], sine)
+        (coordinate, order, places[max(2 * order - 1, 0), coordinate], sine)
         for coordinate in range(active.shape[1])
         for order in range(active.shape[0] // 2 + 1)
         if active[2 * order, coordinate]
-        for sine in [place[2 * order, coordinate] if order else -1]
+        for sine in [places[2 * order, coordinate] if order else -1]
     ]
     table = np.array(rows, dtype=np.int64).reshape(-1, 4).T
     coordinate, order, cosine, sine = np.ascontiguousarray(table)
-    return Terms(coordinate, order, cosine, sine, np.flatnonzero(active))
+    return Terms(coordinate, order, cosine, sine, np.flatnonzero(active), places)
 
 
-def numbered(active: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Return which unknown each active coefficient is, −1 for the others."""
-    return np.where(active, active.cumsum().reshape(active.shape) - 1, -1)
+def jacobian(
+    contact: AlternatingFrequencyTime,
+    stiffness: ComplexArray,
+    frequency: float,
+    terms: Terms,
+    growth: float = 0.0,
+) -> Array:
+    """Return ∂R/∂y of the terms where the contacts were called last.
+
+    ``stiffness`` is that of the structure, ``(H + 1, rank, rank)``; for the others, and
+    what is returned, see :func:`assemble`.
+    """
+    made = assemble(
+        *contact.tangents.spectra(2 * (len(stiffness) - 1)),
+        np.ascontiguousarray(stiffness.real),
+        np.ascontiguousarray(stiffness.imag),
+        frequency,
+        terms,
+        growth,
+    )
+    contact.add_remembered(terms.places, made)
+    touched = touch_factors(contact, terms.places)
+    if touched is not None:
+        made += touched.matrix
+    return made
 
 
 @kernel

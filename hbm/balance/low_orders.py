@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hbm.balance.banded_orders import BandedOrders
 from hbm.balance.iterated import Parts
-from hbm.balance.jacobian import assemble, numbered, terms
+from hbm.balance.jacobian import assemble, terms
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.fourier import to_complex, to_real
 from hbm.forces.touch_factors import touch_factors
@@ -47,7 +47,6 @@ class LowOrders:
         self._terms = terms(active[: 2 * low + 1])
         self._unknowns = np.flatnonzero(active)
         self._places = np.where(active, 0, -1)
-        self._corner = numbered(active[: 2 * low + 1])
         self._high = BandedOrders(active[2 * low + 1 :: 2], low + 1, split.width)
 
     @staticmethod
@@ -92,7 +91,7 @@ class LowOrders:
         if touched is not None:
             corner += touched.up_to(len(corner)).matrix
         if remembered is not None:
-            contact.add_remembered(self._corner, corner)
+            contact.add_remembered(self._terms.places, corner)
             series = remembered.series(2 * low)
             tangents = tangents[0] + series[0], tangents[1] + series[1]
         high = self._high.factored(stiffness[low + 1 :], *tangents, frequency)

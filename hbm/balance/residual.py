@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from hbm.balance.answers import answers
 from hbm.balance.iterated import Parts
-from hbm.balance.jacobian import assemble, numbered, terms
+from hbm.balance.jacobian import jacobian, terms
 from hbm.balance.linear_balance import LinearBalance
 from hbm.balance.linearisation import Linearisation
 from hbm.balance.low_orders import RECALLED, USUAL, LowOrders
@@ -20,7 +20,6 @@ from hbm.forces.contact_cycle import ContactCycle
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
 from hbm.forces.memory import marched
 from hbm.forces.remembered import fits
-from hbm.forces.touch_factors import touch_factors
 from microslip_mechanics.arrays import Array
 
 
@@ -50,7 +49,6 @@ class HarmonicBalance:
         self._wanted = np.vstack([self._active[:1], self._active[1::2]])
         self._take(problem)
         self._terms = terms(self._active)
-        self._places = numbered(self._active)
         remembers = bool(marched(problem.points).any())
         split = RECALLED if remembers else USUAL
         iterates = LowOrders.serve(self._active, fourier.samples, split)
@@ -96,7 +94,8 @@ class HarmonicBalance:
 
         def made() -> tuple[Array, Array]:
             by_last = slope()
-            return self._jacobian(frequency), by_last
+            held = self._linear.held(frequency)
+            return jacobian(self.contact, held, frequency, self._terms), by_last
 
         def divided(low: LowOrders) -> Parts:
             by_last, held = slope(), self._linear.held(frequency)
@@ -106,22 +105,6 @@ class HarmonicBalance:
         return residual, Linearisation(
             made, self._terms.unknowns, point.size, parts, self._separable
         )
-
-    def _jacobian(self, frequency: float) -> Array:
-        """Return ∂R/∂y of the unknowns where the contacts were called."""
-        stiffness = self._linear.held(frequency)
-        jacobian = assemble(
-            *self.contact.tangents.spectra(2 * self.fourier.harmonics),
-            np.ascontiguousarray(stiffness.real),
-            np.ascontiguousarray(stiffness.imag),
-            frequency,
-            self._terms,
-        )
-        self.contact.add_remembered(self._places, jacobian)
-        touched = touch_factors(self.contact, self._places)
-        if touched is not None:
-            jacobian += touched.matrix
-        return jacobian
 
     def _slope(self, point: Array) -> Array:
         """Return ∂R/∂ω of the unknowns where the contacts were called."""

@@ -23,9 +23,7 @@ LEAST = 1e-2
 """share in it of a point that carries little at rest"""
 
 
-def with_pushes(
-    problem: RelativeProblem, frequency: float, *, weight: float = 1.0
-) -> RelativeProblem:
+def with_pushes(problem: RelativeProblem, frequency: float) -> RelativeProblem:
     """Return the problem with the pushes on its rigid contacts as coordinates.
 
     The same problem if there are none.
@@ -36,13 +34,11 @@ def with_pushes(
         In relative coordinates, all of them.
     frequency
         Of the excitation [rad/s], or the highest one.
-    weight
-        Factor of the sliding masses: a numerical parameter (theory, eq. 19b).
     """
     rigid = problem.points.friction == RIGID
     if not rigid.any():
         return problem
-    tractions = _tractions(problem, frequency, weight)
+    tractions = _tractions(problem, frequency)
     count, rank = tractions.rows.shape
     basis = np.pad(problem.basis, ((0, 0), (0, count)))
     basis[tractions.places] = 0.0
@@ -84,7 +80,7 @@ def pushed(balance: HarmonicBalance, point: Array) -> Array:
     return filled
 
 
-def _tractions(problem: RelativeProblem, frequency: float, weight: float) -> Tractions:
+def _tractions(problem: RelativeProblem, frequency: float) -> Tractions:
     """Return the tractions along all tangents that a rigid point can slide along."""
     places = np.array(
         [
@@ -96,7 +92,7 @@ def _tractions(problem: RelativeProblem, frequency: float, weight: float) -> Tra
         dtype=np.int64,
     )
     rows, owner = problem.basis[places], places // 3
-    mass = weight * _masses(problem, rows, frequency) * _shares(problem, owner, rows)
+    mass = _masses(problem, rows, frequency) * _shares(problem, owner, rows)
     # one for both tangents of a point: friction is alike in all directions; the larger
     # would hide what a sudden force does along the other
     alike = np.array([mass[owner == point].min() for point in owner])

@@ -58,7 +58,7 @@ def _sharp(problem: Problem, rest: StaticState, peak: PeriodicResponse) -> bool:
 
 def _ratio(probes: Array, one: PeriodicResponse, other: PeriodicResponse) -> float:
     """Return the largest amplitude of a probe over that of another response."""
-    sizes = [float(each.amplitudes(probes).max(initial=0.0)) for each in (one, other)]
+    sizes = [each.largest(probes) for each in (one, other)]
     return sizes[0] / (sizes[1] or 1.0)
 
 

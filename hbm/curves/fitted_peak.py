@@ -56,7 +56,8 @@ def fitted_peak(
         found = _beside(problem, rest, peak, factor)
     except ContinuationError:
         return peak
-    if least == MISSED or _size(problem, found) < (1.0 - LOWER) * _size(problem, peak):
+    sizes = [each.largest(problem.probes.rows) for each in (found, peak)]
+    if least == MISSED or sizes[0] < (1.0 - LOWER) * sizes[1]:
         return peak
     return replace(found, event=peak.event, parameter=found.frequency)
 
@@ -71,12 +72,8 @@ def _sizes(
     ContinuationError
         If one of them does not converge.
     """
-    return np.array(
-        [
-            _size(problem, _beside(problem, rest, peak, 1.0 + reach * place))
-            for place in PLACES
-        ]
-    )
+    beside = (_beside(problem, rest, peak, 1.0 + reach * place) for place in PLACES)
+    return np.array([each.largest(problem.probes.rows) for each in beside])
 
 
 def _beside(
@@ -108,8 +105,3 @@ def _top(sizes: Array) -> tuple[float, float]:
         return math.inf, 0.0
     missed = float(np.abs(fit(PLACES) - sizes).max())
     return missed / drop, float(places[fit(places).argmax()])
-
-
-def _size(problem: Problem, response: PeriodicResponse) -> float:
-    """Return the largest first harmonic of a probe [m]."""
-    return float(response.amplitudes(problem.probes.rows).max(initial=0.0))

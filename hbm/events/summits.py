@@ -74,7 +74,7 @@ class Summits:
 
     def _size(self, made: PeriodicResponse) -> float:
         """Return the largest first harmonic of a probe [m]."""
-        return float(made.amplitudes(self._probes).max(initial=0.0))
+        return made.largest(self._probes)
 
 
 def _lacking(back: float, on: float, before: float, after: float) -> float:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hbm.balance.jacobian import assemble, terms
+from hbm.balance.jacobian import assemble, jacobian, terms
 from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.forces.fourier import derivative
-from hbm.forces.touch_factors import touch_factors
 from hbm.modes.modal_parts import ModalParts
 from microslip_mechanics.arrays import Array, ComplexArray
 
@@ -22,8 +21,6 @@ class ModalTangents:
         """Plan for ``active`` coefficients of y, shape (2H + 1, rank)."""
         self._contact, self._active = contact, active
         self._harmonics, self._terms = len(active) // 2, terms(active)
-        self._places = np.full(active.shape, -1)
-        self._places[active] = np.arange(np.count_nonzero(active))
 
     def __call__(self, parts: ModalParts, stiffness: ComplexArray) -> Array:
         """Return the derivative of the forces on y by y, (unknowns, unknowns).
@@ -32,19 +29,7 @@ class ModalTangents:
         ``(H + 1, rank, rank)``; contacts are where they were called last.
         """
         pole = parts.pole
-        matrix = assemble(
-            *self._contact.tangents.spectra(2 * self._harmonics),
-            np.ascontiguousarray(stiffness.real),
-            np.ascontiguousarray(stiffness.imag),
-            pole.imag,
-            self._terms,
-            pole.real,
-        )
-        self._contact.add_remembered(self._places, matrix)
-        touched = touch_factors(self._contact, self._places)
-        if touched is not None:
-            matrix += touched.matrix
-        return matrix
+        return jacobian(self._contact, stiffness, pole.imag, self._terms, pole.real)
 
     def by_pole(self, parts: ModalParts) -> Array:
         """Return what the contacts feel of Re s and −Im s, over a, (2, unknowns)."""

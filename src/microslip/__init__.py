@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from microslip_mechanics.laws.polynomial_spring import CubicSpring, PolynomialSpring
     from microslip_mechanics.laws.rigid_coulomb import RigidCoulomb
     from microslip_mechanics.laws.unilateral import UnilateralSpring
-    from microslip_mechanics.loads.given_loads import BaseMotion, EngineOrder
+    from microslip_mechanics.loads.base_motion import BaseMotion
+    from microslip_mechanics.loads.engine_order import EngineOrder
     from microslip_mechanics.reduction.reduced_problem import reduced_problem
     from microslip_mechanics.system import system
 
@@ -78,9 +79,9 @@ HOMES = {
     "save": "microslip.api.results",
     "system": "microslip_mechanics.system",
     "reduced_problem": "microslip_mechanics.reduction.reduced_problem",
-    "BaseMotion": "microslip_mechanics.loads.given_loads",
+    "BaseMotion": "microslip_mechanics.loads.base_motion",
     "Element": "microslip_mechanics.element",
-    "EngineOrder": "microslip_mechanics.loads.given_loads",
+    "EngineOrder": "microslip_mechanics.loads.engine_order",
     "LAWS": "microslip_mechanics.laws.catalogue",
     "MicroslipError": "microslip_mechanics.errors",
 }

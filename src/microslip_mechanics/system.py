@@ -10,13 +10,9 @@ from numpy.typing import ArrayLike
 
 from microslip_mechanics.arrays import Array, Matrix
 from microslip_mechanics.element import Element, interface_of
-from microslip_mechanics.loads.given_loads import (
-    BaseMotion,
-    Drive,
-    EngineOrder,
-    driven,
-    preloaded,
-)
+from microslip_mechanics.loads.base_motion import BaseMotion
+from microslip_mechanics.loads.engine_order import EngineOrder
+from microslip_mechanics.loads.given_loads import Drive, driven, preloaded
 from microslip_mechanics.loads.node_sets import Sets, given_sets
 from microslip_mechanics.problem import Probes, Problem
 from microslip_mechanics.structures.damping import Damping

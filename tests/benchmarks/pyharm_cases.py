@@ -15,7 +15,7 @@ from microslip_mechanics.element import Element
 from microslip_mechanics.laws.elastic_friction import ElasticFriction
 from microslip_mechanics.laws.jenkins import Jenkins
 from microslip_mechanics.laws.polynomial_spring import CubicSpring
-from microslip_mechanics.loads.engine_order import engine_order
+from microslip_mechanics.loads.engine_order import EngineOrder
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.system import system
 
@@ -139,7 +139,7 @@ def blisk() -> Case:
         for part in ("disk", "root", "middle", "tip")
     ]
     tips = names[3::4]
-    load = engine_order(names, tips, ORDER, 0.5)
+    load = EngineOrder(tips, ORDER, 0.5).load(names)
     problem = system(
         mass=np.tile([4.0, 1.0, 0.5, 0.3], SECTORS),
         stiffness=stiffness,

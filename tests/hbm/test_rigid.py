@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hbm.balance.relative import RelativeProblem
 from hbm.balance.relative_problem import relative_problem
 from hbm.balance.residual import HarmonicBalance
 from hbm.balance.rigid import with_pushes
@@ -17,6 +18,7 @@ from hbm.forces.equivalent import equivalent_contact
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
+from hbm.structure.tractions import PushedStructure
 from law_examples import NAMES, PRESSED, SLIDING, driven
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.element import Element
@@ -180,7 +182,9 @@ def weighted(problem: Problem, weight: float, fourier: FourierBasis) -> Array:
     """Return the amplitudes with other sliding masses in the time domain."""
     frequency = 6.5
     relative = relative_problem(problem, static_equilibrium(problem))
-    balance = HarmonicBalance(with_pushes(relative, frequency, weight=weight), fourier)
+    balance = HarmonicBalance(
+        _weighted(with_pushes(relative, frequency), weight), fourier
+    )
     still = balance.point(balance.problem.rest[None, :], frequency)
     normal = np.eye(still.size)[-1]
     found = correct(balance, still, normal, tolerance=1e-9, max_iterations=60)
@@ -188,6 +192,17 @@ def weighted(problem: Problem, weight: float, fourier: FourierBasis) -> Array:
     motion = balance.motion(found.point)
     amplitudes: Array = np.hypot(motion[1], motion[2])
     return amplitudes
+
+
+def _weighted(pushes: RelativeProblem, weight: float) -> RelativeProblem:
+    """Return a problem whose sliding masses are so many times as heavy."""
+    own, structure = pushes.tractions, pushes.condensed
+    assert own is not None
+    assert isinstance(structure, PushedStructure)
+    other = replace(own, scale=weight * own.scale, mass=weight * own.mass)
+    table = pushes.points._replace(tangential=weight * pushes.points.tangential)
+    condensed = PushedStructure(structure.inner, other)
+    return replace(pushes, points=table, condensed=condensed, tractions=other)
 
 
 def test_the_sliding_mass_is_a_numerical_parameter() -> None:

@@ -1,7 +1,6 @@
 """Result files: they come back bit for bit, explain themselves, and fail in words."""
 
 import dataclasses
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -276,57 +275,6 @@ def test_dimensions_have_the_sizes_of_the_result(
         assert file.dimensions["point"] == len(small_curve.frequency)
         assert file.dimensions["probe"] == len(small_curve.probes)
         assert file.dimensions["contact"] == len(small_curve.contacts)
-
-
-def no_file(path: Path) -> None:
-    """Leave the path empty."""
-
-
-def folder(path: Path) -> None:
-    path.mkdir()
-
-
-def empty(path: Path) -> None:
-    path.write_bytes(b"")
-
-
-def text(path: Path) -> None:
-    path.write_text("a result about blades")
-
-
-def other_netcdf(path: Path) -> None:
-    with netcdf_file(path, "w") as file:
-        file.createDimension("place", 3)
-
-
-def unknown_kind(path: Path) -> None:
-    texts = {"kind": "mode shapes", "scene": SCENE, "command": COMMAND}
-    with netcdf_file(path, "w") as file:
-        for name, content in texts.items():
-            setattr(file, name, content)
-
-
-@pytest.mark.parametrize(
-    ("make", "words"),
-    [
-        (no_file, "there is no result file .*: give what frc, follow, "),
-        (folder, "cannot be read: Is a directory"),
-        (empty, "is not a result file"),
-        (text, "is not a result file"),
-        (other_netcdf, "is not a result file"),
-        (unknown_kind, "'mode shapes', which this version does not know: give what"),
-    ],
-)
-def test_file_that_is_no_result_is_told_in_words(
-    make: Callable[[Path], None], words: str, tmp_path: Path
-) -> None:
-    path = tmp_path / "result.nc"
-    make(path)
-
-    with pytest.raises(StoreError, match=words) as caught:
-        load(path)
-    assert str(path) in str(caught.value)
-    assert len(str(caught.value).splitlines()) == 1
 
 
 def test_truncated_file_is_told_in_words_wherever_it_is_cut(

@@ -6,7 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from microslip.commands.frc_tables import events, resolution, rest, table
+from microslip.commands.frc_events import events
+from microslip.commands.frc_tables import resolution, rest, table
 from microslip.commands.verify_findings import Findings, verdict
 from microslip.commands.verify_marches import march_rows, marches_said
 from microslip.commands.verify_orbits import orbit_rows, orbits_said

@@ -10,8 +10,8 @@ from microslip_mechanics.results.response import PeriodicResponse
 from small_motions.pieces import Pieces, pieces
 from small_motions.propagator import propagate, propagator
 from small_motions.relative_orbit import RelativeOrbit
-from timedomain.fast.modal_structure import ModalStructure
 from timedomain.shooting.floquet import Multipliers, extrapolated_multipliers
+from timedomain.shooting.modal_structure import ModalStructure
 
 
 def monodromy(problem: Problem, response: PeriodicResponse, *, steps: int) -> Array:
@@ -36,9 +36,11 @@ def monodromy(problem: Problem, response: PeriodicResponse, *, steps: int) -> Ar
     -------
     Shape ``(2 dofs, 2 dofs)`` [m, rad and m/s, rad/s].
     """
-    structure = ModalStructure.of(problem, response.frequency)
+    structure = ModalStructure.of(problem)
     orbit = RelativeOrbit.of(problem, response)
-    return _physical(structure, _marched(structure, orbit, pieces(orbit), steps))
+    scale = _scale(structure, response)
+    marched = _marched(structure, orbit, pieces(orbit), steps, scale=scale)
+    return _physical(structure, marched, scale)
 
 
 def floquet_multipliers(
@@ -50,13 +52,20 @@ def floquet_multipliers(
     orbit is stable if all are smaller than one. The error is that before the
     extrapolation, hence an upper bound where steps resolve the motion.
     """
-    structure = ModalStructure.of(problem, response.frequency)
+    structure = ModalStructure.of(problem)
     orbit = RelativeOrbit.of(problem, response)
-    cuts = pieces(orbit)
+    cuts, scale = pieces(orbit), _scale(structure, response)
     coarse, fine = (
-        _marched(structure, orbit, cuts, steps // 2, refinement=each) for each in (1, 2)
+        _marched(structure, orbit, cuts, steps // 2, scale=scale, refinement=each)
+        for each in (1, 2)
     )
     return extrapolated_multipliers(coarse, fine)
+
+
+def _scale(structure: ModalStructure, response: PeriodicResponse) -> float:
+    """Return s [rad/s]: velocities over it compare with displacements."""
+    fastest = float(np.sqrt(structure.stiffness.max(initial=0.0)))
+    return max(response.frequency, fastest)
 
 
 def _marched(
@@ -65,6 +74,7 @@ def _marched(
     cuts: Pieces,
     steps: int,
     *,
+    scale: float,
     refinement: int = 1,
 ) -> Array:
     """Return the map of (q, q̇/s) over a period, each step in ``refinement`` parts."""
@@ -76,7 +86,7 @@ def _marched(
         elastic, viscous = stiffness.mean(axis=0), damping.mean(axis=0)
         step = float(length) / orbit.motion.frequency
         state = propagate(
-            propagator(structure, elastic, viscous, step),
+            propagator(structure, scale, elastic, viscous, step),
             stiffness - elastic,
             damping - viscous,
             state,
@@ -84,13 +94,13 @@ def _marched(
     return state
 
 
-def _physical(structure: ModalStructure, propagated: Array) -> Array:
+def _physical(structure: ModalStructure, propagated: Array, scale: float) -> Array:
     """Return a map of (q, q̇/s) as the map of (u, u̇)."""
     modes = structure.stiffness.size
     result = np.empty_like(propagated)
     top, bottom = slice(modes), slice(modes, None)
-    for row, up in ((top, 1.0), (bottom, structure.scale)):
-        for column, down in ((top, 1.0), (bottom, 1.0 / structure.scale)):
+    for row, up in ((top, 1.0), (bottom, scale)):
+        for column, down in ((top, 1.0), (bottom, 1.0 / scale)):
             block = structure.shapes @ propagated[row, column] @ structure.inverse
             result[row, column] = up * down * block
     return result

@@ -21,7 +21,7 @@ import scipy.linalg
 
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.jit import kernel
-from timedomain.fast.modal_structure import ModalStructure
+from timedomain.shooting.modal_structure import ModalStructure
 
 
 class Propagator(NamedTuple):
@@ -40,10 +40,14 @@ class Propagator(NamedTuple):
 
 
 def propagator(
-    structure: ModalStructure, stiffness: Array, damping: Array, step: float
+    structure: ModalStructure,
+    scale: float,
+    stiffness: Array,
+    damping: Array,
+    step: float,
 ) -> Propagator:
     """Return the step with constant contact tangents, each of shape (rank, rank)."""
-    selection, scale = structure.selection, structure.scale
+    selection = structure.selection
     rank, modes = selection.shape
     matrix = np.zeros((2 * modes + rank, 2 * modes + rank))
     top, bottom = slice(modes), slice(modes, 2 * modes)

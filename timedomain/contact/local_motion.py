@@ -41,8 +41,8 @@ class Answer(NamedTuple):
 
     compliance: Array
     stiffness: Array
-    slope: Array
-    scalar: float
+    slope: float
+    """relative displacement by relative velocity [s]"""
     weight: Array
     begins: Array
     """penetrations at the begin of a step of means, or empty"""

@@ -39,7 +39,7 @@ def accept(
     copy(trial.displacement, motion.displacement)
     copy(trial.velocity, motion.velocity)
     motion.numbers[LENGTH] = length
-    motion.numbers[DRIFT] += trial.numbers[1]
+    motion.numbers[DRIFT] += trial.numbers[0]
     drift = abs(motion.numbers[DRIFT] - motion.numbers[SETTLED_DRIFT])
     motion.numbers[LARGEST_DRIFT] = max(motion.numbers[LARGEST_DRIFT], drift)
     accept_coupling(motion, trial, length)
@@ -48,7 +48,7 @@ def accept(
 @inner_kernel
 def tell_error(motion: Motion, trial: Trial) -> None:
     """Count the error of a step that cannot keep the tolerance, whatever its sign."""
-    motion.numbers[UNKEPT] += abs(trial.numbers[1]) + 0.5 * trial.numbers[3]
+    motion.numbers[UNKEPT] += abs(trial.numbers[0]) + 0.5 * trial.numbers[2]
 
 
 @inner_kernel
@@ -135,4 +135,4 @@ def _renew_energies(
             motion.energies[flow] += tables.work[stage] * work
         motion.powers[flow] = trial.powers[stages - 1, flow]
     if tables.mean > 0.0:
-        motion.powers[3] = trial.numbers[2]
+        motion.powers[3] = trial.numbers[1]

@@ -36,14 +36,9 @@ def assemble(
         )
         line = local.lines[point]
         scale = max(scale, abs(line[0]) + abs(line[1]) + abs(line[2]))
-        if answer.scalar >= 0.0:
-            for axis in range(3):
-                local.by_slip[point, axis, 0] += (
-                    answer.scalar * local.by_gap[point, axis]
-                )
+        for axis in range(3):
+            local.by_slip[point, axis, 0] += answer.slope * local.by_gap[point, axis]
         _scatter(contacts, local, point)
-        if answer.scalar < 0.0:
-            _scatter_displacement(contacts, answer, local, point)
     size = 0.0
     for i in range(rank):
         size = max(size, abs(right[i]))
@@ -71,21 +66,3 @@ def _scatter(contacts: Contacts, local: Local, point: int) -> None:
                 + left * basis[point, 1, j]
                 + side * basis[point, 2, j]
             )
-
-
-@inner_kernel
-def _scatter_displacement(
-    contacts: Contacts, answer: Answer, local: Local, point: int
-) -> None:
-    """Add what the normal displacement does, where it is not bound to velocity."""
-    first, width = contacts.first[point], contacts.width[point]
-    rows, by_gap = contacts.basis[point], local.by_gap[point]
-    gap = local.change[1]
-    gap[:] = 0.0
-    for i in range(width):
-        for j in range(gap.size):
-            gap[j] += rows[0, i] * answer.slope[first + i, j]
-    for i in range(width):
-        left = rows[0, i] * by_gap[0] + rows[1, i] * by_gap[1] + rows[2, i] * by_gap[2]
-        for j in range(gap.size):
-            local.matrix[first + i, j] += left * gap[j]

@@ -96,15 +96,8 @@ def _begin(
 @inner_kernel
 def _displace(answer: Answer, local: Local) -> None:
     """Move the relative displacement by what belongs to a change of velocity."""
-    rank = local.velocity.size
-    change = local.change[0]
-    if answer.scalar >= 0.0:
-        for i in range(rank):
-            local.displacement[i] += answer.scalar * change[i]
-        return
-    for i in range(rank):
-        for j in range(rank):
-            local.displacement[i] += answer.slope[i, j] * change[j]
+    for i in range(local.velocity.size):
+        local.displacement[i] += answer.slope * local.change[0, i]
 
 
 @inner_kernel
@@ -131,15 +124,14 @@ def _update(contacts: Contacts, answer: Answer, local: Local) -> None:
         for j in range(rank):
             local.reaction[i] -= answer.stiffness[i, j] * change[j]
     _displace(answer, local)
-    _follow(contacts, answer, local)
+    _follow(contacts, local)
 
 
 @inner_kernel
-def _follow(contacts: Contacts, answer: Answer, local: Local) -> None:
+def _follow(contacts: Contacts, local: Local) -> None:
     """Write the points' motion, and their forces along the tangents."""
     gaps, slips, forces, slopes = local.gaps, local.slips, local.forces, local.by_slip
     for point in range(contacts.first.size):
-        deeper = gaps[point, 0]
         first = contacts.first[point]
         for axis in range(3):
             gap, slip = 0.0, 0.0
@@ -150,12 +142,10 @@ def _follow(contacts: Contacts, answer: Answer, local: Local) -> None:
             forces[point, axis] = slip - slips[point, axis]
             gaps[point, axis], slips[point, axis] = gap, slip
         zero, one, two = forces[point, 0], forces[point, 1], forces[point, 2]
-        deeper = gaps[point, 0] - deeper if answer.scalar < 0.0 else 0.0
         for axis in range(3):
             forces[point, axis] = (
                 local.lines[point, axis]
                 + slopes[point, axis, 0] * zero
                 + slopes[point, axis, 1] * one
                 + slopes[point, axis, 2] * two
-                + local.by_gap[point, axis] * deeper
             )

@@ -53,7 +53,7 @@ def stage_powers(
     trial.powers[stage, 3] = lost
     if tables.mean > 0.0:
         trial.powers[1, 3] = 0.5 * (lost + motion.powers[3])
-        trial.numbers[2] = lost
+        trial.numbers[1] = lost
         _mean_input(modes, motion, trial, part)
 
 

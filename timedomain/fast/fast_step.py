@@ -61,7 +61,6 @@ def attempt(
         iterations += taken
         if renew_coupling(modes, motion, trial, length) <= control.newton:
             motion.counts[ITERATIONS] += iterations
-            trial.numbers[0] = _stiffness(tables, trial, level)
             return max(1, iterations)
     return 0
 
@@ -154,7 +153,6 @@ def _answer(tables: Tables, trial: Trial, level: int, stage: int) -> Answer:
         tables.compliance[level, stage],
         tables.stiffness[level, stage],
         tables.slope[level, stage],
-        tables.scalar[level, stage],
         tables.weight[level, stage],
         trial.begins if tables.mean > 0.0 else trial.begins[:0],
     )
@@ -173,15 +171,6 @@ def _floor(control: Control, modes: Modes, answer: Answer, motion: Motion) -> fl
         for j in range(motion.displacement.size):
             size += abs(modes.selection[i, j] * motion.displacement[j])
         # compliance is that of the mean velocity: half the step makes displacements
-        force = DIGITS * size / max(answer.scalar, TINY) * answer.stiffness[i, i]
+        force = DIGITS * size / max(answer.slope, TINY) * answer.stiffness[i, i]
         floor = max(floor, force)
     return floor
-
-
-@inner_kernel
-def _stiffness(tables: Tables, trial: Trial, level: int) -> float:
-    """Return contact stiffness times compliance, summed over the points."""
-    stage, stiff = tables.times.size - 2, 0.0
-    for point in range(trial.before.shape[0]):
-        stiff += tables.depth[level, stage, point] * trial.local.by_gap[point, 0]
-    return stiff

@@ -34,9 +34,6 @@ TICKS = 2 ** (LEVELS - 1)
 KINK = 12
 """level of the steps that may cross a kink of the load"""
 DONE, FAILED = -1, -2
-STIFF = 4.0
-"""largest contact stiffness times compliance of a step with linear force; alone, a
-contact coordinate is stable up to 2, and this is a sum over the points"""
 GROWTH = 0.08
 """error over tolerance below which the next step is twice as long"""
 MOST = 4096
@@ -96,13 +93,12 @@ def _step(
     taken = attempt(
         control, modes, contacts, table, segments, motion, trial, level, begin
     )
-    stiff = not safe and table.mean == 0.0 and trial.numbers[0] > STIFF
     length, error = control.longest / 2.0**level, np.inf
-    if taken > 0 and (control.tolerance > 0.0 or not stiff):
+    if taken > 0:
         error = step_error(control, modes, table, motion, trial, level, safe)
     kept = error <= 1.0
     if not kept and not tried_enough(control, motion, level, error):
-        nearly = taken == 0 or (error <= SHARE and not stiff)
+        nearly = taken == 0 or error <= SHARE
         return DONE if reject(control, motion, level, nearly) else FAILED
     accept(contacts, table, motion, trial, level, length)
     if not kept:

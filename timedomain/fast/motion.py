@@ -100,8 +100,8 @@ class Trial(NamedTuple):
     curvature: Array
     """second derivative of φ, shape (rank,)"""
     numbers: Array
-    """contact stiffness times compliance, drift of energy, structural power at the end
-    of a step with mean force, twice the energy of its error; shape (4,)"""
+    """drift of energy, structural power at the end of a step with mean force, twice
+    the energy of its error; shape (3,)"""
     load: Array
     """modal forces of the loads at the begin, shape (modes,)"""
     bulge: Array
@@ -129,7 +129,7 @@ def empty_trial(schemes: tuple[Scheme, Scheme], coordinates: Coordinates) -> Tri
         np.zeros(len(modes.loads)),
         np.zeros((points, 3)),
         np.zeros(rank),
-        np.zeros(4),
+        np.zeros(3),
         np.zeros(count),
         np.zeros(count),
         np.zeros(points),

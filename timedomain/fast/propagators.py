@@ -16,7 +16,7 @@ from timedomain.fast.schemes import Scheme
 
 def propagators(scheme: Scheme, modes: Modes, step: float) -> tuple[Array, Array]:
     """Return E and Q of a step [s], stages first and modes before the rest."""
-    if scheme.exact:
+    if scheme.mean:
         return _exact(modes, step)
     return _implicit(scheme, modes, step)
 

@@ -41,7 +41,7 @@ def step_error(
     else:
         energy = _curvature(modes, motion, trial, length)
     energy += coupling_error(modes, motion, trial, length)
-    trial.numbers[3] = energy
+    trial.numbers[2] = energy
     accepted = control.tolerance**2 * reference
     if energy > accepted:
         accepted += _rounding(modes, motion, length)
@@ -80,7 +80,7 @@ def _embedded(
             moving += forced[stage, 1, j] * trial.force[stage, j]
         energy += moving**2 + modes.stiffness[j] * moved**2
         drift += moving * v + modes.stiffness[j] * moved * q
-    trial.numbers[1] = drift
+    trial.numbers[0] = drift
     return energy
 
 
@@ -101,5 +101,5 @@ def _curvature(modes: Modes, motion: Motion, trial: Trial, length: float) -> flo
         drift -= force * trial.local.velocity[i]
         for j in range(rank):
             energy += force * modes.mobility[i, j] * trial.local.change[1, j]
-    trial.numbers[1] = drift
+    trial.numbers[0] = drift
     return energy

@@ -33,19 +33,15 @@ class Tables(NamedTuple):
     stiffness: Array
     """its inverse"""
     slope: Array
-    """relative displacement by relative velocity, shape (levels, stages, rank, rank)"""
+    """relative displacement by relative velocity [s], shape (levels, stages)"""
     weight: Array
     """Newton's scale of the friction of a point, shape (levels, stages, points)"""
     swing: Array
     """velocity at the end by a mean contact force, shape (levels, rank, rank)"""
-    depth: Array
-    """normal displacement of a point from its force [m/N], (levels, stages, points)"""
     times: Array
     """of the stages, shape (stages + 1,)"""
     work: Array
     """quadrature of powers, shape (stages + 1,)"""
-    scalar: Array
-    """the slope where it is a multiple of the unit matrix, else −1, (levels, stages)"""
     mean: float
     """1 if the contact force is a mean one, else 0"""
 
@@ -63,13 +59,11 @@ def empty_tables(scheme: Scheme, modes: Modes, contacts: Contacts) -> Tables:
         np.zeros((LEVELS, stages + 1, 2, count)),
         np.zeros(square),
         np.zeros(square),
-        np.zeros(square),
+        np.zeros((LEVELS, stages)),
         np.zeros((LEVELS, stages, points)),
         np.zeros((LEVELS, rank, rank)),
-        np.zeros((LEVELS, stages, points)),
         scheme.times,
         scheme.work,
-        np.zeros((LEVELS, stages)),
         float(scheme.mean),
     )
 
@@ -109,32 +103,19 @@ def _contact(
     if scheme.mean:
         own = tables.forced[level, stage].sum(axis=0)
     moving = (modes.selection * own[1]) @ modes.seen
-    moved = (modes.selection * own[0]) @ modes.seen
     if scheme.mean:
         tables.swing[level] = moving
-        moving, moved = moved / step, 0.5 * moved
-    inverse = np.linalg.inv(moving)
-    tables.compliance[level, stage], tables.stiffness[level, stage] = moving, inverse
-    if scheme.mean:
-        tables.scalar[level, stage] = 0.5 * step
-    elif scheme.exact:
-        tables.scalar[level, stage] = -1.0
-        tables.slope[level, stage] = moved @ inverse
-    else:
-        tables.scalar[level, stage] = step * scheme.matrix[stage + 1, stage + 1]
-        tables.slope[level, stage] = tables.scalar[level, stage] * np.eye(len(moving))
-    _points(tables, contacts, level, stage, moving, moved)
+        moving = (modes.selection * own[0]) @ modes.seen / step
+    tables.compliance[level, stage] = moving
+    tables.stiffness[level, stage] = np.linalg.inv(moving)
+    tables.slope[level, stage] = step * scheme.matrix[stage + 1, stage + 1]
+    _weigh(tables, contacts, level, stage, moving)
 
 
-def _points(
-    tables: Tables,
-    contacts: Contacts,
-    level: int,
-    stage: int,
-    moving: Array,
-    moved: Array,
+def _weigh(
+    tables: Tables, contacts: Contacts, level: int, stage: int, moving: Array
 ) -> None:
-    """Make the scales of single points: what its own force moves each."""
+    """Make the scales of the points' friction: how fast its own force moves each."""
     for point, (first, width) in enumerate(
         zip(contacts.first, contacts.width, strict=True)
     ):
@@ -142,6 +123,3 @@ def _points(
         block = moving[first : first + width, first : first + width]
         trace = np.einsum("ai,ij,aj->", rows, block, rows)
         tables.weight[level, stage, point] = 2.0 / trace if trace > 0.0 else 0.0
-        row = contacts.basis[point, 0, :width]
-        block = moved[first : first + width, first : first + width]
-        tables.depth[level, stage, point] = row @ block @ row

@@ -15,7 +15,7 @@ MATTERS = 1e-3
 """share of the input from which on friction is what the error is compared with"""
 
 
-def closes(result: TimeHistory | Envelope, tolerance: float = CLOSES) -> bool:
+def closes(result: TimeHistory | Envelope) -> bool:
     """Return whether the closing error stays below a share of the energies.
 
     They are what friction takes out, where that is a thousandth of the input or more,
@@ -25,4 +25,4 @@ def closes(result: TimeHistory | Envelope, tolerance: float = CLOSES) -> bool:
     put_in = np.abs(result.of("input")).max() + abs(result.stored_at_start)
     rubbed = np.abs(result.of("friction")).max()
     size = rubbed if rubbed > MATTERS * put_in else put_in
-    return bool(np.abs(result.closing_error).max() <= tolerance * size)
+    return bool(np.abs(result.closing_error).max() <= CLOSES * size)

@@ -19,9 +19,9 @@ from microslip_mechanics.contact.tangents import contact_tangents
 from microslip_mechanics.floating import floating
 from microslip_mechanics.loads.excitation import Dwell
 from microslip_mechanics.problem import Probes, Problem
-from timedomain.fast.modal_structure import ModalStructure
 from timedomain.integrate import MarchOptions, integrate
 from timedomain.record.start import Start
+from timedomain.shooting.modal_structure import ModalStructure
 
 BLOCK = 16
 """steps that are taken together"""
@@ -63,9 +63,7 @@ class PeriodMap:
     @classmethod
     def of(cls, problem: Problem, frequency: float, steps: int) -> PeriodMap:
         """Return the map; ``steps`` is rounded up to whole blocks."""
-        structure = ModalStructure.of(problem, frequency)
-        whole = -(-steps // BLOCK) * BLOCK
-        structure = replace(structure, scale=frequency)
+        structure, whole = ModalStructure.of(problem), -(-steps // BLOCK) * BLOCK
         basis, _ = problem.interface.relative_motion()
         points = problem.interface.points
         floats = floating(problem) if remembers(points).any() else None
@@ -170,11 +168,11 @@ class PeriodMap:
         """
         structure, modes = self.structure, self.structure.stiffness.size
         matrix = np.zeros((2 * modes, 2 * modes))
-        matrix[:modes, modes:] = structure.scale * np.eye(modes)
-        matrix[modes:, :modes] = -np.diag(structure.stiffness) / structure.scale
+        matrix[:modes, modes:] = self.frequency * np.eye(modes)
+        matrix[modes:, :modes] = -np.diag(structure.stiffness) / self.frequency
         matrix[modes:, modes:] = -structure.damping
         half = np.pi / (self.frequency * self.steps)
-        pushed = np.vstack([np.zeros_like(forces), half * forces / structure.scale])
+        pushed = np.vstack([np.zeros_like(forces), half * forces / self.frequency])
         implicit = np.eye(2 * modes) - half * matrix
         explicit = np.eye(2 * modes) + half * matrix
         made = np.linalg.solve(implicit, np.hstack([explicit, pushed]))

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from microslip.scenes.scene import Scene
     from microslip_mechanics.problem import Problem
     from microslip_mechanics.results.checkpoint import Checkpoint
+    from microslip_mechanics.results.ring_down import RingDown
     from microslip_mechanics.results.time_history import TimeHistory
 
 PERIODS = 300
@@ -101,7 +102,7 @@ def _run(options: argparse.Namespace) -> int:
         save_figure(picture, decay_figure(history, decay, probe, title))
     ending = history.ending
     if ending == "complete":
-        ending = _tell_step_errors(options, scene, problem, begin, history, probe)
+        ending = _tell_step_errors(options, scene, problem, begin, decay, probe)
     return arguments.ended(ending)
 
 
@@ -177,11 +178,10 @@ def _tell_step_errors(
     scene: Scene,
     problem: Problem,
     begin: tuple[Checkpoint, float],
-    history: TimeHistory,
+    decay: RingDown,
     probe: int,
 ) -> str:
     """Print what a march with steps twice as long changes; return how it ended."""
-    from microslip.studies.decay import measured
     from microslip.studies.decay_errors import step_errors
 
     twice = replace(
@@ -200,7 +200,6 @@ def _tell_step_errors(
         return ending
     said = f"not known: {ending}"
     if ending == "complete":
-        told = step_errors(problem, history, coarse, probe)
-        said = errors(measured(problem, history, probe), *told)
+        said = errors(decay, *step_errors(problem, decay, coarse, probe))
     print(f"estimated error of time steps and rows: {said}")
     return "complete"

@@ -6,7 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING, Any
 
-from microslip.commands import arguments, frc_tables
+from microslip.commands import arguments, frc_events, frc_tables
 from microslip.commands.residual_range import residual_range
 from microslip.commands.written import written
 
@@ -110,9 +110,9 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     if traced.rest.normal_force.any():
         print(frc_tables.rest(traced.curve, traced.rest))
     sector = sector_of(scene) is not None and not options.unpruned
-    print(frc_tables.events(traced.curve, sector=sector))
+    print(frc_events.events(traced.curve, sector=sector))
     sought = options.branches and traced.curve.ending == "complete"
-    for hertz in frc_tables.barren(traced.curve) if sought else ():
+    for hertz in frc_events.barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")
     more = *frc_tables.uncounted(scene), *residual_range(traced.curve)
     if sector_of(scene) is None:

@@ -72,7 +72,7 @@ def _may_be(
     if near or not same:
         return near and (same or _uncrossed(at, piece))
     rows, doubt = problem.probes.rows, fold.error + beside.error
-    sizes = [each.amplitudes(rows).max(initial=0.0) for each in (fold, beside)]
+    sizes = [each.largest(rows) for each in (fold, beside)]
     return math.isfinite(doubt) and abs(sizes[1] - sizes[0]) <= doubt * sizes[0]
 
 

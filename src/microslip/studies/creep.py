@@ -53,4 +53,4 @@ def _told(sizes: Array) -> str:
 def _velocity(problem: Problem, response: PeriodicResponse) -> float:
     """Return the largest velocity of a probe or across a contact [m/s]."""
     rows = np.vstack([problem.probes.rows, problem.interface.displacement])
-    return response.frequency * float(response.amplitudes(rows).max(initial=0.0))
+    return response.frequency * response.largest(rows)

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from microslip.studies.decay import measured, swings
+from microslip.studies.decay import swings
 from microslip_mechanics.arrays import Array
 from microslip_mechanics.problem import Problem
+from microslip_mechanics.results.ring_down import RingDown
 from microslip_mechanics.results.time_history import TimeHistory
 from timedomain.step_doubling import CAUTION
 
@@ -26,7 +27,7 @@ class StepErrors(NamedTuple):
 
 
 def step_errors(
-    problem: Problem, history: TimeHistory, coarse: TimeHistory, probe: int
+    problem: Problem, fine: RingDown, coarse: TimeHistory, probe: int
 ) -> StepErrors:
     """Return what steps and rows change in a decay, as longer ones tell.
 
@@ -34,13 +35,14 @@ def step_errors(
 
     Parameters
     ----------
-    problem, history, probe
+    problem, probe
+        What decays, and where that is seen.
+    fine
         The decay that is measured.
     coarse
         The same decay, marched with steps twice as long. Where several motions beat
         one of both may have a swing more: they are compared at the same time.
     """
-    fine = measured(problem, history, probe)
     other = swings(problem, coarse, probe, every=2)
     if not (fine.time.size and other.time.size):
         return StepErrors(math.nan, math.nan, math.nan)

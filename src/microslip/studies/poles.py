@@ -97,7 +97,7 @@ def _linear(
     *,
     outside: bool,
 ) -> Linear:
-    amplitude = float(response.amplitudes(problem.probes.rows).max(initial=0.0))
+    amplitude = response.largest(problem.probes.rows)
     return Linear(
         equivalent_contact(problem, response).joined(problem),
         response,

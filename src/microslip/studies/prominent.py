@@ -61,10 +61,7 @@ def _wide(
             farthest = max(_beside(at, place), key=outwards.item, default=at)
             beyond = float(outwards[farthest] - outwards[at])
             if beyond > each.parameter_error:  # unknown, it stays so
-                size, other = (
-                    float(made.amplitudes(rows).max(initial=0.0))
-                    for made in (each, piece[farthest])
-                )
+                size, other = (made.largest(rows) for made in (each, piece[farthest]))
                 error = max(each.error, abs(other - size) / max(size, TINY))
                 wide[at] = replace(each, parameter_error=beyond, error=error)
     return wide
@@ -75,7 +72,7 @@ def _standing_out(
 ) -> Iterator[PeriodicResponse]:
     """Yield the points of a piece without peaks and folds that may be ripples."""
     rows = problem.probes.rows
-    amplitude = np.array([each.amplitudes(rows).max(initial=0.0) for each in piece])
+    amplitude = np.array([each.largest(rows) for each in piece])
     errors = np.array([each.error for each in piece])
     doubt = np.where(amplitude > 0.0, errors, 0.0) * amplitude
     place = np.array([each.parameter for each in piece])

@@ -5,55 +5,81 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from microslip_mechanics.arrays import ComplexArray
+from microslip_mechanics.arrays import ComplexArray, numbers_of
+from microslip_mechanics.loads.node_sets import texts
 from microslip_mechanics.structures.selection import selected
 
 
-def engine_order(
-    names: Sequence[str], blades: Sequence[str], order: int, amplitude: complex
-) -> ComplexArray:
-    """Return a wave with some maxima around the disk, at the frequency of the drive.
+@dataclass(frozen=True, slots=True)
+class EngineOrder:
+    """A wave that stands still around a disk that turns.
 
-    Parameters
-    ----------
-    names
-        Of all degrees of freedom.
-    blades
-        The loaded degree of freedom of each blade, in the order around the disk.
-    order
-        E, maxima around the disk. Each blade is ahead of the one before it by 2π E/N
-        of N blades; −E travels the other way.
-    amplitude
-        On each blade [N]; with a phase if it is complex.
-
-    Returns
-    -------
-    p, shape ``(dofs,)``: the load is the imaginary part of p e^{iωt}.
-
-    Raises
-    ------
-    ValueError
-        If a blade is unknown, is several degrees of freedom, or stands there twice; if
-        the order is no whole number.
+    ``blades`` are the loaded degree of freedom of each blade, in the order around the
+    disk, ``order`` the number of maxima, ``amplitude`` the force on each blade [N].
     """
-    load = np.zeros(len(names), complex)
-    if not np.isfinite(amplitude):
-        raise ValueError(f"amplitude {amplitude} N: give a finite one")
-    if not len(blades):
-        raise ValueError("engine order: no blades: give one or more")
-    if order != int(order):
-        raise ValueError(f"engine order {order:g}: give a whole number of maxima")
-    for place, blade in enumerate(blades):
-        dof = _of_blade(names, blade)
-        if load[dof] != 0.0:
+
+    blades: Sequence[str]
+    """the loaded degree of freedom of each blade, in the order around the disk"""
+    order: int
+    """maxima around the disk"""
+    amplitude: float
+    """on each blade [N]"""
+
+    def __post_init__(self) -> None:
+        """Check that blades are names and the others numbers."""
+        if not texts(self.blades):
             raise ValueError(
-                f"engine order: blade {blade!r} stands there twice: give each one once"
+                f"engine order: blades = {self.blades!r}: give a list of degrees of "
+                "freedom, one of each blade"
             )
-        load[dof] = amplitude * phasor(int(order) * place, len(blades))
-    return load
+        order = numbers_of(self.order)
+        if order.shape != () or order % 1.0:
+            raise ValueError(
+                f"engine order {self.order!r}: give a whole number of maxima"
+            )
+        if numbers_of(self.amplitude).shape != ():
+            raise ValueError(
+                f"engine order: amplitude {self.amplitude}: give a finite number [N]"
+            )
+
+    def load(self, names: Sequence[str]) -> ComplexArray:
+        """Return the load on all degrees of freedom, at the frequency of the drive.
+
+        Each blade is ahead of the one before it by 2π E/N of N blades; a negative order
+        E travels the other way.
+
+        Parameters
+        ----------
+        names
+            Of all degrees of freedom.
+
+        Returns
+        -------
+        p, shape ``(dofs,)``: the load is the imaginary part of p e^{iωt}.
+
+        Raises
+        ------
+        ValueError
+            If there are no blades; if one is unknown, is several degrees of freedom, or
+            stands there twice.
+        """
+        load = np.zeros(len(names), complex)
+        if not len(self.blades):
+            raise ValueError("engine order: no blades: give one or more")
+        for place, blade in enumerate(self.blades):
+            dof = _of_blade(names, blade)
+            if load[dof] != 0.0:
+                raise ValueError(
+                    f"engine order: blade {blade!r} stands there twice: give each one "
+                    "once"
+                )
+            turn = phasor(int(self.order) * place, len(self.blades))
+            load[dof] = self.amplitude * turn
+        return load
 
 
 def _of_blade(names: Sequence[str], blade: str) -> int:

@@ -5,113 +5,20 @@ from __future__ import annotations
 import cmath
 import math
 import numbers
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from microslip_mechanics.arrays import Array, ComplexArray, numbers_of
-from microslip_mechanics.loads.engine_order import engine_order
-from microslip_mechanics.loads.node_sets import Sets, members, texts
+from microslip_mechanics.arrays import Array, ComplexArray
+from microslip_mechanics.loads.base_motion import BaseMotion
+from microslip_mechanics.loads.engine_order import EngineOrder
+from microslip_mechanics.loads.node_sets import Sets, members
 from microslip_mechanics.structures.forms import place_of
 from microslip_mechanics.structures.structure import Structure
 
 Drive: TypeAlias = Mapping[str, float | tuple[float, float]]
 """amplitude [N], or amplitude and phase [rad], by degree of freedom"""
-
-
-@dataclass(frozen=True, slots=True)
-class EngineOrder:
-    """A wave that stands still around a disk that turns.
-
-    ``blades`` are the loaded degree of freedom of each blade, in the order around the
-    disk, ``order`` the number of maxima, ``amplitude`` the force on each blade [N].
-    """
-
-    blades: Sequence[str]
-    """the loaded degree of freedom of each blade, in the order around the disk"""
-    order: int
-    """maxima around the disk"""
-    amplitude: float
-    """on each blade [N]"""
-
-    def __post_init__(self) -> None:
-        """Check that blades are names and the others numbers."""
-        if not texts(self.blades):
-            raise ValueError(
-                f"engine order: blades = {self.blades!r}: give a list of degrees of "
-                "freedom, one of each blade"
-            )
-        order = numbers_of(self.order)
-        if order.shape != () or order % 1.0:
-            raise ValueError(
-                f"engine order {self.order!r}: give a whole number of maxima"
-            )
-        if numbers_of(self.amplitude).shape != ():
-            raise ValueError(
-                f"engine order: amplitude {self.amplitude}: give a finite number [N]"
-            )
-
-
-@dataclass(frozen=True, slots=True)
-class BaseMotion:
-    """Ground that moves all supports alike; motions are then relative to it.
-
-    ``direction`` is x, y, z, of any length, ``acceleration`` the amplitude along it
-    [m/s²].
-    """
-
-    direction: Sequence[float]
-    """x, y, z, of any length; degrees of freedom say theirs by names such as ``12.z``
-    or ``tip.uz``"""
-    acceleration: float
-    """amplitude along it [m/s²]"""
-
-    def __post_init__(self) -> None:
-        """Check that there is a direction."""
-        direction = numbers_of(self.direction)
-        if direction.shape != (3,) or not direction.any():
-            raise ValueError(
-                f"base: direction {self.direction}: give three numbers, not all zero"
-            )
-        if numbers_of(self.acceleration).shape != ():
-            raise ValueError(
-                f"base: acceleration {self.acceleration}: give a finite number [m/s²]"
-            )
-
-    @property
-    def unit(self) -> Array:
-        """The direction, of length one."""
-        direction = np.asarray(self.direction, dtype=float)
-        unit: Array = direction / np.linalg.norm(direction)
-        return unit
-
-    def load(self, structure: Structure) -> Array:
-        """Return the load on a structure [N], shape (dofs,)."""
-        from microslip_mechanics.loads.base_excitation import (
-            carried_inertia,
-            translation,
-        )
-
-        carried = translation(structure.names, self.unit)
-        return self.load_of(carried_inertia(structure, carried))
-
-    def load_of(self, inertia: Array) -> Array:
-        """Return the load of what the ground carries, given as M r [kg].
-
-        Raises
-        ------
-        ValueError
-            If it carries nothing.
-        """
-        if not inertia.any():
-            told = ", ".join(f"{each:g}" for each in self.direction)
-            raise ValueError(
-                f"base: nothing of the structure moves along [{told}]: give a "
-                "direction in which it does"
-            )
-        return -float(self.acceleration) * inertia
 
 
 def driven(
@@ -152,7 +59,7 @@ def driven(
             f"base = {base!r}: give microslip.BaseMotion(direction, acceleration)"
         )
     if order is not None:
-        total += engine_order(names, order.blades, order.order, order.amplitude)
+        total += order.load(names)
     if base is not None:
         total += base.load(structure)
     return total if total.imag.any() else total.real

@@ -90,6 +90,10 @@ class PeriodicResponse(ByValue):
         found: Array = np.hypot(*self.seen(rows)[1:3])
         return found
 
+    def largest(self, rows: Array) -> float:
+        """Return the largest of :meth:`amplitudes`, 0 of none."""
+        return float(self.amplitudes(rows).max(initial=0.0))
+
     @property
     def unstable(self) -> int:
         """Number of multipliers outside the unit circle; −1 if they are not known."""

@@ -14,7 +14,8 @@ from microslip.scenes.systems.cantilever import assembled
 from microslip.scenes.systems.tables import Numbers, RayleighRatios, System
 from microslip_mechanics.element import Element
 from microslip_mechanics.errors import MicroslipError
-from microslip_mechanics.loads.given_loads import BaseMotion, EngineOrder
+from microslip_mechanics.loads.base_motion import BaseMotion
+from microslip_mechanics.loads.engine_order import EngineOrder
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.structures.rayleigh import Rayleigh
 from microslip_mechanics.system import system

@@ -20,7 +20,7 @@ def quasi_static_energy(
     curve: ResponseCurve,
     rate: float,
     span: tuple[float, float],
-    upward: NDArray[np.int64] | None = None,
+    upward: NDArray[np.int64],
 ) -> float:
     """Return the energy that friction takes out of an infinitely slow upward sweep.
 
@@ -33,13 +33,12 @@ def quasi_static_energy(
     span
         Frequencies at which the sweep begins and ends [Hz].
     upward
-        The points that it passes; those of :func:`followed_upwards` if left out.
+        The points that it passes, as :func:`followed_by` tells.
 
     Returns
     -------
     ∫ E df / k [J] along the branch that an upward sweep follows (theory §6.7).
     """
-    upward = followed_upwards(curve) if upward is None else upward
     hertz = curve.frequency[upward] / (2.0 * np.pi)
     energy = curve.friction_energy[upward]
     within = (hertz > span[0]) & (hertz < span[1])
@@ -66,25 +65,15 @@ def compared_energies(
     return energy, predicted
 
 
-def followed_upwards(curve: ResponseCurve) -> NDArray[np.int64]:
-    """Return the points that a slow upward sweep passes: it jumps at a fold.
-
-    A piece that was traced downwards is passed the other way; of pieces that begin at
-    one frequency, the sweep begins on the first.
-    """
-    order = _upward(curve)
-    passed = curve.frequency[order]
-    followed: NDArray[np.int64] = order[passed >= np.maximum.accumulate(passed)]
-    return followed
-
-
 def followed_by(
     curve: ResponseCurve, hertz: Array, swing: Array
 ) -> tuple[NDArray[np.int64], list[float]]:
     """Return the points that a sweep passes which is slow but for its jumps.
 
-    Where more than one stable branch lies beyond a fold, the basins of attraction
-    decide on which it lands: the branch is taken that is nearest to the sweep.
+    It jumps at folds. Where more than one stable branch lies beyond, the basins of
+    attraction decide on which it lands: the branch is taken that is nearest to the
+    sweep. A piece that was traced downwards is passed the other way; of pieces that
+    begin at one frequency, the sweep begins on the first.
 
     Parameters
     ----------

@@ -54,14 +54,12 @@ class SweepAgreement:
     @property
     def rubs(self) -> bool:
         """Whether friction takes out energy that is compared."""
-        return self.energy != 0.0 or self.quasi_static != 0.0
+        return self.quasi_static != 0.0
 
     @property
     def energy_error(self) -> float:
         """Relative difference of the energies."""
-        if self.quasi_static == 0.0:
-            return 0.0 if self.energy == 0.0 else float("inf")
-        return self.energy / self.quasi_static - 1.0
+        return self.energy / self.quasi_static - 1.0 if self.rubs else 0.0
 
 
 def orbits(

@@ -25,12 +25,10 @@ class ModalStructure:
     """Φᵀ C Φ [1/s], shape (modes, modes)"""
     selection: Array
     """relative coordinates from the modes, shape (rank, modes)"""
-    scale: float
-    """s [rad/s]: velocities over it compare with displacements"""
 
     @classmethod
-    def of(cls, problem: Problem, frequency: float) -> ModalStructure:
-        """Return the modes; ``frequency`` [rad/s] is the least scale of velocities."""
+    def of(cls, problem: Problem) -> ModalStructure:
+        """Return the modes of a problem's structure, which is not sparse."""
         structure = problem.structure.dense
         _, selection = problem.interface.relative_motion()
         stiffness, shapes = undamped_modes(structure.stiffness, structure.mass)
@@ -40,5 +38,4 @@ class ModalStructure:
             stiffness,
             shapes.T @ structure.damping @ shapes,
             np.ascontiguousarray(selection @ shapes),
-            max(frequency, float(np.sqrt(stiffness.max(initial=0.0)))),
         )

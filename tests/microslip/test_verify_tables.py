@@ -120,6 +120,7 @@ def test_a_multiplier_outside_the_circle_is_not_said_to_be_one(
     )
 
     assert events(curve).endswith(f"multiplier {said}")
+    assert events(curve, doubt=2.3e-6).endswith(f"multiplier {said} ± 2e-06")
 
 
 def test_events_and_errors_are_told_in_the_units_beside_them(

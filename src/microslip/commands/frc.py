@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from microslip.scenes.experiments import Curve
     from microslip.scenes.scene import Scene
     from microslip.studies.curve import Traced
+    from microslip_mechanics.problem import Problem
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -103,24 +104,47 @@ def _run(options: argparse.Namespace) -> int:
 
 def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     """Print the curve, its events, its errors, and what was sought."""
-    from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
     from microslip.studies.creep import creep
 
+    problem = _whole(options, scene)
     print(frc_tables.table(traced))
     if traced.rest.normal_force.any():
         print(frc_tables.rest(traced.curve, traced.rest))
-    sector = sector_of(scene) is not None and not options.unpruned
-    print(frc_events.events(traced.curve, sector=sector))
+    doubt = _doubt(options, scene, traced, problem)
+    print(frc_events.events(traced.curve, sector=problem is None, doubt=doubt))
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in frc_events.barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")
     more = *frc_tables.uncounted(scene), *residual_range(traced.curve)
-    if sector_of(scene) is None:
-        problem = (unpruned_of if options.unpruned else problem_of)(scene)
+    if problem is not None:
         more = *more, *creep(problem, traced)
     print(frc_tables.resolution(traced.curve), *more, sep="\n")
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
+
+
+def _whole(options: argparse.Namespace, scene: Scene) -> Problem | None:
+    """Return the problem of a scene; none if one sector stands for it."""
+    from microslip.scenes.rigs import problem_of, sector_of, unpruned_of
+
+    if options.unpruned:
+        return unpruned_of(scene)
+    return problem_of(scene) if sector_of(scene) is None else None
+
+
+def _doubt(
+    options: argparse.Namespace, scene: Scene, traced: Traced, problem: Problem | None
+) -> float:
+    """Return the error of the largest multiplier of what is unstable, if it is known.
+
+    What is stable needs nothing for that.
+    """
+    if problem is None or not (traced.curve.unstable > 0).any():
+        return math.inf
+    from microslip.studies.leading_multiplier import leading_error
+
+    pruned = not options.unpruned
+    return leading_error(problem, traced, scene.curve, pruned=pruned)
 
 
 def _traced(options: argparse.Namespace, scene: Scene) -> Traced:

@@ -18,10 +18,13 @@ SECTOR = (
 """of the curve of one sector"""
 
 
-def events(curve: ResponseCurve, *, sector: bool = False) -> str:
+def events(
+    curve: ResponseCurve, *, sector: bool = False, doubt: float = math.inf
+) -> str:
     """Return what was located on the curve, where it is missing and unstable.
 
-    ``sector`` says that it is that of one sector, which stands for a disk.
+    ``sector`` says that it is that of one sector, which stands for a disk; ``doubt`` is
+    the error of the largest multiplier, if it is known.
     """
     from microslip.studies.gaps import lines as gap_lines
 
@@ -40,7 +43,7 @@ def events(curve: ResponseCurve, *, sector: bool = False) -> str:
     lines += _beginnings(curve)
     if not curve.peak.any():
         lines.append("nothing moves at any frequency: the scene has no drive")
-    lines.append(SECTOR if sector else _stability(curve))
+    lines.append(SECTOR if sector else _stability(curve, doubt))
     return "\n".join(lines)
 
 
@@ -65,7 +68,7 @@ def _beginnings(curve: ResponseCurve) -> list[str]:
     return lines
 
 
-def _stability(curve: ResponseCurve) -> str:
+def _stability(curve: ResponseCurve, doubt: float) -> str:
     """Return where the curve is unstable, as far as that is known."""
     unstable = curve.unstable > 0
     if unstable.any():
@@ -74,7 +77,7 @@ def _stability(curve: ResponseCurve) -> str:
         return (
             f"unstable at {unstable.sum()} of {unstable.size} points, between "
             f"{hertz(low, seen)} and {hertz(high, seen)} Hz; largest Floquet "
-            f"multiplier {_multiplier(float(curve.multiplier.max()))}"
+            f"multiplier {_multiplier(float(curve.multiplier.max()))}{about(doubt)}"
             f"{_doubted(curve)}"
         )
     stable = curve.unstable == 0

@@ -1,12 +1,15 @@
 """The study of a curve: its upward branch, its energy, its resolution."""
 
 import dataclasses
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import ArrayLike, NDArray
 
+from hbm.errors import ContinuationError
 from microslip.commands.frc_events import barren
 from microslip.scenes.rigs import problem_of
 from microslip.scenes.scene import Scene
@@ -15,6 +18,7 @@ from microslip.studies import curve, detached
 from microslip.studies.curve import Wanted, shown_points, trace_curve
 from microslip.studies.detached import Searched
 from microslip.studies.verify.quasi_static import followed_by, quasi_static_energy
+from microslip_mechanics.results.response import PeriodicResponse
 from microslip_mechanics.results.response_curve import ResponseCurve
 
 
@@ -300,6 +304,38 @@ def test_branches_of_detached_curves_are_followed(
     assert begun
     assert set(begun) <= set(places)
     assert len(traced.responses) > len(whole) + 10
+
+
+@pytest.mark.parametrize("before", [0, 1])
+@pytest.mark.parametrize(
+    ("cause", "ending"),
+    [
+        (ContinuationError("too far"), "a branch was lost: too far"),
+        (KeyboardInterrupt(), "interrupted"),
+    ],
+)
+def test_a_branch_of_a_detached_curve_that_is_lost_leaves_what_there_is(
+    cause: BaseException,
+    ending: str,
+    before: int,
+    scene: Scene,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def lost(*given: Any) -> Iterator[PeriodicResponse]:
+        yield from given[-1][:before]
+        raise cause
+
+    problem = problem_of(scene)
+    whole = trace_curve(problem, scene.curve).responses
+    found = Searched(whole[:1], (), 0, interrupted=False)
+    monkeypatch.setattr(detached, "search", lambda *_, **__: found)
+    monkeypatch.setattr(curve, "_all", lambda *_: iter(whole))
+    monkeypatch.setattr(curve, "branches", lost)
+
+    traced = trace_curve(problem, scene.curve, wanted=Wanted(True, True))
+
+    assert traced.curve.ending == ending
+    assert len(traced.responses) == len(whole) + 1 + before
 
 
 def test_what_branches_off_branches_is_not_missed(small_curve: ResponseCurve) -> None:

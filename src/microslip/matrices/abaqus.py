@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import scipy.sparse
 
+from microslip.matrices.entries import assembled
 from microslip.matrices.labelled import LabelledMatrix, dof_name
-from microslip.matrices.repeated import refuse_repeated
 from microslip.matrices.text_table import read_table
 
 
@@ -28,11 +27,6 @@ def read_abaqus(path: Path) -> LabelledMatrix:
     table.integers(slice(0, 3, 2), int(min(0.0, np.floor(nodes.min()))), "node")
     table.integers(slice(1, 4, 2), 1, "direction")
     ends = table.values[:, :4].astype(np.int64).reshape(-1, 2)
-    labels, places = np.unique(ends, axis=0, return_inverse=True)
-    places = places.reshape(-1, 2)
-    refuse_repeated(path, places, table.lines)
-    matrix = scipy.sparse.coo_array(
-        (table.values[:, 4], tuple(places.T)), shape=(len(labels),) * 2
-    )
+    matrix, labels = assembled(path, ends, table.values[:, 4], table.lines)
     names = tuple(dof_name(int(node), int(way)) for node, way in labels)
     return LabelledMatrix(matrix, names)

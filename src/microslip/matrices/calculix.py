@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse
 
+from microslip.matrices.entries import refuse_repeated
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix, dof_name
-from microslip.matrices.repeated import refuse_repeated
 from microslip.matrices.text_table import read_table, text_of
 
 

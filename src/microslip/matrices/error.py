@@ -14,3 +14,8 @@ class MatrixFileError(MicroslipError):
         """Take the file, the cause with its remedy, and the line if there is one."""
         place = "" if line is None else f", line {line}"
         super().__init__(f"{path}{place}: {cause}")
+
+    @classmethod
+    def unreadable(cls, path: Path, error: OSError) -> MatrixFileError:
+        """Return what is said of a file that cannot be opened."""
+        return cls(path, f"cannot be read ({error.strerror}): check the name")

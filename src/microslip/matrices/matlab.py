@@ -29,9 +29,7 @@ def read_matlab(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
             path, "is of MATLAB's version 7.3: save it with save(file, vars, '-v7')"
         ) from None
     except OSError as error:
-        raise MatrixFileError(
-            path, f"cannot be read ({error.strerror}): check the name"
-        ) from None
+        raise MatrixFileError.unreadable(path, error) from None
     except (ValueError, TypeError, LookupError, EOFError, MatReadError) as error:
         raise MatrixFileError(
             path, f"is no sound MATLAB file ({error}): save it again with '-v7'"

@@ -11,9 +11,9 @@ import scipy.io
 import scipy.sparse
 
 from microslip.errors import one_line
+from microslip.matrices.entries import refuse_repeated
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix
-from microslip.matrices.repeated import refuse_repeated
 from microslip.matrices.sparse_kind import either_kind
 from microslip.matrices.text_table import text_of
 from microslip_mechanics.arrays import Matrix

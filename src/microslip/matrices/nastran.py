@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import scipy.sparse
 
+from microslip.matrices.entries import assembled
 from microslip.matrices.error import MatrixFileError
 from microslip.matrices.labelled import LabelledMatrix, dof_name
-from microslip.matrices.repeated import refuse_repeated
 from microslip.matrices.text_table import text_of
 from microslip.matrices.variable import chosen
 
@@ -40,12 +39,9 @@ def read_nastran(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
             path, f"{name} has no entries in large fields (DMIG*): punch it again"
         )
     ends = np.array([[row, column] for _, row, column, _ in entries])
-    labels, places = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
-    places = places.reshape(-1, 2)
-    refuse_repeated(path, places, np.array([line for line, *_ in entries]))
-    rows, columns = places.T
-    values = [value for *_, value in entries]
-    matrix = scipy.sparse.coo_array((values, (rows, columns)), shape=(len(labels),) * 2)
+    values = np.array([value for *_, value in entries])
+    numbers = np.array([line for line, *_ in entries])
+    matrix, labels = assembled(path, ends.reshape(-1, 2), values, numbers)
     names = (
         dof_name(int(node), int(way)) if way else str(node) for node, way in labels
     )

@@ -36,11 +36,7 @@ def read_npz(path: Path, wanted: tuple[str, ...]) -> LabelledMatrix:
     if there.keys() >= SPARSE:
         return LabelledMatrix(matrix_of(path, {"it": _sparse(path)}, ("it",)), ())
     names = tuple(str(name) for name in np.ravel(there.pop("names", ())))
-    matrix = matrix_of(path, there, wanted)
-    try:
-        return LabelledMatrix(matrix, names)
-    except ValueError as error:
-        raise MatrixFileError(path, str(error)) from None
+    return LabelledMatrix(matrix_of(path, there, wanted), names)
 
 
 def _check_archive(path: Path) -> None:
@@ -48,9 +44,7 @@ def _check_archive(path: Path) -> None:
         with path.open("rb") as file:
             sound = zipfile.is_zipfile(file)
     except OSError as error:
-        raise MatrixFileError(
-            path, f"cannot be read ({error.strerror}): check the name"
-        ) from None
+        raise MatrixFileError.unreadable(path, error) from None
     if not sound:
         raise MatrixFileError(path, "is no sound archive: write it by numpy.savez")
 

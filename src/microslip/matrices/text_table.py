@@ -96,9 +96,7 @@ def text_of(path: Path) -> str:
     try:
         content = path.read_bytes()
     except OSError as error:
-        raise MatrixFileError(
-            path, f"cannot be read ({error.strerror}): check the name"
-        ) from None
+        raise MatrixFileError.unreadable(path, error) from None
     if b"\0" in content:
         raise MatrixFileError(path, "is not text: give the text export of the matrix")
     try:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,6 @@ from hbm.curves.cyclic import cyclic_response
 from hbm.errors import ContinuationError
 from hbm.options import CurveOptions
 from hbm.solve import branches, frequency_response
-from microslip.interruption import unmasked
 from microslip.progress import Watch
 from microslip.scenes.experiments import Curve
 from microslip.scenes.quantity import SceneError
@@ -95,14 +95,14 @@ def trace_curve(
     known = traced.responses
     found = search(problem, rest, options, known, effort=wanted.effort, watch=searching)
     ending = found.ending if ending == "complete" else ending
-    responses = (*known, *found.responses)
+    responses = [*known, *found.responses]
     if wanted.branches and found.responses and not found.interrupted:
-        branched = branches(problem, rest, options, found.responses)
-        more, lost = _lost(watch(branched))
-        responses = (*responses, *more)
+        branched = _branched(problem, rest, options, found.responses)
+        responses, lost = gathered(chain(responses, watch(branched)))
         ending = lost if ending == "complete" else ending
-    responses = tuple(prominent(problem, responses))
-    return Traced(response_curve(problem, responses, ending), responses, rest, found)
+    responses = prominent(problem, responses)
+    made = response_curve(problem, responses, ending)
+    return Traced(made, tuple(responses), rest, found)
 
 
 def trace_sector(
@@ -159,25 +159,26 @@ def _all(
         known.append(response)
         yield response
     if wanted.branches:
-        try:
-            yield from branches(problem, rest, options, known)
-        except ContinuationError as error:
-            raise ContinuationError(f"{LOST}: {error}") from None
+        yield from _branched(problem, rest, options, known)
 
 
-def _lost(
-    responses: Iterable[PeriodicResponse],
-) -> tuple[list[PeriodicResponse], str]:
-    """Return the responses on branches, if there are any, and how they end."""
-    found: list[PeriodicResponse] = []
+def _branched(
+    problem: Problem,
+    rest: StaticState,
+    options: CurveOptions,
+    known: Sequence[PeriodicResponse],
+) -> Iterator[PeriodicResponse]:
+    """Yield the responses on what branches off known ones.
+
+    Raises
+    ------
+    ContinuationError
+        If a branch is lost; it says so.
+    """
     try:
-        with unmasked():
-            found.extend(responses)
+        yield from branches(problem, rest, options, known)
     except ContinuationError as error:
-        return found, f"{LOST}: {error}"
-    except KeyboardInterrupt:
-        return found, "interrupted"
-    return found, "complete"
+        raise ContinuationError(f"{LOST}: {error}") from None
 
 
 def shown_points(curve: ResponseCurve, largest: int) -> list[int]:

@@ -153,6 +153,13 @@ def test_a_name_that_is_no_node_and_direction_is_refused(tmp_path: Path) -> None
         MatrixSource(tmp_path / "a.sti").read()
 
 
+def test_a_direction_beyond_those_of_motion_keeps_its_number(tmp_path: Path) -> None:
+    (tmp_path / "a.sti").write_text("1 1 4.0\n2 2 5.0\n")
+    (tmp_path / "a.dof").write_text("1.0\n1.7\n")  # a temperature, a warping
+
+    assert MatrixSource(tmp_path / "a.sti").read().names == ("1.0", "1.7")
+
+
 @pytest.mark.parametrize("name", ["a.mtx", "a.mat", "a.npz", "a.sti", "a.txt"])
 def test_a_file_that_is_not_there_is_named(name: str, tmp_path: Path) -> None:
     message = (

@@ -89,6 +89,6 @@ def _completed(matrix: Matrix) -> Matrix:
 
 def dof_name(node: int, direction: int) -> str:
     """Return the name of a node's degree of freedom, such as ``12.z``."""
-    if direction <= len(DIRECTIONS):
+    if 0 < direction <= len(DIRECTIONS):
         return f"{node}.{DIRECTIONS[direction - 1]}"
     return f"{node}.{direction}"

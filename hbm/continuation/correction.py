@@ -40,6 +40,8 @@ class Correction:
     """whether the curve comes from the point before"""
     turns: bool = False
     """whether it comes round a corner at which its parameter turns back"""
+    replaces: int = 0
+    """how many points before it are taken back where the curve begins anew"""
 
     @property
     def along(self) -> Array:

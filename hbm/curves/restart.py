@@ -46,6 +46,8 @@ class Beginning(NamedTuple):
     direction: Array | None
     """in which it goes, shape (n + 1,); towards the end if none"""
     control: StepControl
+    replaces: int = 0
+    """how many points of the way before are taken back"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,8 +94,8 @@ class Restart:
         """Return the last point of a way that more harmonics have too.
 
         They are found without neglecting steps of Newton's iteration; the system keeps
-        the harmonics. None if there is no such point, or if ``control``, that of the
-        way, and the system were like that already.
+        the harmonics, and points behind are taken back. None if there is no such point,
+        or if ``control``, that of the way, and the system were like that already.
         """
         strict = control.strict
         if not way or (not self.system.raise_floor() and control == strict):
@@ -108,7 +110,7 @@ class Restart:
             if distance(found.point, known.point, scale) <= control.shift:
                 come = way[: len(way) - back + 1]
                 on = onwards(self.system, come, found.point, scale, strict)
-                return Beginning(known.point, on, strict)
+                return Beginning(known.point, on, strict, back - 1)
         return None
 
     def behind(

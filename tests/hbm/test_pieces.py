@@ -112,21 +112,25 @@ def test_a_curve_goes_on_from_where_more_harmonics_have_it_too(
     monkeypatch.setattr("hbm.curves.pieces.path_metric", lambda *_: np.ones(2))
     loose = replace(pieces(0.0, 1.0, Finer()), control=StepControl(negligible=1e-5))
 
-    points = [each.point[-1] for each in loose]
+    found = list(loose)
 
     assert [place for _, place in begun] == [0.0, 0.2]
-    assert points == [0.1, 0.2, 0.21, RESISTS, 1.0]
+    assert [each.point[-1] for each in found] == [0.1, 0.2, 0.21, RESISTS, 1.0]
+    # 0.21, which was not tried, and 0.3, which they do not have, are taken back
+    assert [each.replaces for each in found] == [0, 0, 0, 0, 2]
     assert [each.negligible for each in controls] == [1e-5, 0.0]
 
 
 @pytest.mark.parametrize(
-    ("error", "again"), [(RetracedError, 0.24), (ReturnedError, 0.2401)]
+    ("error", "again", "replaces"),
+    [(RetracedError, 0.24, 2), (ReturnedError, 0.2401, 0)],
 )
 def test_what_goes_back_on_itself_is_taken_up_where_it_turned(
     begun: list[tuple[float, float]],
     monkeypatch: pytest.MonkeyPatch,
     error: type[ReturnedError],
     again: float,
+    replaces: int,
 ) -> None:
     # where a step has led to another part more harmonics would go there again: a leap
     def trace(
@@ -145,10 +149,12 @@ def test_what_goes_back_on_itself_is_taken_up_where_it_turned(
 
     monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
 
-    points = [each.point[-1] for each in pieces(0.0, 1.0, Finer())]
+    found = list(pieces(0.0, 1.0, Finer()))
 
     assert [place for _, place in begun] == pytest.approx([0.0, again])
+    points = [each.point[-1] for each in found]
     assert points == [0.1, 0.2, 0.24, 0.23, 0.22, 1.0]
+    assert [each.replaces for each in found] == [0, 0, 0, 0, 0, replaces]
 
 
 def test_what_more_harmonics_do_not_have_is_followed_back_with_few(

@@ -102,15 +102,16 @@ class Restart:
             return None
         for back in dict.fromkeys(min(each, len(way)) for each in BACK):
             known = way[-back]
+            guess = known.point if known.reported is None else known.reported
             try:
-                found = correct_at(self.system, known.point, strict)
+                found = correct_at(self.system, guess, strict)
             except ContinuationError:
                 continue
-            scale = self.metric(known.point)
-            if distance(found.point, known.point, scale) <= control.shift:
+            scale = self.metric(guess)
+            if distance(found.point, guess, scale) <= control.shift:
                 come = way[: len(way) - back + 1]
                 on = onwards(self.system, come, found.point, scale, strict)
-                return Beginning(known.point, on, strict, back - 1)
+                return Beginning(guess, on, strict, back - 1)
         return None
 
     def behind(

@@ -121,6 +121,32 @@ def test_a_curve_goes_on_from_where_more_harmonics_have_it_too(
     assert [each.negligible for each in controls] == [1e-5, 0.0]
 
 
+def test_points_are_taken_up_as_they_are_reported(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # few harmonics err by more than two points of one curve may differ
+    def trace(
+        system: Finer, start: Array, _: float, **_options: Any
+    ) -> Iterator[Correction]:
+        begun.append((float(start[0]), float(start[1])))
+        for place in (1.0,) if system.more else (0.1, 0.2):
+            off, along = 0.0 if system.more else 0.1, np.array([0.0, 1.0])
+            point = np.array([1.0 + off, place])
+            residual, linearised = system(point)
+            yield Correction(
+                *(point, residual, linearised, Outcome.CONVERGED, (0.0,), along),
+                reported=np.array([1.0, place]),
+            )
+        if not system.more:
+            raise ContinuationError("the curve does not go on")
+
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
+
+    list(pieces(0.0, 1.0, Finer()))
+
+    assert begun == [(0.9, 0.0), (1.0, 0.2)]
+
+
 @pytest.mark.parametrize(
     ("error", "again", "replaces"),
     [(RetracedError, 0.24, 2), (ReturnedError, 0.2401, 0)],

@@ -40,6 +40,10 @@ class Correction:
     """whether the curve comes from the point before"""
     turns: bool = False
     """whether it comes round a corner at which its parameter turns back"""
+    reported: Array | None = None
+    """the point as it is reported, with more harmonics perhaps; the same if left out"""
+    replaces: int = 0
+    """how many points before it are taken back where the curve begins anew"""
 
     @property
     def along(self) -> Array:

@@ -12,6 +12,7 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import folds
+from hbm.curves.last_points import LastPoints
 from hbm.errors import ContinuationError
 from hbm.events.crossed import BRANCH, TORUS, crossings
 from hbm.events.crossings import ASTRAY
@@ -34,8 +35,6 @@ if TYPE_CHECKING:
 TURN = 2.0 * np.pi
 ASIDE = 0.05
 """distance of complex multipliers from the unit circle at which there is no torus"""
-ROUNDED = 1e-12
-"""of the larger limit, by which a parameter may be beyond it"""
 DRIFT = 1e-6
 """mean force on a free body over the force scale, from which it drifts"""
 
@@ -61,19 +60,15 @@ class Curve:
         """Yield the response at each point, and at each event between two points.
 
         More harmonics may have one beyond the limits: it is left out. ``beginning``
-        marks the first point.
+        marks the first point; one that begins anew tells how many it replaces.
         """
-        slack = ROUNDED * max(map(abs, self.limits))
-        least, most = self.limits[0] - slack, self.limits[1] + slack
-        made = self._all(corrections, metric, beginning)
-        return (each for each in made if least <= each.parameter <= most)
-
-    def _all(
-        self, corrections: Iterable[Correction], metric: Metric, beginning: str
-    ) -> Iterator[PeriodicResponse]:
         before: Settled | None = None
         summits, told = Summits(self.problem.probes.rows), ToldEvents()
+        points = LastPoints(self.limits)
         for correction in corrections:
+            undone = points.taken_back(correction.replaces)
+            told.forget(undone)
+            events: list[PeriodicResponse] = []
             mark = beginning if before is None else "restart"
             if self.residual_range and not correction.joined:
                 self.residual_range.begin()
@@ -83,13 +78,14 @@ class Curve:
             if self.events and before is not None and correction.joined:
                 found = list(self._between(before, after, metric))
                 rising = folds(before.correction) > 0.0
-                yield from told.fresh(summits.among(found, made), rising=rising)
+                events += told.fresh(summits.among(found, made), rising=rising)
                 changed = crossings(before.multipliers, after.multipliers)
                 folded = any(each.event == "fold" for each in found)
                 after = after._replace(owes=folded and not changed)
             else:
                 summits.begin(made)
-            yield made
+            made = replace(made, replaces=len(undone)) if undone else made
+            yield from points.added([*events, made])
             before = after
 
     def _between(

@@ -37,6 +37,7 @@ class Incoming:
         self._restart, self._start, self._end = restart, start, end
         self._seen: list[Array] = []
         self._left: deque[Array] = deque()
+        self._asked: list[Array] = []
 
     def leave(self, point: Array) -> None:
         """Note that the range was left at a point, if it is at one of its ends."""
@@ -44,13 +45,18 @@ class Incoming:
             self._left.append(point)
             self._seen.append(point)
 
+    def ask(self, guess: Array) -> None:
+        """Note a guess at one of the ends, such as rest, from which a test begins."""
+        self._asked.append(guess)
+
     def __iter__(self) -> Iterator[tuple[Array, float]]:
         """Yield points of other responses at the ends, and the end a curve heads for.
 
-        First what rest leads to at the end, which a test meets there; then what comes
-        back where the range was left.
+        First those to which what was asked for leads; then what comes back where the
+        range was left.
         """
-        yield from self._besides(self._restart.still(self._end))
+        while self._asked:
+            yield from self._besides(self._asked.pop())
         while self._left:
             returned = self._returned(self._left.popleft())
             if returned is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hbm.continuation.cornered import REMEMBERED, Cornered
 from hbm.continuation.correction import Correction
@@ -51,6 +51,8 @@ class Piece:
             way: deque[Correction] = deque(maxlen=REMEMBERED)
             try:
                 for correction in self._cornered(begun, heading):
+                    if not way:
+                        correction = replace(correction, replaces=begun.replaces)
                     way.append(correction)
                     yield correction
             except UnboundedError:
@@ -86,7 +88,8 @@ class Piece:
         if isinstance(error, RetracedError) or not isinstance(error, ReturnedError):
             finer = self.restart.finer(known, begun.control)
             if finer is not None:
-                return leaps, finer
+                gone_back = len(way) - len(known)
+                return leaps, finer._replace(replaces=finer.replaces + gone_back)
         return self.restart.behind(reached, begun, heading, leaps)
 
     def _cornered(self, begun: Beginning, heading: float) -> Iterator[Correction]:

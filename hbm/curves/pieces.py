@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from hbm.continuation.correction import Correction
@@ -30,8 +30,8 @@ class Pieces:
 
     A curve that folds back and returns to ``start``, that stops, or that does not
     begin, is followed from ``end`` as well; in the last case if Newton's iteration
-    from rest begins it there. If both return, what lies between is sought. Where a
-    curve arrives at ``end``, what comes in from beyond the range is followed too.
+    from rest begins it there. Where it has left the range, what comes in from beyond is
+    followed too. If all that returns, what lies between is sought.
     """
 
     path: Path
@@ -46,29 +46,12 @@ class Pieces:
 
     def __iter__(self) -> Iterator[Correction]:
         """Yield corrections; the first of a new piece has no tangent before it."""
-        there: list[float] = []
-        stopped: ContinuationError | None = None
-        try:
-            yield from self._first(there)
-        except ContinuationError as error:
-            stopped = error
-        if stopped is None and _arrived(there, 1.0):
-            return
-        back: list[float] = []
-        self.system.restart(self.system.fourier.harmonics)
-        again = FIRST if there else ()
-        try:
-            yield from self._noted(
-                self._piece(self.restart.still(self.end), self.start, again), back
-            )
-        except ContinuationError as error:
-            raise stopped or error from None
-        if _arrived(back, 0.0):
-            return
-        if stopped is not None:
-            raise stopped
-        if max(there) < min(back):
-            yield from self._between(max(there))
+        incoming = Incoming(self.restart, self.start, self.end)
+        turns = yield from self._traced(incoming)
+        passes = yield from self._beyond(incoming)
+        if turns is not None and not passes:
+            yield from self._between(turns, incoming)
+            yield from self._beyond(incoming)
 
     def from_point(self, guess: Array, direction: Array) -> Iterator[Correction]:
         """Yield corrections from a point in a direction, until the range ends.
@@ -103,49 +86,83 @@ class Pieces:
         piece = Piece(self.restart, (self.start, self.end))
         return piece.from_guess(guess, heading, iter(leaps))
 
+    def _traced(self, incoming: Incoming) -> Generator[Correction, None, float | None]:
+        """Yield corrections from one end or both; note where they leave the range.
+
+        Return the share of the range up to where the first returns, if both do so
+        before they meet.
+        """
+        there: list[float] = []
+        stopped: ContinuationError | None = None
+        begun = self._piece(self.restart.still(self.start), self.end, FIRST)
+        try:
+            yield from self._noted(begun, there, incoming)
+        except ContinuationError as error:
+            stopped = error
+        if stopped is None and _arrived(there, 1.0):
+            if there:
+                incoming.ask(self.restart.still(self.end))
+            return None
+        back: list[float] = []
+        self.system.restart(self.system.fourier.harmonics)
+        again = FIRST if there else ()
+        begun = self._piece(self.restart.still(self.end), self.start, again)
+        try:
+            yield from self._noted(begun, back, incoming)
+        except ContinuationError as error:
+            raise stopped or error from None
+        if _arrived(back, 0.0):
+            return None
+        if stopped is not None:
+            raise stopped
+        return max(there) if max(there) < min(back) else None
+
     def _noted(
-        self, corrections: Iterator[Correction], shares: list[float]
+        self,
+        corrections: Iterator[Correction],
+        shares: list[float],
+        incoming: Incoming,
     ) -> Iterator[Correction]:
-        """Yield corrections, and note the share of the range before each of them."""
-        for each in corrections:
-            shares.append(
-                (float(each.point[-1]) - self.start) / (self.end - self.start)
-            )
-            yield each
+        """Yield corrections, and note the share of the range before each of them.
 
-    def _first(self, shares: list[float]) -> Iterator[Correction]:
-        """Yield corrections from the start, then what comes in from beyond the range.
-
-        The latter is more than was asked: where it cannot go on, it ends.
+        And where they leave the range: behind the last of them, and before the first.
         """
         first: Correction | None = None
-        begun = self._piece(self.restart.still(self.start), self.end, FIRST)
-        for last in self._noted(begun, shares):
+        for last in corrections:
             first = first or last
+            shares.append(
+                (float(last.point[-1]) - self.start) / (self.end - self.start)
+            )
             yield last
-        if first is None or last.point[-1] != self.end:
-            return
-        incoming = Incoming(self.restart, self.start, self.end)
-        incoming.leave(last.point)
-        incoming.leave(first.point)
+        if first is not None:
+            incoming.leave(last.point)
+            incoming.leave(first.point)
+
+    def _beyond(self, incoming: Incoming) -> Generator[Correction, None, bool]:
+        """Yield what comes in from beyond the range; return whether some passes it.
+
+        That is more than was asked: where it cannot go on, it ends.
+        """
+        passes = False
         for point, heading in incoming:
             with contextlib.suppress(ContinuationError):
                 for last in self._piece(point, heading):
                     yield last
                 incoming.leave(last.point)
+                passes = passes or last.point[-1] == heading
+        return passes
 
-    def _between(self, reached: float) -> Iterator[Correction]:
+    def _between(self, reached: float, incoming: Incoming) -> Iterator[Correction]:
         """Yield corrections from beyond where curves from both ends turn back.
 
         ``reached`` is the share of the range up to where the first does.
         """
-        where = self.start + reached * (self.end - self.start)
+        where, shares = self.start + reached * (self.end - self.start), [reached]
         guess = self.restart.point(where, self.end, iter(LEAPS))
-        last: Correction | None = None
         if guess is not None:
-            for last in self._piece(guess, self.end, LEAPS):
-                yield last
-        if last is None or last.point[-1] != self.end:
+            pieces = self._piece(guess, self.end, LEAPS)
+            yield from self._noted(pieces, shares, incoming)
+        if shares[-1] != 1.0:
             raise ContinuationError(
                 f"the curve turns back at {PLACE}, and that from the other end of the "
                 "range before it comes there: what lies between was not found; a "

@@ -46,6 +46,8 @@ class Beginning(NamedTuple):
     direction: Array | None
     """in which it goes, shape (n + 1,); towards the end if none"""
     control: StepControl
+    replaces: int = 0
+    """how many points of the way before are taken back"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,23 +94,24 @@ class Restart:
         """Return the last point of a way that more harmonics have too.
 
         They are found without neglecting steps of Newton's iteration; the system keeps
-        the harmonics. None if there is no such point, or if ``control``, that of the
-        way, and the system were like that already.
+        the harmonics, and points behind are taken back. None if there is no such point,
+        or if ``control``, that of the way, and the system were like that already.
         """
         strict = control.strict
         if not way or (not self.system.raise_floor() and control == strict):
             return None
         for back in dict.fromkeys(min(each, len(way)) for each in BACK):
             known = way[-back]
+            guess = known.point if known.reported is None else known.reported
             try:
-                found = correct_at(self.system, known.point, strict)
+                found = correct_at(self.system, guess, strict)
             except ContinuationError:
                 continue
-            scale = self.metric(known.point)
-            if distance(found.point, known.point, scale) <= control.shift:
+            scale = self.metric(guess)
+            if distance(found.point, guess, scale) <= control.shift:
                 come = way[: len(way) - back + 1]
                 on = onwards(self.system, come, found.point, scale, strict)
-                return Beginning(known.point, on, strict)
+                return Beginning(guess, on, strict, back - 1)
         return None
 
     def behind(

@@ -40,6 +40,11 @@ class ToldEvents:
                 self._told.append((each, largest))
                 yield each
 
+    def forget(self, undone: Iterable[PeriodicResponse]) -> None:
+        """Let events be told again that are taken back."""
+        gone = {id(each) for each in undone}
+        self._told = [known for known in self._told if id(known[0]) not in gone]
+
 
 def _same(one: PeriodicResponse, other: PeriodicResponse) -> bool:
     """Return whether two events are one, as far as they are known."""

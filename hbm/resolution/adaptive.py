@@ -183,7 +183,8 @@ class AdaptiveBalance:
             correction = replace(correction, point=self._truncated(correction.point))
             asked = self._asked(correction, normal, share, across)
             if asked is None:
-                return correction
+                reported, _, _ = self.report.kept(correction.point)
+                return replace(correction, reported=reported)
             finer, guess = asked
             self._steps.refine(finer)
             again = correct(

@@ -14,7 +14,7 @@ from microslip_mechanics.contact.sliders import Sliders
 from microslip_mechanics.contact.slides import Slides, slides_of
 
 TURN = 2.0 * np.pi
-PERIODS = 20
+PERIODS = 400
 """most that are marched until tractions repeat themselves"""
 STEADY = 1e-10
 """change of a traction over a period, over the largest one"""

@@ -9,6 +9,7 @@ from hbm.curves.parameter_curves import parameter_response
 from hbm.options import CurveOptions
 from hbm.solve import frequency_response
 from microslip_mechanics.element import Element
+from microslip_mechanics.laws.polynomial_spring import PolynomialSpring
 from microslip_mechanics.laws.unilateral import UnilateralSpring
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
@@ -193,3 +194,55 @@ def test_where_there_are_no_problems_beyond_the_end_nothing_comes_back() -> None
     assert [size for drive, size, _ in found if drive == 2.0] == pytest.approx(
         balanced(2.0)[:1]
     )
+
+
+SOFTENS, STIFFENS, LITTLE = 1.0, 1.0 / 0.6, 0.02
+"""what of the square of the natural frequency goes with that of the amplitude and with
+its fourth power, and drive and damping of the mass that has them"""
+
+
+def softening() -> Problem:
+    """Return a mass whose resonance bends to the left, then to the right."""
+    spring = PolynomialSpring(
+        coefficients={3.0: -SOFTENS / 0.75, 5.0: STIFFENS / 0.625}
+    )
+    return system(
+        mass=[1.0],
+        stiffness=[1.0],
+        damping=[[LITTLE]],
+        elements=[Element(spring, ("x1", "ground"))],
+        drive={"x1": LITTLE},
+    )
+
+
+def bent(frequency: float) -> list[float]:
+    """Return the amplitudes of that mass in one harmonic, in rising order.
+
+    Their squares A are the roots of A ((1 − ω² − A + βA²)² + d²ω²) = F².
+    """
+    spring = np.poly1d([STIFFENS, -SOFTENS, 1.0 - frequency**2])
+    square = np.poly1d([(LITTLE * frequency) ** 2])
+    roots = (np.poly1d([1.0, 0.0]) * (spring**2 + square) - LITTLE**2).roots
+    real = roots.real[(abs(roots.imag) < 1e-9) & (roots.real > 0.0)]
+    return sorted(np.sqrt(real).tolist())
+
+
+# folds are at 0.904 and 0.931, which the curve passes as it bends to the left, and at
+# 0.938 and 1.122
+@pytest.mark.parametrize(
+    ("start", "end"), [(0.925, 1.05), (0.93, 1.05), (0.925, 1.0), (1.05, 0.925)]
+)
+def test_curves_that_return_from_both_ends_have_all_responses_there(
+    start: float, end: float
+) -> None:
+    problem = softening()
+    options = CurveOptions(start, end, harmonics=1, samples=1024, stability=False)
+
+    found = list(frequency_response(problem, static_equilibrium(problem), options))
+
+    for place in (start, end):
+        seen = sorted(amplitude(each) for each in found if each.frequency == place)
+        assert seen == pytest.approx(bent(place), rel=1e-6)
+        assert len(seen) == 3
+    # what comes in passes between both, and nothing else has to be sought there
+    assert [each.event for each in found].count("restart") == 2

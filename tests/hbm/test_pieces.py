@@ -112,21 +112,51 @@ def test_a_curve_goes_on_from_where_more_harmonics_have_it_too(
     monkeypatch.setattr("hbm.curves.pieces.path_metric", lambda *_: np.ones(2))
     loose = replace(pieces(0.0, 1.0, Finer()), control=StepControl(negligible=1e-5))
 
-    points = [each.point[-1] for each in loose]
+    found = list(loose)
 
     assert [place for _, place in begun] == [0.0, 0.2]
-    assert points == [0.1, 0.2, 0.21, RESISTS, 1.0]
+    assert [each.point[-1] for each in found] == [0.1, 0.2, 0.21, RESISTS, 1.0]
+    # 0.21, which was not tried, and 0.3, which they do not have, are taken back
+    assert [each.replaces for each in found] == [0, 0, 0, 0, 2]
     assert [each.negligible for each in controls] == [1e-5, 0.0]
 
 
+def test_points_are_taken_up_as_they_are_reported(
+    begun: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # few harmonics err by more than two points of one curve may differ
+    def trace(
+        system: Finer, start: Array, _: float, **_options: Any
+    ) -> Iterator[Correction]:
+        begun.append((float(start[0]), float(start[1])))
+        for place in (1.0,) if system.more else (0.1, 0.2):
+            off, along = 0.0 if system.more else 0.1, np.array([0.0, 1.0])
+            point = np.array([1.0 + off, place])
+            residual, linearised = system(point)
+            yield Correction(
+                *(point, residual, linearised, Outcome.CONVERGED, (0.0,), along),
+                reported=np.array([1.0, place]),
+            )
+        if not system.more:
+            raise ContinuationError("the curve does not go on")
+
+    monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
+
+    list(pieces(0.0, 1.0, Finer()))
+
+    assert begun == [(0.9, 0.0), (1.0, 0.2)]
+
+
 @pytest.mark.parametrize(
-    ("error", "again"), [(RetracedError, 0.24), (ReturnedError, 0.2401)]
+    ("error", "again", "replaces"),
+    [(RetracedError, 0.24, 2), (ReturnedError, 0.2401, 0)],
 )
 def test_what_goes_back_on_itself_is_taken_up_where_it_turned(
     begun: list[tuple[float, float]],
     monkeypatch: pytest.MonkeyPatch,
     error: type[ReturnedError],
     again: float,
+    replaces: int,
 ) -> None:
     # where a step has led to another part more harmonics would go there again: a leap
     def trace(
@@ -145,10 +175,12 @@ def test_what_goes_back_on_itself_is_taken_up_where_it_turned(
 
     monkeypatch.setattr("hbm.continuation.tracing.trace", trace)
 
-    points = [each.point[-1] for each in pieces(0.0, 1.0, Finer())]
+    found = list(pieces(0.0, 1.0, Finer()))
 
     assert [place for _, place in begun] == pytest.approx([0.0, again])
+    points = [each.point[-1] for each in found]
     assert points == [0.1, 0.2, 0.24, 0.23, 0.22, 1.0]
+    assert [each.replaces for each in found] == [0, 0, 0, 0, 0, replaces]
 
 
 def test_what_more_harmonics_do_not_have_is_followed_back_with_few(

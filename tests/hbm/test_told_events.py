@@ -51,6 +51,16 @@ def test_folds_to_the_right_and_to_the_left_are_two_close_as_they_may_be() -> No
     assert [len(each) for each in found] == [1, 1, 0, 0]
 
 
+def test_what_is_taken_back_is_told_again() -> None:
+    known, told = fold(), ToldEvents()
+    peak = replace(known, event="peak")
+    list(told.fresh([known, peak], rising=True))
+
+    told.forget([known])
+
+    assert [each.event for each in told.fresh([known, peak], rising=True)] == ["fold"]
+
+
 @pytest.mark.long
 def test_a_curve_that_comes_back_upon_itself_tells_each_event_once() -> None:
     # beside the branch point at 32.25 rad/s a step leads to where it has been before

@@ -6,7 +6,9 @@ import pytest
 from hbm.forces.fourier import derivative, waves
 from law_examples import driven
 from microslip_mechanics.arrays import Array
+from microslip_mechanics.contact.elastic import ElasticFriction, elastic_traction
 from microslip_mechanics.contact.loop_gradient import LoopGradient, Waves, loop_gradient
+from microslip_mechanics.contact.memory import pressed
 from microslip_mechanics.contact.points import ContactPoints
 from microslip_mechanics.contact.steady_loop import steady_loop
 
@@ -142,3 +144,44 @@ def agree(points: ContactPoints, motion: Array, size: float) -> None:
     )
     expected = (faster - slower) / (2.0 * STEP)
     np.testing.assert_allclose(by_frequency, expected, atol=1e-5 * scale * size)
+
+
+def marched(points: ContactPoints, path: Array) -> tuple[Array, list[float]]:
+    """Return the traction at all samples in the end, and its changes by periods.
+
+    The point slides along two tangents, ``path`` being of shape ``(samples, 2)``, under
+    the load of a face that rests at zero.
+    """
+    law = ElasticFriction(float(points.tangential[0]), float(points.dynamic[0]))
+    load = pressed(points, 0, 0.0, 0.0)[0].load
+    made, by = np.zeros((2, SAMPLES)), np.zeros((2, 10))
+    changes = list[float]()
+    traction, slide = law.stiffness * (path[0] - path.mean(axis=0) + LEAN[1:]), path[0]
+    while not changes or changes[-1] > 1e-13 * np.abs(made).max():
+        before = traction
+        for place, there in enumerate(path):
+            old, new = traction, np.zeros(2)
+            pulled = float(there[0] - slide[0]), float(there[1] - slide[1])
+            elastic_traction(law, pulled, load, load, old, new, by)
+            traction, slide, made[:, place] = new, there, new
+        changes.append(float(np.abs(traction - before).max()))
+    return made, changes
+
+
+@pytest.mark.parametrize("across", [0.3, 0.6])
+def test_slips_along_two_tangents_are_followed_until_they_repeat_themselves(
+    across: float,
+) -> None:
+    # a slip at each end of a narrow way turns the traction a little, from both sides
+    points = driven("elastic").interface.points
+    motion = np.zeros((2 * HARMONICS + 1, 3))
+    motion[1, 1], motion[2, 2] = 0.0151, across * 0.0151
+    motion[1, 2], motion[3, 2] = 0.3 * motion[2, 2], 0.2 * motion[2, 2]
+
+    made, _ = loop(points, motion, loop_gradient(SAMPLES, 0))
+
+    expected, changes = marched(points, series().value @ motion[:, 1:])
+    assert len(changes) > 100
+    assert changes[20] > 1e-4
+    np.testing.assert_allclose(made, expected, rtol=0.0, atol=1e-11)
+    agree(points, motion, 0.0151)

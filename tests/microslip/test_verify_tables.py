@@ -194,6 +194,12 @@ def test_what_comes_in_from_beyond_the_end_is_told_from_the_curve_before(
     assert said.replace("134", "130") in events(curve)
     hertz[2] = 2.0 * np.pi * 133.5
     assert "begins" not in events(curve)
+    # besides a curve of its own, which has begun there
+    hertz[:3] = 2.0 * np.pi * np.array([130.0, 130.0, 134.0])
+    ending = ("", "", "restart", "restart")
+    hertz[3] = hertz[2]
+    curve = dataclasses.replace(curve, frequency=hertz, event=ending)
+    assert events(curve).count(said) == 1
 
 
 def compared(response: PeriodicResponse, size: Array) -> Comparison:

@@ -52,15 +52,17 @@ def _beginnings(curve: ResponseCurve) -> list[str]:
     first, lines = curve.frequency[0], []
     places = [place for place, name in enumerate(curve.event) if name == "restart"]
     reached = curve.frequency[places[0] - 1] if places else first
+    known = {first, reached}
     for place in places:
         here = curve.frequency[place]
         begins = f"what begins at {here / math.tau:.6f} Hz"
-        if reached == first != here:
+        if reached == first and here not in known:
             lines.append(
                 f"{begins} is a curve of its own: the one before came back to "
                 f"{first / math.tau:.6f} Hz"
             )
-        elif here in (first, reached):
+            known.add(here)
+        elif here in known:
             lines.append(
                 f"{begins} comes in from beyond the range: a response there besides "
                 "the one before"

@@ -14,6 +14,8 @@ def gathered(
 ) -> tuple[list[PeriodicResponse], str]:
     """Return the responses until their source ends, stops or is interrupted, and why.
 
+    Those that a later one replaces are left out.
+
     Raises
     ------
     ContinuationError, KeyboardInterrupt
@@ -22,8 +24,9 @@ def gathered(
     found: list[PeriodicResponse] = []
     try:
         with unmasked():
-            for response in responses:
-                found.append(response)  # noqa: PERF402  (what is there must be kept)
+            for response in responses:  # what is there must be kept
+                del found[len(found) - response.replaces :]
+                found.append(response)
     except (ContinuationError, KeyboardInterrupt) as cause:
         if not found:
             raise

@@ -1,4 +1,4 @@
-"""Derivatives of a loop of bristles, which forget evenly, once it has closed (§6.5)."""
+"""Derivatives of a loop that forgets slowly, once it has closed (theory §6.5)."""
 
 from __future__ import annotations
 
@@ -35,15 +35,18 @@ def close_gradient(
     axes: NDArray[np.bool_],
     run: int,
     before: Array,
-    more: float,
+    more: Array,
 ) -> None:
     """Add to the derivatives at the last sample what further periods do.
 
-    They have changed since ``before``, a period ago, and will by ``more`` times that.
+    They have changed since ``before``, a period ago, and will by ``more``, shape
+    ``(2, 2)``, times that.
     """
-    after = last_gradient(gradient, waves, axes, run)
+    changed = last_gradient(gradient, waves, axes, run) - before
     for row in range(2):
         for column in range(3):
             if axes[row + 1] and axes[column] and gradient.run.size > 0:
-                changed = after[row, column] - before[row, column]
-                gradient.rest[run, row, column] += more * changed
+                gradient.rest[run, row, column] += (
+                    more[row, 0] * changed[0, column]
+                    + more[row, 1] * changed[1, column]
+                )

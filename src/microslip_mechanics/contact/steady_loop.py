@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from microslip_mechanics.arrays import TINY, Array
 from microslip_mechanics.contact.closed_gradient import close_gradient, last_gradient
+from microslip_mechanics.contact.forgetting import even, further, go_on, keep
 from microslip_mechanics.contact.loop_gradient import (
     LoopGradient,
     Step,
@@ -20,12 +21,10 @@ from microslip_mechanics.contact.memory import pressed, traction
 from microslip_mechanics.contact.points import BRISTLE, ContactPoints
 from microslip_mechanics.jit import bare_kernel, kernel
 
-PERIODS = 20
-"""most that are marched"""
+PERIODS, FEW = 200, 20
+"""most that are marched; the second of bristles, which forget evenly, or hardly"""
 STEADY = 1e-12
 """change of the traction over a period, over its largest value"""
-FAINT = 1e-7
-"""share of their traction that bristles forget in a period, below which they stick"""
 
 
 class Motion(NamedTuple):
@@ -65,25 +64,28 @@ def steady_loop(
     by, by_load = np.zeros((2, 10)), np.zeros((2, 2))
     step = Step(np.zeros(2), np.zeros(2), np.zeros(2), by, by_load)
     state = np.zeros((2, 2))  # traction and its change so far
+    past, kept, more = np.full(2, np.inf), np.zeros((2, 2)), np.zeros((2, 2))
     _begin(motion, lean, state)
     asked, run = gradient.run.size > 0, 0
     if asked:
         begin_gradient(gradient, waves, points.tangential[point])
     closed = False
-    for sweep in range(PERIODS):
+    for sweep in range(FEW if points.friction[point] == BRISTLE else PERIODS):
         first, before = state.copy(), last_gradient(gradient, waves, axes, run)
         if asked:
             gradient.rest[0] = gradient.rest[run]
-        kept, run = _around(
+        run = _around(
             motion, sweep == 0, state, step, made, change, gradient, waves, frequency,
-            axes,
+            axes, kept,
         )  # fmt: skip
-        largest = max(np.abs(made).max(), TINY)
-        steady = sweep > 0 and np.abs(state[0] - first[0]).max() <= STEADY * largest
-        more = _more(points, point, kept) if sweep > 0 else 0.0
-        if steady and (closed or more == 0.0):
+        largest, moved = max(np.abs(made).max(), TINY), state - first
+        steady = sweep > 0 and np.abs(moved[0]).max() <= STEADY * largest
+        known = steady or points.friction[point] == BRISTLE
+        known = sweep > 0 and (known or even(kept, past, moved[0]))
+        goes_on = further(kept, known, more)
+        if steady and (closed or not goes_on):
             break
-        state += more * (state - first)
+        go_on(more, goes_on, moved, state, past)
         close_gradient(gradient, waves, axes, run, before, more)
         closed = steady
     return made, change
@@ -101,13 +103,21 @@ def _around(
     waves: Waves,
     frequency: float,
     axes: NDArray[np.bool_],
-) -> tuple[float, int]:
-    """March a period; return what is left of the traction before, and the last run."""
-    kept, run, samples = 1.0, 0, made.shape[1]
+    kept: Array,
+) -> int:
+    """March a period; return the last run.
+
+    ``kept`` is written with what is left of the traction before, along the tangents
+    along which the point moves, shape ``(2, 2)``.
+    """
+    run, samples = 0, made.shape[1]
+    kept[:] = 0.0
+    for axis in range(2):
+        kept[axis, axis] = 1.0 if axes[axis + 1] else 0.0
     for place in range(samples):
         last = _last(place, samples, begins)
         _take(motion, place, last, state, step)
-        kept *= step.by[0, 6]
+        keep(step.by, axes, kept)
         if gradient.run.size > 0:
             run = carry_gradient(
                 gradient, waves, frequency, axes, step, place, last, run
@@ -115,20 +125,7 @@ def _around(
             gradient.run[place] = run
         for axis in range(2):
             made[axis, place], change[axis, place] = state[0, axis], state[1, axis]
-    return kept, run
-
-
-@bare_kernel
-def _more(points: ContactPoints, point: int, kept: float) -> float:
-    """Return what all further periods change, over what the last one has changed.
-
-    Of bristles a period leaves the share ``kept``, whatever their traction is; what
-    others leave depends on it, and they settle at once.
-    """
-    forgets = STEADY < kept < 1.0 - FAINT
-    if points.friction[point] != BRISTLE or not forgets:
-        return 0.0
-    return kept / (1.0 - kept)
+    return run
 
 
 @bare_kernel

@@ -64,6 +64,9 @@ class PeriodicResponse(ByValue):
     :func:`measure`, with other residual tractions of contacts that stick, shape
     (2, probes); NaN where they were sought in vain, empty where they were not
     (theory §6.5)"""
+    replaces: int = 0
+    """how many responses before it are taken back: more harmonics do not have them, or
+    go there again"""
     shapes: Array | None = None
     """motion of the coordinates of a reduced structure, shape (dofs, coordinates)"""
 

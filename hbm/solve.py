@@ -39,6 +39,8 @@ def frequency_response(
 ) -> Iterator[PeriodicResponse]:
     """Yield the periodic responses along the curve, one per continuation step.
 
+    One that ``replaces`` some takes back as many before it: leave them out.
+
     Parameters
     ----------
     problem

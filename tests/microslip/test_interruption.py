@@ -263,6 +263,14 @@ def looped(items: Iterator[int]) -> None:
         deque(items, maxlen=0)
 
 
+def gathered_from(items: Iterator[int]) -> tuple[list[int], str]:
+    """Return what is gathered of responses, by their frequencies, and how it ends."""
+    empty = np.zeros(0)
+    rest = np.zeros((3, 1)), empty, empty, 0.0, 0.0, 0.0, "converged", 1
+    found, ending = gathered(PeriodicResponse(each, *rest) for each in items)
+    return [int(each.frequency) for each in found], ending
+
+
 def kept_by(items: Iterator[int]) -> tuple[list[int], str]:
     """Return what is kept of a march, and how it ends."""
     blocks: list[int] = []
@@ -274,7 +282,7 @@ def kept_by(items: Iterator[int]) -> tuple[list[int], str]:
     "taking",
     [
         looped,
-        gathered,
+        gathered_from,
         lambda items: deque(
             shown(items, total=1.0, done=float, unit="s", name="test"), maxlen=0
         ),

@@ -156,6 +156,7 @@ def _all(
     """Yield the responses on the curve, then on what branches off it."""
     known: list[PeriodicResponse] = []
     for response in frequency_response(problem, rest, options):
+        del known[len(known) - response.replaces :]
         known.append(response)
         yield response
     if wanted.branches:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from hbm.errors import ContinuationError
 from microslip.interruption import unmasked
@@ -14,7 +15,7 @@ def gathered(
 ) -> tuple[list[PeriodicResponse], str]:
     """Return the responses until their source ends, stops or is interrupted, and why.
 
-    Those that a later one replaces are left out.
+    Those that a later one replaces are left out, and none of the rest replaces any.
 
     Raises
     ------
@@ -25,7 +26,9 @@ def gathered(
     try:
         with unmasked():
             for response in responses:  # what is there must be kept
-                del found[len(found) - response.replaces :]
+                if response.replaces:
+                    del found[len(found) - response.replaces :]
+                    response = replace(response, replaces=0)
                 found.append(response)
     except (ContinuationError, KeyboardInterrupt) as cause:
         if not found:

@@ -18,8 +18,7 @@ from hbm.balance.low_orders import RECALLED, USUAL, LowOrders
 from hbm.balance.relative import RelativeProblem
 from hbm.forces.contact_cycle import ContactCycle
 from hbm.forces.fourier import FourierBasis, to_complex, to_real
-from hbm.forces.memory import marched
-from hbm.forces.remembered import fits
+from hbm.forces.marched import marched
 from microslip_mechanics.arrays import Array
 
 
@@ -52,7 +51,10 @@ class HarmonicBalance:
         remembers = bool(marched(problem.points).any())
         split = RECALLED if remembers else USUAL
         iterates = LowOrders.serve(self._active, fourier.samples, split)
-        iterates &= fits(problem.points, problem.basis, fourier)
+        if remembers and iterates:
+            from hbm.forces.remembered import fits
+
+            iterates = fits(problem.points, problem.basis, fourier)
         self._separable = self.rank if remembers else 0
         self._low = LowOrders(self._active, split) if iterates else None
 

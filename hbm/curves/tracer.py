@@ -17,7 +17,7 @@ from hbm.events.amplitude_growth import AmplitudeGrowth
 from hbm.events.events import Events
 from hbm.events.finer_orbits import FinerOrbits
 from hbm.events.multipliers import Multipliers
-from hbm.forces.memory import marched
+from hbm.forces.marched import marched
 from hbm.options import CurveOptions
 from hbm.paths.path import Path
 from hbm.paths.path_resolution import PathResolution

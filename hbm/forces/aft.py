@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +11,7 @@ from numpy.typing import NDArray
 from hbm.forces.contact_cycle import ContactCycle, contact_cycle
 from hbm.forces.fourier import FourierBasis
 from hbm.forces.last_call import LastCall
-from hbm.forces.memory import FrictionMemory, marched
-from hbm.forces.remembered import Remembered
+from hbm.forces.marched import marched
 from hbm.forces.sampled_tangents import SampledTangents
 from hbm.forces.sampling import sample, sample_smooth
 from hbm.forces.symmetry import still_holds, symmetry
@@ -21,6 +21,10 @@ from microslip_mechanics.arrays import Array
 from microslip_mechanics.contact.floating import Floating
 from microslip_mechanics.contact.points import RIGID, ContactPoints, smooth
 from microslip_mechanics.errors import MicroslipError
+
+if TYPE_CHECKING:
+    from hbm.forces.memory import FrictionMemory
+    from hbm.forces.remembered import Remembered
 
 
 class AlternatingFrequencyTime:
@@ -73,7 +77,7 @@ class AlternatingFrequencyTime:
         self.smooth = pruned and smooth(points)
         """whether no contact changes its state between samples"""
         recalls = bool(marched(points).any())
-        self._memory = FrictionMemory(basis, fourier, floating) if recalls else None
+        self._memory = _memory(basis, fourier, floating) if recalls else None
         entries = tangent_entries(points, pruned)
         halves = None if recalls or samples % 2 else odd
         self.symmetry = symmetry(points, self._offset, basis, entries, halves)
@@ -114,7 +118,7 @@ class AlternatingFrequencyTime:
         other = copy.copy(self)
         other.points, other._offset, other._last = points, offset, None
         if self._memory is not None:
-            other._memory = FrictionMemory(self.basis, self._fourier, floating)
+            other._memory = _memory(self.basis, self._fourier, floating)
         return other
 
     def __call__(
@@ -232,6 +236,15 @@ class AlternatingFrequencyTime:
     def telling(self) -> int:
         """Number of samples that tell all: those of half a period with a symmetry."""
         return self.samples // 2 if self.symmetry.holds else self.samples
+
+
+def _memory(
+    basis: Array, fourier: FourierBasis, floating: Floating | None
+) -> FrictionMemory:
+    """Return what marches friction that remembers, loaded by scenes that have some."""
+    from hbm.forces.memory import FrictionMemory
+
+    return FrictionMemory(basis, fourier, floating)
 
 
 def _refuse_rigid(points: ContactPoints) -> None:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from hbm.forces.fourier import FourierBasis
 from hbm.forces.loop_matrix import block, loop_waves, scatter
+from hbm.forces.marched import marched
 from hbm.forces.remembered import Loop, Remembered
 from hbm.forces.sliding_loop import sliding_loop
 from microslip_mechanics.arrays import Array
@@ -28,18 +29,11 @@ from microslip_mechanics.contact.loop_gradient import (
     Waves,
     loop_gradient,
 )
-from microslip_mechanics.contact.memory import remembers
 from microslip_mechanics.contact.points import PUSHED, ContactPoints
 from microslip_mechanics.contact.steady_loop import steady_loop
 
 NOTHING = Waves(*np.zeros((2, 0, 0)))
 """terms by which no derivatives are taken"""
-
-
-def marched(points: ContactPoints) -> NDArray[np.bool_]:
-    """Return which points have friction that is marched to a steady loop, (points,)."""
-    which: NDArray[np.bool_] = remembers(points) | (points.friction == PUSHED)
-    return which
 
 
 class _Marched(NamedTuple):

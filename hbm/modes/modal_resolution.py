@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hbm.balance.active import extended
 from hbm.balance.relative import RelativeProblem
 from hbm.forces.fourier import FourierBasis
-from hbm.forces.memory import marched
+from hbm.forces.marched import marched
 from hbm.modes.free_motion import FreeMotion
 from hbm.modes.linear_modes import LinearMode
 from hbm.modes.modal import ModalBalance

@@ -19,7 +19,6 @@ from hbm.forces.aft import AlternatingFrequencyTime
 from hbm.stability.carried import carried
 from hbm.stability.carried_step import CarriedStructure
 from hbm.stability.counting_modes import counting_modes
-from hbm.stability.recalled import recalled_multipliers
 from hbm.stability.tangents import StepTangents, step_tangents
 from hbm.structure.stuck_motions import stuck_motions
 from microslip_mechanics.arrays import Array, ComplexArray
@@ -56,6 +55,8 @@ class SmallMotions:
             Of the orbit [rad/s].
         """
         if remembers(contact.points).any():
+            from hbm.stability.recalled import recalled_multipliers
+
             matrices = self.mass, self.damping, self.stiffness
             given = matrices, self.basis, self.inertia
             return recalled_multipliers(*given, contact, frequency)

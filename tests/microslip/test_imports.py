@@ -67,6 +67,7 @@ def test_frc_loads_neither_the_time_domain_nor_searches(
     assert {"hbm", "pyfftw"} <= modules
     assert not {"timedomain", *SCREEN} & modules
     assert not {"hbm.curves.branches", "hbm.curves.drive_search"} & modules
+    assert not {"hbm.forces.memory", "hbm.stability.recalled"} & modules
     assert (tmp_path / "quick-frc.nc").is_file()
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hbm.forces.fourier import FourierBasis, usual_samples
-from hbm.forces.memory import marched
+from hbm.forces.marched import marched
 from hbm.paths.path import AlongFrequency
 from microslip.scenes.scene import Scene
 from microslip.studies.explain.pruned import Pruned, part

@@ -49,3 +49,24 @@ class Square(Unsettled):
     def raise_floor(self) -> bool:
         """Have no more harmonics."""
         return False
+
+
+class Finer(Square):
+    """The same; with more harmonics it ends, at 0.25 if nothing else is said."""
+
+    def __init__(self, ends: float = 0.25) -> None:
+        """Begin with few harmonics."""
+        self.more, self.ends = False, ends
+
+    def restart(self, harmonics: int) -> None:  # noqa: ARG002
+        """Have few harmonics again."""
+        self.more = False
+
+    def __call__(self, point: Array) -> tuple[Array, Dense]:
+        residual, linearised = super().__call__(point)
+        return residual + 2.0 * (self.more and point[-1] > self.ends), linearised
+
+    def raise_floor(self) -> bool:
+        """Take more harmonics, once."""
+        before, self.more = self.more, True
+        return not before

@@ -148,7 +148,8 @@ def multiplier_error(
         told = FourierBasis(response.harmonics, response.samples)
         resolutions = used, witness(used, told)
         *known, other = tracer.curve.multipliers.largest(point, resolutions)
-    known += [float(np.abs(each.multipliers).max()) for each in (response, seen)]
+    for each in (response, seen):  # of what is in doubt there are none
+        known.append(float(np.abs(each.multipliers).max(initial=0.0)) or math.inf)
     errors = [abs(each - other) for each in known]
     return SLOWEST * max(errors) if np.isfinite([*known, other]).all() else math.inf
 

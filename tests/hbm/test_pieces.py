@@ -16,30 +16,9 @@ from hbm.curves.pieces import Pieces
 from hbm.curves.restart import FIRST
 from hbm.errors import ContinuationError, RetracedError, ReturnedError
 from microslip_mechanics.arrays import Array
-from systems import Dense, Square
+from systems import Finer, Square
 
 RESISTS = 0.3
-
-
-class Finer(Square):
-    """The same; with more harmonics it ends, at 0.25 if nothing else is said."""
-
-    def __init__(self, ends: float = 0.25) -> None:
-        """Begin with few harmonics."""
-        self.more, self.ends = False, ends
-
-    def restart(self, harmonics: int) -> None:  # noqa: ARG002
-        """Have few harmonics again."""
-        self.more = False
-
-    def __call__(self, point: Array) -> tuple[Array, Dense]:
-        residual, linearised = super().__call__(point)
-        return residual + 2.0 * (self.more and point[-1] > self.ends), linearised
-
-    def raise_floor(self) -> bool:
-        """Take more harmonics, once."""
-        before, self.more = self.more, True
-        return not before
 
 
 @pytest.fixture

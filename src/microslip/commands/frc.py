@@ -110,7 +110,7 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     print(frc_tables.table(traced))
     if traced.rest.normal_force.any():
         print(frc_tables.rest(traced.curve, traced.rest))
-    doubt = _doubt(options, scene, traced, problem)
+    doubt = _doubt(scene, traced, problem)
     print(frc_events.events(traced.curve, sector=problem is None, doubt=doubt))
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in frc_events.barren(traced.curve) if sought else ():
@@ -132,9 +132,7 @@ def _whole(options: argparse.Namespace, scene: Scene) -> Problem | None:
     return problem_of(scene) if sector_of(scene) is None else None
 
 
-def _doubt(
-    options: argparse.Namespace, scene: Scene, traced: Traced, problem: Problem | None
-) -> float:
+def _doubt(scene: Scene, traced: Traced, problem: Problem | None) -> float:
     """Return the error of the largest multiplier of what is unstable, if it is known.
 
     What is stable needs nothing for that.
@@ -143,8 +141,7 @@ def _doubt(
         return math.inf
     from microslip.studies.leading_multiplier import leading_error
 
-    pruned = not options.unpruned
-    return leading_error(problem, traced, scene.curve, pruned=pruned)
+    return leading_error(problem, traced, scene.curve)
 
 
 def _traced(options: argparse.Namespace, scene: Scene) -> Traced:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from hbm.curves.periodic_response import multiplier_error
 from microslip.scenes.experiments import Curve
 from microslip.studies.curve import Traced, curve_options
 from microslip_mechanics.problem import Problem
 
 
-def leading_error(
-    problem: Problem, traced: Traced, curve: Curve, *, pruned: bool = True
-) -> float:
+def leading_error(problem: Problem, traced: Traced, curve: Curve) -> float:
     """Return the error of the largest multiplier; infinite where it is not known.
 
     Parameters
@@ -21,9 +17,7 @@ def leading_error(
         Of which the curve is, and what was asked of it.
     traced
         The curve.
-    pruned
-        As in :func:`~microslip.studies.curve.trace_curve`.
     """
     place = int(traced.curve.multiplier.argmax())
-    options = replace(curve_options(curve), pruned=pruned)
-    return multiplier_error(problem, traced.rest, traced.responses[place], options)
+    response = traced.responses[place]
+    return multiplier_error(problem, traced.rest, response, curve_options(curve))

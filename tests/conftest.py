@@ -157,6 +157,8 @@ def small_curve() -> ResponseCurve:
         normal_largest=draw.uniform(1.0, 3.0, (points, len(CONTACTS))),
         friction_energy=draw.uniform(1e-6, 1e-3, points),
         damping_energy=draw.uniform(1e-9, 1e-8, points),
+        friction_energy_error=draw.uniform(1e-9, 1e-6, points),
+        damping_energy_error=draw.uniform(1e-12, 1e-11, points),
         residual=draw.uniform(1e-12, 1e-9, points),
         outcome=("converged",) * points,
         iterations=np.array([7.0, 3.0, 4.0, 5.0]),

@@ -12,6 +12,7 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import folds
+from hbm.curves.energy_errors import EnergyErrors
 from hbm.curves.last_points import LastPoints
 from hbm.errors import ContinuationError
 from hbm.events.crossed import BRANCH, TORUS, crossings
@@ -53,6 +54,8 @@ class Curve:
     """what finds that of amplitudes, if it is wanted"""
     limits: tuple[float, float]
     """of the parameter"""
+    energies: bool
+    """whether the errors of energies are estimated"""
 
     def followed(
         self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
@@ -115,12 +118,21 @@ class Curve:
         settled = self.system.settled
         coarser = (correction.point, settled) if settled != fourier else None
         told, finer = self._examined(made, kept, fourier, coarser, correction.tangent)
+        if self.energies:
+            told = self._with_energies(told, correction.point)
         if self.residual_range and told.unstable <= 0:
             told = replace(told, residual_range=self.residual_range.at(kept))
         asks = finer != fourier
         return told, Settled(
             correction, settled, told.multipliers, finer, asks, correction, settled
         )
+
+    def _with_energies(self, told: PeriodicResponse, point: Array) -> PeriodicResponse:
+        """Return the response at a settled point with the errors of its energies."""
+        energies = np.array([told.friction_energy, told.damping_energy])
+        errors = EnergyErrors(self.resolution, self.system.report, point)
+        friction, damping = errors.of(energies)
+        return replace(told, friction_error=friction, damping_error=damping)
 
     def examined(
         self, known: PeriodicResponse, point: Array

@@ -51,6 +51,8 @@ def _of_all(response: PeriodicResponse, sectors: int) -> PeriodicResponse:
         response,
         friction_energy=sectors * response.friction_energy,
         damping_energy=sectors * response.damping_energy,
+        friction_error=sectors * response.friction_error,
+        damping_error=sectors * response.damping_error,
     )
 
 

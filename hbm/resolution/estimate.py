@@ -35,6 +35,10 @@ class Estimate:
     """resolution of the corrected point"""
     made: Refined
     """what the steps came to"""
+    beyond: Array
+    """the point after the steps once harmonics beyond have answered"""
+    resolved: Array | None
+    """how the point before them changes if friction is resolved; None if it is"""
     values: Array
     """by whose changes errors are measured, in the order of :func:`changes`"""
 

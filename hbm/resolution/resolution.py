@@ -93,7 +93,8 @@ class Resolution(ABC):
         places = np.array([each[-1:] for each in points])
         change, truncation, sampling = changes(sizes, made)
         shift, *aside = changes(places, made)
-        smoothing, moved = self._smoothing(correction, fourier, normal)
+        resolved = self._resolved(correction, fourier, normal)
+        smoothing, moved = self._smoothing(point, resolved)
         size = max(float(sizes[0].max(initial=0.0)), self.least(point)) or 1.0
         turned = largest(np.abs(np.subtract(*self.phasors((beyond, made.corrected)))))
         return Estimate(
@@ -105,6 +106,8 @@ class Resolution(ABC):
             sum(aside) + moved,
             finer,
             made,
+            beyond,
+            resolved,
             sizes,
         )
 
@@ -161,23 +164,24 @@ class Resolution(ABC):
         change *= MORE / (MORE - 1.0)
         return [made.corrected - made.slope.solve(normal, np.append(change, 0.0))]
 
-    def _smoothing(
-        self, correction: Correction, fourier: FourierBasis, normal: Array
-    ) -> tuple[float, float]:
+    def _smoothing(self, smooth: Array, change: Array | None) -> tuple[float, float]:
         """Return what resolved friction changes of amplitudes and the parameter."""
-        if fourier.threshold == 0.0:
+        if change is None:
             return 0.0, 0.0
-        change = self._resolved(correction, fourier, normal)
-        smooth = correction.point
-        sharp, smooth = self.phasors((smooth + change, smooth))
-        moved = largest(np.abs(sharp) - np.abs(smooth))
-        moved = max(moved, TURNING * largest(np.abs(sharp - smooth)))
+        before, after = self.phasors((smooth, smooth + change))
+        moved = largest(np.abs(after) - np.abs(before))
+        moved = max(moved, TURNING * largest(np.abs(after - before)))
         return moved, abs(float(change[-1]))
 
     def _resolved(
         self, correction: Correction, fourier: FourierBasis, normal: Array
-    ) -> Array:
-        """Return how a point changes, to first order, if friction is resolved."""
+    ) -> Array | None:
+        """Return how a point changes, to first order, if friction is resolved.
+
+        None if it is.
+        """
+        if fourier.threshold == 0.0:
+            return None
         smoother = replace(fourier, threshold=(1.0 + SMOOTHER) * fourier.threshold)
         other = self.at(smoother).residual(correction.point)
         slope = (other - correction.residual) / SMOOTHER

@@ -19,7 +19,7 @@ def report(error: float, *, corrects: bool) -> Report:
     rest, slope = np.zeros(1), Dense(np.eye(1, 2))
     made = Refined(rest, POINT, CORRECTED, 0.0, 0.0, rest, slope, CORRECTED)
     errors = CHANGE, error, 0.0, 0.0, SHIFT, ASIDE
-    estimate = Estimate(*errors, FINER, made, np.zeros((5, 1)))
+    estimate = Estimate(*errors, FINER, made, CORRECTED, None, np.zeros((5, 1)))
     return Report(estimate, SETTLED, estimates=True, corrects=corrects, most=255)
 
 

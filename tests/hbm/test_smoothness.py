@@ -213,7 +213,7 @@ class Blunt(Resolution):
         errors = 0.0, truncation, self.sampling, smoothing, 0.0, 0.0
         rest = correction.residual
         made = Refined(rest, point, point, 0.0, 0.0, rest, slope, point)
-        return Estimate(*errors, fourier, made, np.zeros((5, 1)))
+        return Estimate(*errors, fourier, made, point, None, np.zeros((5, 1)))
 
 
 def test_friction_that_cannot_be_sharper_stays_and_the_error_says_so() -> None:

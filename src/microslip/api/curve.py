@@ -43,8 +43,9 @@ def curve(
     ResponseCurve
         Point by point as it was traced: ``frequency`` [rad/s], ``amplitude`` of the
         first harmonic and ``peak``, half of the swing in time [m], (points, probes);
-        ``error``, estimated, of the amplitude, relative; ``unstable``, the number of
-        Floquet multipliers outside the unit circle; ``event``, such as "peak".
+        ``error``, estimated, of the amplitude, relative; ``friction_energy`` per period
+        and ``friction_energy_error`` [J]; ``unstable``, the number of Floquet
+        multipliers outside the unit circle; ``event``, such as "peak".
 
     Raises
     ------
@@ -65,5 +66,6 @@ def curve(
     )
     check_apart(NAME, wanted.lowest, wanted.highest)
     given = checked(NAME, problem)
+    more = Wanted(residual_range=True, energies=True)
     with named(NAME):
-        return trace_curve(given, wanted, wanted=Wanted(residual_range=True)).curve
+        return trace_curve(given, wanted, wanted=more).curve

@@ -118,7 +118,8 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     more = *frc_tables.uncounted(scene), *residual_range(traced.curve)
     if problem is not None:
         more = *more, *creep(problem, traced)
-    print(frc_tables.resolution(traced.curve), *more, sep="\n")
+    accuracy = frc_tables.resolution(traced.curve), *frc_tables.energies(traced.curve)
+    print(*accuracy, *more, sep="\n")
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
 
@@ -154,6 +155,7 @@ def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
         options.detached,
         options.effort or 1.0,
         residual_range=True,
+        energies=True,
     )
     watch, searching = watched(scene.curve), search_watched
     sector = None if options.unpruned else sector_of(scene)

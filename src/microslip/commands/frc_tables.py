@@ -99,6 +99,26 @@ def resolution(curve: ResponseCurve) -> str:
     )
 
 
+def energies(curve: ResponseCurve) -> list[str]:
+    """Return how accurate the energies are that contacts take out, a line each."""
+    import numpy as np
+
+    lines = []
+    for what, taken, error in (
+        ("friction", curve.friction_energy, curve.friction_energy_error),
+        ("damping", curve.damping_energy, curve.damping_energy_error),
+    ):
+        most, known = abs(taken).max(initial=0.0), error[np.isfinite(error)]
+        if most == 0.0 or not known.size:
+            continue
+        largest, middle = 100.0 * known.max() / most, 100.0 * np.median(known) / most
+        lines.append(
+            f"estimated error of what {what} takes out: at most {largest:.2g} % of its "
+            f"largest, {middle:.2g} % in the median"
+        )
+    return lines
+
+
 def uncounted(scene: Scene) -> list[str]:
     """Return what of a scene's model that error does not count, a line each."""
     from microslip.scenes.bladed_disk.tables import BladedDisk

@@ -147,42 +147,52 @@ def sliding_velocity(axes: Axes, curve: ResponseCurve) -> None:
 def dissipated_energy(axes: Axes, curve: ResponseCurve) -> None:
     """Draw what friction and damping of the contacts take out per period."""
     damping = "element damping" if curve.pulls else "normal contact damping"
-    for colour, name, energy in (
-        (COLOURS[0], "friction", curve.friction_energy),
-        (COLOURS[1], damping, curve.damping_energy),
+    for colour, name, energy, error in (
+        (COLOURS[0], "friction", curve.friction_energy, curve.friction_energy_error),
+        (COLOURS[1], damping, curve.damping_energy, curve.damping_energy_error),
     ):
         if not _largest(energy):
             continue
-        axes.plot(
-            abscissa(curve),
-            1e3 * energy,
-            color=colour,
-            linewidth=WIDTH * 1.5,
-            label=name,
-        )
+        at, middle, off = abscissa(curve), 1e3 * energy, 1e3 * error
+        axes.plot(at, middle, color=colour, linewidth=WIDTH * 1.5, label=name)
+        for part in one_way(at):
+            low, high = (middle - off)[part], (middle + off)[part]
+            axes.fill_between(at[part], low, high, color=colour, alpha=0.25, lw=0.0)
     framed(axes, x=abscissa_name(curve), y="energy [mJ]", title="Dissipated per period")
     widened(axes, NOTHING)
     legend_above(axes)
 
 
 def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
-    """Draw the estimated error of the amplitude at each point, where it is known."""
-    known = np.where(np.isfinite(curve.error), curve.error, np.nan)
-    axes.plot(abscissa(curve), 100.0 * known, color=COLOURS[0], linewidth=WIDTH * 1.5)
+    """Draw the estimated error at each point, where it is known.
+
+    That of the amplitude, and those of energies over the largest on the curve.
+    """
+    drawn = {"amplitude": curve.error} | {
+        f"{name}, of its largest": error / _largest(energy)
+        for name, energy, error in (
+            ("friction", curve.friction_energy, curve.friction_energy_error),
+            ("damping", curve.damping_energy, curve.damping_energy_error),
+        )
+        if _largest(energy) and _largest(error)
+    }
+    known = [np.where(np.isfinite(each), each, np.nan) for each in drawn.values()]
+    for colour, name, error in zip(COLOURS, drawn, known, strict=False):
+        at = abscissa(curve)
+        axes.plot(at, 100.0 * error, color=colour, linewidth=WIDTH * 1.5, label=name)
     least, most = np.nanmin(known), np.nanmax(known)
     varies = most > SHORT * least
     if varies:
         axes.set_yscale("log")
-    framed(
-        axes,
-        x=abscissa_name(curve),
-        y="error [%]",
-        title="Estimated error of amplitude",
-    )
+    what = " of amplitude" if len(drawn) == 1 else ""
+    title = f"Estimated error{what}"
+    framed(axes, x=abscissa_name(curve), y="error [%]", title=title)
     if not varies:
         from_nothing(axes)
     elif least < SMALL * most:
         axes.set_ylim(bottom=100.0 * SMALL * most)
+    if len(drawn) > 1:
+        legend_above(axes)
 
 
 def normal_forces(axes: Axes, curve: ResponseCurve) -> None:

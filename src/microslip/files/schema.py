@@ -34,6 +34,8 @@ CURVE: Schema = {
         "J",
         "energy taken out by contact damping per period",
     ),
+    "friction_energy_error": (("point",), "J", "estimated error of friction's energy"),
+    "damping_energy_error": (("point",), "J", "estimated error of damping's energy"),
     "residual": (("point",), "N", "largest unbalanced force"),
     "outcome": (("point", "name"), "", "how Newton's correction ended"),
     "iterations": (("point",), "1", "Newton iterations"),

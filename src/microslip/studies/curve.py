@@ -57,6 +57,8 @@ class Wanted:
     """that the search for them may take, over the usual"""
     residual_range: bool = False
     """the range of amplitudes by other residual tractions of contacts that stick"""
+    energies: bool = False
+    """errors of the energies that contacts take out"""
 
 
 ALONE = Wanted()
@@ -84,6 +86,7 @@ def trace_curve(
         pruned=pruned,
         stability=stability,
         residual_range=wanted.residual_range,
+        energies=wanted.energies,
     )
     traced = traced_of(problem, rest, _all(problem, rest, options, wanted), watch)
     ending = traced.curve.ending
@@ -121,7 +124,11 @@ def trace_sector(
             "sector cannot show: give --set solve=disk"
         )
     standing = problem.standing()
-    options = replace(curve_options(curve), residual_range=wanted.residual_range)
+    options = replace(
+        curve_options(curve),
+        residual_range=wanted.residual_range,
+        energies=wanted.energies,
+    )
     traced = cyclic_response(problem, options)
     return traced_of(standing, static_equilibrium(standing), traced, watch)
 

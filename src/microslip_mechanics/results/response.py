@@ -51,6 +51,10 @@ class PeriodicResponse(ByValue):
     """of the contacts per period"""
     error: float = np.inf
     """estimated relative error of the amplitude; infinite if it is not known"""
+    friction_error: float = np.nan
+    """estimated one of :attr:`friction_energy` [J]; NaN if none was asked for"""
+    damping_error: float = np.nan
+    """estimated one of :attr:`damping_energy` [J]"""
     multipliers: ComplexArray = field(default_factory=lambda: np.empty(0, complex))
     """Floquet multipliers, the largest first; empty if they are not known"""
     event: str = ""

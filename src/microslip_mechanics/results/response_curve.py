@@ -47,6 +47,10 @@ class ResponseCurve(ByValue):
     """per period [J], shape (points,)"""
     damping_energy: Array
     """of normal contact damping, per period [J], shape (points,)"""
+    friction_energy_error: Array
+    """estimated one of that [J]; NaN if none was asked for, shape (points,)"""
+    damping_energy_error: Array
+    """estimated one of that [J], shape (points,)"""
     residual: Array
     """largest unbalanced force [N], shape (points,)"""
     outcome: tuple[str, ...]
@@ -144,6 +148,8 @@ def response_curve(
         column("normal_largest", contacts),
         column("friction_energy"),
         column("damping_energy"),
+        column("friction_error"),
+        column("damping_error"),
         column("residual"),
         tuple(point.outcome for point in points),
         column("iterations"),

@@ -6,11 +6,11 @@ each, evenly spread, are solved again with twice their harmonics and samples, an
 less than :data:`HARMONICS` and :data:`SAMPLES`, at the same frequency; the relative
 difference of the largest first harmonic is the true error; those of the energies that
 friction and damping take out per period are over the largest on the curve. A line for
-each of them: points, the share whose told error covers the true one, the smallest and the median
-ratio of told to true error where either is above :data:`DIGITS`, and the largest of
-both. Points that have no such solution, as beyond a fold that more harmonics move, are
-left out, and counted. The exit status is 1 if the told errors of a curve by
-:data:`USUAL` cover less than :data:`LEAST`.
+each of them: points, the share whose told error covers the true one, the smallest and
+the median ratio of told to true error where either is above :data:`DIGITS`, and the
+largest of both. Points that have no such solution, as beyond a fold that more harmonics
+move, are left out, and counted. The exit status is 1 if the told errors of amplitudes
+on a curve by :data:`USUAL` cover less than :data:`LEAST`.
 """
 
 from __future__ import annotations
@@ -49,6 +49,7 @@ POINTS = 25
 DIGITS = 1e-7
 """relative error below which nobody asks, a thousandth of the finest tolerance"""
 LEAST = 0.95
+AMPLITUDE = "amplitude"
 SCENES = {
     "duffing": ("duffing",),
     "gap": ("gap",),
@@ -158,7 +159,7 @@ def errors(case: Case, tolerance: float) -> dict[str, Errors]:
         told.append([point.error, point.friction_error, point.damping_error])
         true.append([np.abs(found - exact).max() / exact.max(), *missed])
     most = np.array([1.0, *np.max([_energies(each) for each in curve], axis=0)])
-    unknown, names = len(places) - len(told), ("amplitude", "friction", "damping")
+    unknown, names = len(places) - len(told), (AMPLITUDE, "friction", "damping")
     columns = zip(np.transpose(told), np.transpose(true), most, names, strict=True)
     return {
         name: Errors(expected / size, missed / size, unknown)
@@ -179,7 +180,8 @@ def lines(chosen: Sequence[str]) -> Iterator[tuple[str, bool]]:
         for tolerance in case.tolerances:
             for what, seen in errors(case, tolerance).items():
                 told = f"{name:26} {tolerance:9.0e} {what:9} {_line(seen)}"
-                yield told, tolerance != USUAL or seen.covered >= LEAST
+                judged = tolerance == USUAL and what == AMPLITUDE
+                yield told, not judged or seen.covered >= LEAST
 
 
 def _line(seen: Errors) -> str:
@@ -201,7 +203,10 @@ def main(chosen: Sequence[str]) -> int:
     for line, good in lines(chosen):
         print(line, flush=True)
         right.append(good)
-    print(f"{right.count(False)} told errors by {USUAL:g} cover less than {LEAST:.0%}")
+    print(
+        f"amplitudes of {right.count(False)} curves by {USUAL:g} are covered less than "
+        f"{LEAST:.0%}"
+    )
     return 0 if all(right) else 1
 
 

@@ -169,7 +169,7 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
     That of the amplitude, and those of energies over the largest on the curve.
     """
     drawn = {"amplitude": curve.error} | {
-        f"{name}, of its largest": error / _largest(energy)
+        name: error / _largest(energy)
         for name, energy, error in (
             ("friction", curve.friction_energy, curve.friction_energy_error),
             ("damping", curve.damping_energy, curve.damping_energy_error),
@@ -184,14 +184,15 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
     varies = most > SHORT * least
     if varies:
         axes.set_yscale("log")
-    what = " of amplitude" if len(drawn) == 1 else ""
+    alone = len(drawn) == 1
+    what = " of amplitude" if alone else ", of energies over their largest"
     title = f"Estimated error{what}"
     framed(axes, x=abscissa_name(curve), y="error [%]", title=title)
     if not varies:
         from_nothing(axes)
     elif least < SMALL * most:
         axes.set_ylim(bottom=100.0 * SMALL * most)
-    if len(drawn) > 1:
+    if not alone:
         legend_above(axes)
 
 

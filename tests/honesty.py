@@ -95,27 +95,40 @@ def amplitudes(problem: Problem, response: PeriodicResponse) -> Array:
 
 
 @functools.cache
-def errors(name: str, *, error: float = 1e-3, count: int = 20) -> tuple[Array, Array]:
-    """Return estimated and true errors of about ``count`` points, relative."""
+def solved_again(
+    name: str, *, error: float = 1e-3, count: int = 20
+) -> tuple[tuple[PeriodicResponse, PeriodicResponse], ...]:
+    """Return about ``count`` points of a curve, each beside a reference."""
     variant = VARIANTS[name]
     problem = variant.make()
     rest = static_equilibrium(problem)
-    options = CurveOptions(variant.start, variant.end, error=error)
+    options = CurveOptions(variant.start, variant.end, error=error, energies=True)
     traced = frequency_response(problem, rest, options)
     # At a fold, where events lie, no reference has the same frequency.
     curve = [response for response in traced if not response.event]
     places = np.unique(np.linspace(0, len(curve) - 1, count).round().astype(int))
-    estimated, true = [], []
-    for place in places:
-        point = curve[place]
-        reference = periodic_response(
-            problem,
-            rest,
-            point,
-            harmonics=variant.harmonics,
-            samples=variant.samples,
-            tolerance=1e-7,
+    return tuple(
+        (
+            curve[place],
+            periodic_response(
+                problem,
+                rest,
+                curve[place],
+                harmonics=variant.harmonics,
+                samples=variant.samples,
+                tolerance=1e-7,
+            ),
         )
+        for place in places
+    )
+
+
+@functools.cache
+def errors(name: str, *, error: float = 1e-3, count: int = 20) -> tuple[Array, Array]:
+    """Return estimated and true errors of about ``count`` points, relative."""
+    problem = VARIANTS[name].make()
+    estimated, true = [], []
+    for point, reference in solved_again(name, error=error, count=count):
         exact, found = amplitudes(problem, reference), amplitudes(problem, point)
         true.append(np.abs(found - exact).max() / exact.max())
         estimated.append(point.error)

@@ -37,13 +37,12 @@ class EnergyErrors:
             return np.full(2, error)
         before = self._taken(self.point, estimate.fourier)
         if fourier == estimate.fourier:
-            after, sampled = told, self._taken(kept, _resampled(fourier))
+            after, other = told, self._taken(kept, _resampled(fourier))
         else:
-            after, sampled = self._taken(estimate.corrected, estimate.fourier), before
+            after = other = self._taken(estimate.corrected, estimate.fourier)
         larger = self._larger(kept, fourier, error)
         differences = (
-            after - told,
-            sampled - told,
+            other - told,
             self._taken(larger, fourier) - told,
             self._left(estimate, before, after),
             self._taken(estimate.beyond, estimate.fourier) - after,

@@ -179,7 +179,7 @@ def lines(chosen: Sequence[str]) -> Iterator[tuple[str, bool]]:
             continue
         for tolerance in case.tolerances:
             for what, seen in errors(case, tolerance).items():
-                told = f"{name:26} {tolerance:9.0e} {what:9} {_line(seen)}"
+                told = f"{name:30} {tolerance:9.0e} {what:9} {_line(seen)}"
                 judged = tolerance == USUAL and what == AMPLITUDE
                 yield told, not judged or seen.covered >= LEAST
 
@@ -188,7 +188,7 @@ def _line(seen: Errors) -> str:
     ratios = seen.ratios if seen.ratios.size else np.array([np.nan])
     return (
         f"{seen.told.size:6d} {seen.unknown:7d} {100.0 * seen.covered:5.0f} % "
-        f"{ratios.min():9.2g} {np.median(ratios):7.1f} {seen.true.max():9.1e} "
+        f"{ratios.min():9.2g} {np.median(ratios):7.3g} {seen.true.max():9.1e} "
         f"{seen.told.max():9.1e}"
     )
 
@@ -196,7 +196,7 @@ def _line(seen: Errors) -> str:
 def main(chosen: Sequence[str]) -> int:
     """Print the table; return the exit status."""
     print(
-        f"{'curve':26} tolerance {'of':9} points unknown  cover  smallest  median  "
+        f"{'curve':30} tolerance {'of':9} points unknown  cover  smallest  median  "
         "largest true and told"
     )
     right = []

@@ -138,8 +138,8 @@ def test_curve_figure_has_a_labelled_panel_for_each_quantity(
         "First harmonic",
         "Largest relative velocity",
         "Dissipated per period",
-        "Normal forces: range over a period, line at the largest",
-        "Estimated error of amplitude",
+        "Normal forces over a period, line at the largest",
+        "Estimated error, of energies over their largest",
     ]
     assert figure.get_suptitle() == "two-blades, model=A"
 
@@ -193,12 +193,46 @@ def test_a_crowd_of_events_has_a_panel_and_all_panels_fit(
     )
 
 
+def without_energies(curve: ResponseCurve) -> ResponseCurve:
+    """Return a curve whose energies have no told errors, as of an earlier version."""
+    none = np.full(curve.frequency.size, np.nan)
+    return dataclasses.replace(
+        curve, friction_energy_error=none, damping_energy_error=none
+    )
+
+
+def test_errors_of_energies_are_drawn_over_their_largest_and_as_bands(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.estimated_error(axes, small_curve)
+
+    assert legend(axes) == ["amplitude", "friction", "damping"]
+    drawn = np.asarray(axes.lines[1].get_ydata())
+    share = small_curve.friction_energy_error / small_curve.friction_energy.max()
+    assert drawn == pytest.approx(100.0 * share)
+
+
+def test_energies_have_the_band_of_their_errors(
+    axes: Axes, small_curve: ResponseCurve
+) -> None:
+    curves.dissipated_energy(axes, small_curve)
+
+    friction, damping = axes.collections[0], axes.collections[-1]
+    for band, energy, error in (
+        (friction, small_curve.friction_energy, small_curve.friction_energy_error),
+        (damping, small_curve.damping_energy, small_curve.damping_energy_error),
+    ):
+        span = band.get_paths()[0].get_extents()
+        assert span.y0 == pytest.approx(1e3 * (energy - error).min())
+        assert span.y1 == pytest.approx(1e3 * (energy + error).max())
+
+
 def test_errors_far_below_the_largest_are_cut_off(
     axes: Axes, small_curve: ResponseCurve
 ) -> None:
     curve = dataclasses.replace(small_curve, error=np.array([1e-3, 1e-4, 1e-14, 1e-5]))
 
-    curves.estimated_error(axes, curve)
+    curves.estimated_error(axes, without_energies(curve))
 
     assert axes.get_ylim()[0] == pytest.approx(1e-7)  # of 0.1 %
 
@@ -208,7 +242,8 @@ def test_errors_that_hardly_differ_are_drawn_from_nothing(
 ) -> None:
     error = np.array([1.0976e-6, 1.098e-6, 1.0985e-6, 1.099e-6])
 
-    curves.estimated_error(axes, dataclasses.replace(small_curve, error=error))
+    curve = dataclasses.replace(small_curve, error=error)
+    curves.estimated_error(axes, without_energies(curve))
 
     assert axes.get_yscale() == "linear"
     assert axes.get_ylim() == pytest.approx((0.0, 1.04 * 1.099e-4))
@@ -225,7 +260,7 @@ def test_without_normal_forces_the_error_takes_their_place(
         damping_energy=none[:, 0],
     )
 
-    figure = curves.curve_figure(curve, "duffing")
+    figure = curves.curve_figure(without_energies(curve), "duffing")
 
     check_labels(figure)
     titles = [axes.get_title(loc="left") for axes in figure.axes]

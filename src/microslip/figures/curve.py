@@ -221,7 +221,7 @@ def normal_forces(axes: Axes, curve: ResponseCurve) -> None:
     lowest = float(np.nanmin(curve.normal_smallest, initial=0.0))
     highest = float(np.nanmax(curve.normal_largest, initial=0.0))
     what = force_kind(curve.normal_smallest, curve.normal_largest)
-    title = f"{what}: range over a period, line at the largest"
+    title = f"{what} over a period, line at the largest"
     framed(axes, x=abscissa_name(curve), y="force [N]", title=title)
     axes.set_ylim(1.05 * lowest, 1.05 * highest if highest > 0.0 else None)
     if curve.contacts:

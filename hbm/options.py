@@ -43,8 +43,8 @@ class CurveOptions:
     """whether Floquet multipliers are computed"""
     errors: bool = True
     """whether the error of fixed harmonics is estimated, at twice as many"""
-    energies: bool = False
-    """whether errors of the energies that contacts take out are estimated"""
+    contact_errors: bool = False
+    """whether errors of what contacts take out, and of normal forces, are estimated"""
     pruned: bool = True
     """whether what always stays at zero is left out: what a symmetry keeps still, the
     second half of a period that mirrors the first, tangents that a law does not have"""

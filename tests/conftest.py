@@ -159,6 +159,7 @@ def small_curve() -> ResponseCurve:
         damping_energy=draw.uniform(1e-9, 1e-8, points),
         friction_energy_error=draw.uniform(1e-9, 1e-6, points),
         damping_energy_error=draw.uniform(1e-12, 1e-11, points),
+        normal_error=draw.uniform(1e-4, 1e-3, (points, len(CONTACTS))),
         residual=draw.uniform(1e-12, 1e-9, points),
         outcome=("converged",) * points,
         iterations=np.array([7.0, 3.0, 4.0, 5.0]),

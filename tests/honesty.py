@@ -102,7 +102,7 @@ def solved_again(
     variant = VARIANTS[name]
     problem = variant.make()
     rest = static_equilibrium(problem)
-    options = CurveOptions(variant.start, variant.end, error=error, energies=True)
+    options = CurveOptions(variant.start, variant.end, error=error, contact_errors=True)
     traced = frequency_response(problem, rest, options)
     # At a fold, where events lie, no reference has the same frequency.
     curve = [response for response in traced if not response.event]

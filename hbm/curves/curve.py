@@ -12,7 +12,7 @@ from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import folds
-from hbm.curves.energy_errors import EnergyErrors
+from hbm.curves.cycle_errors import CycleErrors
 from hbm.curves.last_points import LastPoints
 from hbm.errors import ContinuationError
 from hbm.events.crossed import BRANCH, TORUS, crossings
@@ -22,6 +22,7 @@ from hbm.events.multipliers import Multipliers
 from hbm.events.settled import Settled
 from hbm.events.summits import Summits
 from hbm.events.told_events import ToldEvents
+from hbm.forces.contact_cycle import ContactCycle
 from hbm.forces.fourier import FourierBasis
 from hbm.paths.path_resolution import PathResolution
 from hbm.resolution.adaptive import AdaptiveBalance
@@ -54,8 +55,8 @@ class Curve:
     """what finds that of amplitudes, if it is wanted"""
     limits: tuple[float, float]
     """of the parameter"""
-    energies: bool
-    """whether the errors of energies are estimated"""
+    contact_errors: bool
+    """whether the errors of energies and normal forces are estimated"""
 
     def followed(
         self, corrections: Iterable[Correction], metric: Metric, beginning: str = ""
@@ -118,8 +119,8 @@ class Curve:
         settled = self.system.settled
         coarser = (correction.point, settled) if settled != fourier else None
         told, finer = self._examined(made, kept, fourier, coarser, correction.tangent)
-        if self.energies:
-            told = self._with_energies(told, correction.point)
+        if self.contact_errors:
+            told = self._with_errors(told, correction.point)
         if self.residual_range and told.unstable <= 0:
             told = replace(told, residual_range=self.residual_range.at(kept))
         asks = finer != fourier
@@ -127,12 +128,22 @@ class Curve:
             correction, settled, told.multipliers, finer, asks, correction, settled
         )
 
-    def _with_energies(self, told: PeriodicResponse, point: Array) -> PeriodicResponse:
-        """Return the response at a settled point with the errors of its energies."""
-        energies = np.array([told.friction_energy, told.damping_energy])
-        errors = EnergyErrors(self.resolution, self.system.report, point)
-        friction, damping = errors.of(energies)
-        return replace(told, friction_error=friction, damping_error=damping)
+    def _with_errors(self, told: PeriodicResponse, point: Array) -> PeriodicResponse:
+        """Return the response at a settled point with the errors of its contacts."""
+        errors = CycleErrors(self.resolution, self.system.report, point).of(
+            ContactCycle(
+                told.normal_smallest,
+                told.normal_largest,
+                told.friction_energy,
+                told.damping_energy,
+            )
+        )
+        return replace(
+            told,
+            friction_error=errors.friction,
+            damping_error=errors.normal_damping,
+            normal_error=np.maximum(errors.normal_smallest, errors.normal_largest),
+        )
 
     def examined(
         self, known: PeriodicResponse, point: Array

@@ -84,7 +84,7 @@ class DriveSearch:
             stability=False,
             events=False,
             residual_range=False,
-            energies=False,
+            contact_errors=False,
             most_harmonics=HARMONICS,
             effort=SEEKING * self.effort,
         )

@@ -26,7 +26,7 @@ from hbm.resolution.adaptive import AdaptiveBalance
 from hbm.structure.linear_curve import Place
 from microslip_mechanics.arrays import Array, largest
 from microslip_mechanics.contact.memory import remembers
-from microslip_mechanics.contact.points import ELASTIC, RIGID, dissipates
+from microslip_mechanics.contact.points import ELASTIC, RIGID
 from microslip_mechanics.problem import Problem
 from microslip_mechanics.results.response import PeriodicResponse
 
@@ -73,7 +73,7 @@ class Tracer:
             if options.residual_range
             else None,
             (least, most),
-            options.energies and dissipates(points),
+            options.contact_errors and points.load.size > 0,
         )
         self.pieces = Pieces(
             path,

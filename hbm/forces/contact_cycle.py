@@ -33,6 +33,23 @@ class ContactCycle:
     normal_damping: float
     """energy that normal damping takes out per period [J]"""
 
+    @property
+    def values(self) -> Array:
+        """All of it in a row: energies, smallest and largest forces."""
+        energies = self.friction, self.normal_damping
+        return np.concatenate([energies, self.normal_smallest, self.normal_largest])
+
+    @property
+    def ranges(self) -> Array:
+        """What normal forces range over in the period, in that row; 0 for energies."""
+        ranges = self.normal_largest - self.normal_smallest
+        return np.concatenate([np.zeros(2), ranges, ranges])
+
+    def with_values(self, values: Array) -> ContactCycle:
+        """Return a cycle with other values in such a row."""
+        smallest, largest = np.split(values[2:], 2)
+        return ContactCycle(smallest, largest, float(values[0]), float(values[1]))
+
     def joined(self, images: NDArray[np.int64]) -> ContactCycle:
         """Return it with the range of forces of each point's image, shape (points,)."""
         smallest, largest = self.normal_smallest, self.normal_largest

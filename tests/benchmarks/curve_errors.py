@@ -5,12 +5,13 @@ catalogue each, of the rig with both laws, and of a lap joint by three drives. P
 each, evenly spread, are solved again with twice their harmonics and samples, and no
 less than :data:`HARMONICS` and :data:`SAMPLES`, at the same frequency; the relative
 difference of the largest first harmonic is the true error; those of the energies that
-friction and damping take out per period are over the largest on the curve. A line for
-each of them: points, the share whose told error covers the true one, the smallest and
-the median ratio of told to true error where either is above :data:`DIGITS`, and the
-largest of both. Points that have no such solution, as beyond a fold that more harmonics
-move, are left out, and counted. The exit status is 1 if the told errors of amplitudes
-on a curve by :data:`USUAL` cover less than :data:`LEAST`.
+friction and damping take out per period, and of the extremes of the normal force at the
+contact that is covered least, are over the largest on the curve. A line for each:
+points, the share whose told error covers the true one, the smallest and the median
+ratio of told to true error where either is above :data:`DIGITS`, and the largest of
+both. Points that have no such solution, as beyond a fold that more harmonics move, are
+left out, and counted. The exit status is 1 if the told errors of amplitudes on a curve
+by :data:`USUAL` cover less than :data:`LEAST`.
 """
 
 from __future__ import annotations
@@ -50,6 +51,7 @@ DIGITS = 1e-7
 """relative error below which nobody asks, a thousandth of the finest tolerance"""
 LEAST = 0.95
 AMPLITUDE = "amplitude"
+WHAT = (AMPLITUDE, "friction", "damping", "force")
 SCENES = {
     "duffing": ("duffing",),
     "gap": ("gap",),
@@ -133,7 +135,7 @@ def errors(case: Case, tolerance: float) -> dict[str, Errors]:
     problem = case.make()
     rest = static_equilibrium(problem)
     options = CurveOptions(
-        case.lowest, case.highest, error=tolerance, stability=False, energies=True
+        case.lowest, case.highest, error=tolerance, stability=False, contact_errors=True
     )
     # at an event no other solution has the same frequency
     curve = [
@@ -155,21 +157,40 @@ def errors(case: Case, tolerance: float) -> dict[str, Errors]:
         except ContinuationError:
             continue
         exact, found = amplitudes(problem, better), amplitudes(problem, point)
-        missed = np.abs(_energies(point) - _energies(better))
-        told.append([point.error, point.friction_error, point.damping_error])
-        true.append([np.abs(found - exact).max() / exact.max(), *missed])
-    most = np.array([1.0, *np.max([_energies(each) for each in curve], axis=0)])
-    unknown, names = len(places) - len(told), (AMPLITUDE, "friction", "damping")
-    columns = zip(np.transpose(told), np.transpose(true), most, names, strict=True)
+        off, off_told = _of_contacts(point, better)
+        told.append([point.error, *off_told])
+        true.append([np.abs(found - exact).max() / exact.max(), *off])
+    sizes = 1.0, *np.max([_sizes(each) for each in curve], axis=0)
+    columns = np.transpose(told), np.transpose(true), sizes, WHAT
     return {
-        name: Errors(expected / size, missed / size, unknown)
-        for expected, missed, size, name in columns
+        name: Errors(expected / size, missed / size, len(places) - len(told))
+        for expected, missed, size, name in zip(*columns, strict=True)
         if size > 0.0 and not np.isnan(expected).any()
     }
 
 
-def _energies(point: PeriodicResponse) -> Array:
-    return np.array([point.friction_energy, point.damping_energy])
+def _of_contacts(point: PeriodicResponse, exact: PeriodicResponse) -> tuple[Array, ...]:
+    """Return true and told errors of energies and of the force covered least."""
+    off = [
+        abs(getattr(point, name) - getattr(exact, name))
+        for name in ("friction_energy", "damping_energy")
+    ]
+    forces = np.maximum(
+        abs(point.normal_smallest - exact.normal_smallest),
+        abs(point.normal_largest - exact.normal_largest),
+    )
+    worst = (forces - point.normal_error).argsort()[-1:]
+    told = point.friction_error, point.damping_error
+    return (
+        np.append([*off, *forces[worst]], [0.0] * (1 - worst.size)),
+        np.append([*told, *point.normal_error[worst]], [0.0] * (1 - worst.size)),
+    )
+
+
+def _sizes(point: PeriodicResponse) -> tuple[float, float, float]:
+    """Return energies and the largest normal force."""
+    forces = np.abs([point.normal_smallest, point.normal_largest])
+    return point.friction_energy, point.damping_energy, float(forces.max(initial=0.0))
 
 
 def lines(chosen: Sequence[str]) -> Iterator[tuple[str, bool]]:

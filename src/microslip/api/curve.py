@@ -66,6 +66,6 @@ def curve(
     )
     check_apart(NAME, wanted.lowest, wanted.highest)
     given = checked(NAME, problem)
-    more = Wanted(residual_range=True, energies=True)
+    more = Wanted(residual_range=True, contact_errors=True)
     with named(NAME):
         return trace_curve(given, wanted, wanted=more).curve

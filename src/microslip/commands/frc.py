@@ -118,8 +118,11 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     more = *frc_tables.uncounted(scene), *residual_range(traced.curve)
     if problem is not None:
         more = *more, *creep(problem, traced)
-    accuracy = frc_tables.resolution(traced.curve), *frc_tables.energies(traced.curve)
-    print(*accuracy, *more, sep="\n")
+    errors = (
+        frc_tables.resolution(traced.curve),
+        *frc_tables.contact_errors(traced.curve),
+    )
+    print(*errors, *more, sep="\n")
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
 
@@ -155,7 +158,7 @@ def _traced(options: argparse.Namespace, scene: Scene) -> Traced:
         options.detached,
         options.effort or 1.0,
         residual_range=True,
-        energies=True,
+        contact_errors=True,
     )
     watch, searching = watched(scene.curve), search_watched
     sector = None if options.unpruned else sector_of(scene)

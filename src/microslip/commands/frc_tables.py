@@ -99,8 +99,8 @@ def resolution(curve: ResponseCurve) -> str:
     )
 
 
-def energies(curve: ResponseCurve) -> list[str]:
-    """Return how accurate the energies are that contacts take out, a line each."""
+def contact_errors(curve: ResponseCurve) -> list[str]:
+    """Return how accurate energies and forces of the contacts are, a line each."""
     import numpy as np
 
     lines = []
@@ -115,6 +115,13 @@ def energies(curve: ResponseCurve) -> list[str]:
         lines.append(
             f"estimated error of what {what} takes out: at most {largest:.2g} % of its "
             f"largest, {middle:.2g} % in the median"
+        )
+    worst = curve.normal_error.max(axis=1, initial=0.0)
+    known = worst[np.isfinite(worst)]
+    if known.any():
+        lines.append(
+            f"estimated error of {force(pulls=curve.pulls)}s: at most "
+            f"{known.max():.2g} N, {np.median(known):.2g} N in the median"
         )
     return lines
 

@@ -36,6 +36,7 @@ CURVE: Schema = {
     ),
     "friction_energy_error": (("point",), "J", "estimated error of friction's energy"),
     "damping_energy_error": (("point",), "J", "estimated error of damping's energy"),
+    "normal_error": (("point", "contact"), "N", "estimated error of these forces"),
     "residual": (("point",), "N", "largest unbalanced force"),
     "outcome": (("point", "name"), "", "how Newton's correction ended"),
     "iterations": (("point",), "1", "Newton iterations"),

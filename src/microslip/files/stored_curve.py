@@ -11,7 +11,12 @@ from scipy.io import netcdf_file
 from microslip.files.schema import CURVE, REPEATED, names_of
 from microslip_mechanics.results.response_curve import ResponseCurve
 
-LATER = ("parameter_error", "friction_energy_error", "damping_energy_error")
+LATER = (
+    "parameter_error",
+    "friction_energy_error",
+    "damping_energy_error",
+    "normal_error",
+)
 """what files of earlier versions do not have"""
 
 

@@ -57,8 +57,8 @@ class Wanted:
     """that the search for them may take, over the usual"""
     residual_range: bool = False
     """the range of amplitudes by other residual tractions of contacts that stick"""
-    energies: bool = False
-    """errors of the energies that contacts take out"""
+    contact_errors: bool = False
+    """errors of the energies that contacts take out, and of normal forces"""
 
 
 ALONE = Wanted()
@@ -86,7 +86,7 @@ def trace_curve(
         pruned=pruned,
         stability=stability,
         residual_range=wanted.residual_range,
-        energies=wanted.energies,
+        contact_errors=wanted.contact_errors,
     )
     traced = traced_of(problem, rest, _all(problem, rest, options, wanted), watch)
     ending = traced.curve.ending
@@ -127,7 +127,7 @@ def trace_sector(
     options = replace(
         curve_options(curve),
         residual_range=wanted.residual_range,
-        energies=wanted.energies,
+        contact_errors=wanted.contact_errors,
     )
     traced = cyclic_response(problem, options)
     return traced_of(standing, static_equilibrium(standing), traced, watch)

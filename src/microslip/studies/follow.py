@@ -81,7 +81,7 @@ def along(
         harmonics=resolution.harmonics,
         samples=resolution.samples,
         residual_range=True,
-        energies=True,
+        contact_errors=True,
     )
     traced = told_along(parameter_response(problem_at, frequency, options), label)
     found, ending = gathered(watch(traced))

@@ -98,11 +98,6 @@ def rubs(points: ContactPoints) -> bool:
     return bool((points.friction != FRICTIONLESS).any())
 
 
-def dissipates(points: ContactPoints) -> bool:
-    """Return whether some point has friction or damping."""
-    return rubs(points) or bool(points.damping.any())
-
-
 def smooth(points: ContactPoints) -> bool:
     """Return whether there are no transitions: no point can part, stick or slide."""
     held = (points.normal == TWO_SIDED) & (points.friction == FRICTIONLESS)

@@ -55,6 +55,9 @@ class PeriodicResponse(ByValue):
     """estimated one of :attr:`friction_energy` [J]; NaN if none was asked for"""
     damping_error: float = np.nan
     """estimated one of :attr:`damping_energy` [J]"""
+    normal_error: Array = field(default_factory=lambda: np.empty(0))
+    """estimated one of smallest and largest normal forces [N], shape (points,); empty
+    if none was asked for"""
     multipliers: ComplexArray = field(default_factory=lambda: np.empty(0, complex))
     """Floquet multipliers, the largest first; empty if they are not known"""
     event: str = ""

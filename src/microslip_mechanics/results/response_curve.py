@@ -51,6 +51,8 @@ class ResponseCurve(ByValue):
     """estimated one of that [J]; NaN if none was asked for, shape (points,)"""
     damping_energy_error: Array
     """estimated one of that [J], shape (points,)"""
+    normal_error: Array
+    """estimated one of smallest and largest normal forces [N], (points, contacts)"""
     residual: Array
     """largest unbalanced force [N], shape (points,)"""
     outcome: tuple[str, ...]
@@ -150,6 +152,7 @@ def response_curve(
         column("damping_energy"),
         column("friction_error"),
         column("damping_error"),
+        np.array([_told(point) for point in points]).reshape(len(points), *contacts),
         column("residual"),
         tuple(point.outcome for point in points),
         column("iterations"),
@@ -164,6 +167,12 @@ def response_curve(
         along,
         ending,
     )
+
+
+def _told(point: PeriodicResponse) -> Array:
+    """Return the errors of normal forces [N], NaN where none was asked for."""
+    nobody = np.full_like(point.normal_largest, np.nan)
+    return point.normal_error if point.normal_error.size else nobody
 
 
 def _range(points: Sequence[PeriodicResponse], amplitude: Array) -> tuple[Array, Array]:

@@ -179,12 +179,9 @@ def _of_contacts(point: PeriodicResponse, exact: PeriodicResponse) -> tuple[Arra
         abs(point.normal_smallest - exact.normal_smallest),
         abs(point.normal_largest - exact.normal_largest),
     )
-    worst = (forces - point.normal_error).argsort()[-1:]
-    told = point.friction_error, point.damping_error
-    return (
-        np.append([*off, *forces[worst]], [0.0] * (1 - worst.size)),
-        np.append([*told, *point.normal_error[worst]], [0.0] * (1 - worst.size)),
-    )
+    worst = (forces - point.normal_error).argmax()
+    told = point.friction_error, point.damping_error, point.normal_error[worst]
+    return np.array([*off, forces[worst]]), np.array(told)
 
 
 def _sizes(point: PeriodicResponse) -> tuple[float, float, float]:

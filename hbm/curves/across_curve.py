@@ -13,8 +13,8 @@ from hbm.continuation.correction import Outcome
 from hbm.continuation.linearised import SingularError
 from hbm.continuation.newton import correct
 from hbm.continuation.step_control import StepControl
-from hbm.curves.curve import response
 from hbm.curves.dense_problem import RESOLVED, dense_problem
+from hbm.curves.response import response
 from hbm.errors import ContinuationError, hertz, placed
 from hbm.forces.fourier import FourierBasis, usual_samples
 from hbm.one_thread import one_thread

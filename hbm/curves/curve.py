@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hbm.balance.residual import HarmonicBalance
 from hbm.continuation.arc import Metric
 from hbm.continuation.correction import Correction
 from hbm.continuation.segment import folds
 from hbm.curves.cycle_errors import CycleErrors
 from hbm.curves.last_points import LastPoints
-from hbm.errors import ContinuationError
+from hbm.curves.response import response
 from hbm.events.crossed import BRANCH, TORUS, crossings
 from hbm.events.crossings import ASTRAY
 from hbm.events.events import Events
@@ -34,11 +33,8 @@ from microslip_mechanics.results.response import PeriodicResponse
 if TYPE_CHECKING:
     from hbm.curves.residual_range import ResidualRange
 
-TURN = 2.0 * np.pi
 ASIDE = 0.05
 """distance of complex multipliers from the unit circle at which there is no torus"""
-DRIFT = 1e-6
-"""mean force on a free body over the force scale, from which it drifts"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,36 +188,3 @@ def _confirmed(event: str, multipliers: ComplexArray) -> bool:
         off = np.abs(np.abs(multipliers[multipliers.imag != 0.0]) - 1.0)
         return bool((off < ASIDE).any())
     return True
-
-
-def response(
-    problem: Problem, balance: HarmonicBalance, correction: Correction
-) -> PeriodicResponse:
-    """Return the periodic response at a corrected point.
-
-    Raises
-    ------
-    ContinuationError
-        If a body that nothing holds drifts.
-    """
-    point = correction.point
-    drift, frequency = balance.drift_force(point), float(point[-1])
-    if drift > DRIFT * problem.force_scale:
-        raise ContinuationError(
-            f"a body drifts at {frequency / TURN:.6g} Hz: friction has a mean of "
-            f"{drift:.2g} N and nothing holds the body; hold it by a spring"
-        )
-    cycle = balance.cycle(point)
-    return PeriodicResponse(
-        frequency,
-        balance.motion(point),
-        cycle.normal_smallest,
-        cycle.normal_largest,
-        cycle.friction,
-        cycle.normal_damping,
-        correction.residuals[-1],
-        correction.outcome.name.lower(),
-        correction.iterations,
-        balance.fourier.harmonics,
-        balance.fourier.samples,
-    )

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hbm.continuation.corrected import correct_at
-from hbm.curves.curve import response
 from hbm.curves.moved_fold import beside, moved_fold
+from hbm.curves.response import response
 from hbm.curves.tracer import Tracer
 from hbm.errors import ContinuationError, drives
 from hbm.forces.fourier import FourierBasis

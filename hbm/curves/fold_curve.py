@@ -15,7 +15,7 @@ from hbm.continuation.continuation import trace
 from hbm.continuation.correction import Correction
 from hbm.continuation.effort import Effort
 from hbm.continuation.segment import Segment, folds
-from hbm.curves.curve import response
+from hbm.curves.response import response
 from hbm.events.finer_fold import FinerFold
 from hbm.events.fold_balance import FoldBalance, Inner, beyond
 from hbm.forces.fourier import FourierBasis, usual_samples

@@ -15,8 +15,8 @@ from hbm.balance.rigid import pushed
 from hbm.continuation.correction import Outcome
 from hbm.continuation.newton import correct
 from hbm.curves.branch_point import OFFSETS
-from hbm.curves.curve import response
 from hbm.curves.parameter_curves import fold_curve
+from hbm.curves.response import response
 from hbm.errors import ContinuationError, drives
 from hbm.forces.fourier import FourierBasis
 from hbm.options import CurveOptions

@@ -13,8 +13,8 @@ import numpy as np
 from hbm.balance.rigid import pushed
 from hbm.continuation.corrected import correct_at
 from hbm.continuation.step_control import StepControl
-from hbm.curves.curve import response
 from hbm.curves.dense_problem import RESOLVED, dense_problem, resolved_up_to
+from hbm.curves.response import response
 from hbm.curves.tracer import Tracer
 from hbm.errors import hertz, placed
 from hbm.events.crossing_error import SLOWEST, witness

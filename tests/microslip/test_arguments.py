@@ -182,10 +182,20 @@ def test_a_file_that_cannot_be_written_is_told_before_the_work(
     ("command", "said"),
     [
         (["frc", "duffing", "--effort", "2"], "--effort 2: it is that of"),
+        (
+            ["frc", "duffing", "-o", "a.csv"],
+            "-o a.csv: a.nc and a.png would be written: give that name without its "
+            "ending; microslip plot FILE --csv TABLE writes columns as text",
+        ),
+        (
+            ["track", "duffing", "drive.x", "1", "2", "-o", "b.nc"],
+            "-o b.nc: b.csv and b.png would be written: give that name without its "
+            "ending\n",
+        ),
         (["verify", "duffing", "--steps", "50"], "--steps 50: they are those of"),
     ],
 )
-def test_numbers_of_what_is_not_wanted_are_refused(
+def test_what_is_not_wanted_is_refused(
     command: list[str], said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(command) == 2

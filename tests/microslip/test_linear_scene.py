@@ -105,9 +105,11 @@ sliders = 5
 
     assert (status, error) == (0, "")
     reduction, sliders, _ = output.splitlines()[-3:]
-    assert reduction.startswith("not in it: the reduction to modes up to 50 Hz, ")
+    assert reduction.startswith(
+        "not in these errors: the reduction to modes up to 50 Hz, "
+    )
     assert sliders == (
-        "not in it: element joint is 5 sliders, whose force is up to 4.5e-02 of "
-        "slip_force above its law's: more of them, or a smaller "
+        "not in these errors: element joint is 5 sliders, whose force is up to "
+        "4.5e-02 of slip_force above its law's: more of them, or a smaller "
         "element.joint.smallest, are nearer to it"
     )

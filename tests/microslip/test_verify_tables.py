@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from microslip.commands.frc_events import events
-from microslip.commands.frc_tables import resolution, rest, table
+from microslip.commands.frc_tables import rest, table
+from microslip.commands.told_errors import amplitude, contacts
 from microslip.commands.verify_findings import Findings, verdict
 from microslip.commands.verify_marches import march_rows, marches_said
 from microslip.commands.verify_orbits import orbit_rows, orbits_said
@@ -135,9 +136,33 @@ def test_events_and_errors_are_told_in_the_units_beside_them(
     assert "131.000000 Hz \N{PLUS-MINUS SIGN} 0.002 " in said
     assert "133.000000 Hz \N{PLUS-MINUS SIGN} 0.0003 " in said
     assert "mm \N{PLUS-MINUS SIGN} 0.2 %" in said
-    assert "at most 0.2 % at a point, 0.075 % in the median" in resolution(curve)
+    assert "at most 0.2 % at a point, 0.075 % in the median" in amplitude(curve)
     one = dataclasses.replace(curve, harmonics=np.ones(4), samples=np.full(4, 64.0))
-    assert resolution(one).endswith("; 1 harmonic, 64 samples")
+    assert amplitude(one).endswith("; 1 harmonic, 64 samples")
+
+
+def test_errors_of_contacts_are_told_with_what_they_are_over(
+    small_curve: ResponseCurve,
+) -> None:
+    curve = dataclasses.replace(
+        small_curve,
+        friction_energy=np.array([1e-6, 4e-4, 2e-4, 0.0]),
+        friction_energy_error=np.array([1e-8, 8e-6, math.inf, 4e-7]),
+        damping_energy=np.zeros(4),
+        normal_error=np.array([[1e-3, 0.02, 0.0]] * 3 + [[math.inf] * 3]),
+    )
+
+    assert contacts(curve) == [
+        "estimated error of what friction takes out: at most 2 % of its largest, "
+        "0.1 % in the median",
+        "estimated error of normal forces: at most 0.02 N, 0.02 N in the median",
+    ]
+    unknown = dataclasses.replace(
+        curve,
+        friction_energy_error=np.full(4, math.nan),
+        normal_error=np.full((4, 3), math.nan),
+    )
+    assert contacts(unknown) == []
 
 
 def test_the_table_of_a_curve_is_in_the_units_of_its_head(

@@ -6,16 +6,19 @@ import argparse
 import math
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from microslip.commands.places import (
+    OutputError,
     demand_no_device,
     demand_no_scene,
     demand_place,
     is_folder,
 )
 
+ENDINGS = (".nc", ".csv", ".png")
+"""of all files that commands write"""
 MOST_ROWS = 100_000
 """of a time history that a picture shows; a longer one is thinned"""
 
@@ -73,19 +76,32 @@ def outputs(
     Raises
     ------
     OutputError
-        If one of them cannot be written, or has the name of a scene.
+        If one of them cannot be written, has the name of a scene, or an ending that no
+        file of the command has.
     """
+    endings = endings or (".nc", ".png")
     chosen: Path = options.output or Path()
     demand_no_scene(chosen, "-o", ".nc")
     if is_folder(chosen):
         chosen /= f"{Path(options.scene).stem}-{suffix}"
-    elif chosen.suffix in {".nc", ".png", ".csv"}:
+    elif chosen.suffix in endings:
         chosen = chosen.with_suffix("")
+    elif chosen.suffix in ENDINGS:
+        raise _refused(chosen, endings)
     else:
         demand_no_device(chosen, "-o")
-    for ending in endings or (".nc", ".png"):
+    for ending in endings:
         demand_place(chosen.with_name(f"{chosen.name}{ending}"))
     return chosen.with_name(f"{chosen.name}.nc"), chosen.with_name(f"{chosen.name}.png")
+
+
+def _refused(chosen: Path, endings: Sequence[str]) -> OutputError:
+    """Return the error of an ending that no file of the command has."""
+    names = " and ".join(f"{chosen.stem}{ending}" for ending in endings)
+    text = f"-o {chosen}: {names} would be written: give that name without its ending"
+    if ".nc" in endings:
+        text += "; microslip plot FILE --csv TABLE writes columns as text"
+    return OutputError(text)
 
 
 def add_processes(parser: argparse.ArgumentParser, what: str) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from microslip.commands import arguments
 from microslip.commands.columns import about, decimal, headed, tabled, titled
 from microslip.commands.residual_range import residual_range
+from microslip.commands.told_errors import told_errors
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -69,7 +70,8 @@ def _run(options: argparse.Namespace) -> int:
     title = f"{arguments.title(options)}, {options.frequency:.9g} Hz"
     told = f"{curve.frequency.size} points in {data}"
     with written(told, picture, lambda: save(data, stored)):
-        print(_table(curve), *residual_range(curve), sep="\n")
+        errors = told_errors(followed.scene, curve)
+        print(_table(curve), *errors, *residual_range(curve), sep="\n")
         save_figure(picture, curve_figure(curve, title))
     return arguments.ended(curve.ending)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from microslip.commands import arguments, frc_events, frc_tables
 from microslip.commands.residual_range import residual_range
+from microslip.commands.told_errors import told_errors
 from microslip.commands.written import written
 
 if TYPE_CHECKING:
@@ -115,14 +116,10 @@ def _tell(options: argparse.Namespace, scene: Scene, traced: Traced) -> None:
     sought = options.branches and traced.curve.ending == "complete"
     for hertz in frc_events.barren(traced.curve) if sought else ():
         print(f"no branch is found at the branch point at {hertz:.6f} Hz")
-    more = *frc_tables.uncounted(scene), *residual_range(traced.curve)
+    lines = told_errors(scene, traced.curve) + residual_range(traced.curve)
     if problem is not None:
-        more = *more, *creep(problem, traced)
-    errors = (
-        frc_tables.resolution(traced.curve),
-        *frc_tables.contact_errors(traced.curve),
-    )
-    print(*errors, *more, sep="\n")
+        lines += creep(problem, traced)
+    print("\n".join(lines))
     if traced.searched is not None:
         print("\n".join(traced.searched.lines()))
 

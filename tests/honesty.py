@@ -94,9 +94,14 @@ def amplitudes(problem: Problem, response: PeriodicResponse) -> Array:
     return found
 
 
+def pairs(name: str) -> tuple[tuple[PeriodicResponse, PeriodicResponse], ...]:
+    """Return about 20 points by an error of 1e-3, each beside a reference."""
+    return solved_again(name, 1e-3, 20)
+
+
 @functools.cache
 def solved_again(
-    name: str, *, error: float = 1e-3, count: int = 20
+    name: str, error: float, count: int
 ) -> tuple[tuple[PeriodicResponse, PeriodicResponse], ...]:
     """Return about ``count`` points of a curve, each beside a reference."""
     variant = VARIANTS[name]
@@ -128,7 +133,7 @@ def errors(name: str, *, error: float = 1e-3, count: int = 20) -> tuple[Array, A
     """Return estimated and true errors of about ``count`` points, relative."""
     problem = VARIANTS[name].make()
     estimated, true = [], []
-    for point, reference in solved_again(name, error=error, count=count):
+    for point, reference in solved_again(name, error, count):
         exact, found = amplitudes(problem, reference), amplitudes(problem, point)
         true.append(np.abs(found - exact).max() / exact.max())
         estimated.append(point.error)

@@ -54,8 +54,14 @@ class CycleErrors:
         return reported.with_values(np.abs(differences).sum(axis=0))
 
     def _seen(self, point: Array, fourier: FourierBasis) -> Array:
-        """Return the values of a cycle."""
-        balance, inner = self.resolution.at(fourier).at_frequency(point)
+        """Return the values of a cycle, at the parameter that is reported.
+
+        Across a fold at the end of a range others lie beyond it, where there may be no
+        problem.
+        """
+        kept, _, _ = self.report.kept(self.point)
+        here = np.append(point[:-1], kept[-1])
+        balance, inner = self.resolution.at(fourier).at_frequency(here)
         return balance.cycle(inner).values
 
     def _left(self, estimate: Estimate, before: Array, after: Array) -> Array:

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from honesty import VARIANTS, errors, solved_again
+from honesty import VARIANTS, errors, pairs
 from microslip_mechanics.arrays import Array
 
 ROUNDING = 1e-7
@@ -64,10 +64,10 @@ def test_no_point_errs_by_more_than_the_tolerance(name: str) -> None:
 
 def of_friction(name: str) -> tuple[Array, Array]:
     """Return told and true errors of friction's energy, over the largest."""
-    pairs = solved_again(name)
-    most = max(point.friction_energy for point, _ in pairs)
-    told = [point.friction_error for point, _ in pairs]
-    true = [abs(each.friction_energy - exact.friction_energy) for each, exact in pairs]
+    found = pairs(name)
+    most = max(point.friction_energy for point, _ in found)
+    told = [point.friction_error for point, _ in found]
+    true = [abs(each.friction_energy - exact.friction_energy) for each, exact in found]
     return np.array(told) / most, np.array(true) / most
 
 
@@ -81,10 +81,10 @@ def test_the_error_of_friction_bounds_the_true_one_at_nearly_all_points(
 
 
 def test_the_error_of_damping_bounds_the_true_one_where_faces_part() -> None:
-    pairs = solved_again("bouncing")
+    found = pairs("bouncing")
 
-    told = np.array([point.damping_error for point, _ in pairs])
-    taken = np.array([[each.damping_energy for each in pair] for pair in pairs])
+    told = np.array([point.damping_error for point, _ in found])
+    taken = np.array([[each.damping_energy for each in pair] for pair in found])
     true, most = np.abs(np.diff(taken, axis=1))[:, 0], taken.max()
     assert np.mean(true <= told + ROUNDING * most) >= 0.95
     assert true.max() > 1e-5 * most
@@ -96,14 +96,14 @@ def of_forces(name: str) -> tuple[Array, Array]:
     Of the contact at each point that errs most beyond what is told.
     """
     told, true = [], []
-    for point, exact in solved_again(name):
+    for point, exact in pairs(name):
         smallest = abs(point.normal_smallest - exact.normal_smallest)
         largest = abs(point.normal_largest - exact.normal_largest)
         off = np.maximum(smallest, largest)
         worst = (off - point.normal_error).argmax()
         told.append(point.normal_error[worst])
         true.append(off[worst])
-    most = max(abs(point.normal_largest).max() for point, _ in solved_again(name))
+    most = max(abs(point.normal_largest).max() for point, _ in pairs(name))
     return np.array(told) / most, np.array(true) / most
 
 

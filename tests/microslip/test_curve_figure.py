@@ -282,7 +282,7 @@ def test_springs_that_pull_are_not_called_normal(small_curve: ResponseCurve) -> 
 
     curves.normal_forces(axes, pulling)
 
-    assert axes.get_title(loc="left").startswith("Forces: ")
+    assert axes.get_title(loc="left").startswith("Forces over ")
     assert axes.get_ylim()[0] < pulling.normal_smallest.min()
     assert not damped.pulls
 

@@ -163,6 +163,13 @@ def test_errors_of_contacts_are_told_with_what_they_are_over(
         normal_error=np.full((4, 3), math.nan),
     )
     assert contacts(unknown) == []
+    rounded = dataclasses.replace(
+        unknown,
+        damping_energy=np.full(4, 1e-18),
+        damping_energy_error=np.full(4, 1e-19),
+        normal_error=np.full((4, 3), 1e-13),
+    )
+    assert contacts(rounded) == []
 
 
 def test_the_table_of_a_curve_is_in_the_units_of_its_head(

@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from microslip_mechanics.results.response_curve import ResponseCurve
 
 
+FAINT = 1e-9
+"""of the largest energy or force, up to which others are nothing but rounding"""
+
+
 def told_errors(scene: Scene, curve: ResponseCurve) -> list[str]:
     """Return how accurate the curve of a scene is, and what that does not count."""
     return [amplitude(curve), *contacts(curve), *_uncounted(scene)]
@@ -41,12 +45,13 @@ def contacts(curve: ResponseCurve) -> list[str]:
     import numpy as np
 
     lines = []
+    least = FAINT * curve.contact_energy.max(initial=0.0)
     for what, taken, error in (
         ("friction", curve.friction_energy, curve.friction_energy_error),
         ("damping", curve.damping_energy, curve.damping_energy_error),
     ):
         most, known = abs(taken).max(initial=0.0), error[np.isfinite(error)]
-        if most == 0.0 or not known.size:
+        if most <= least or not known.size:
             continue
         largest, middle = 100.0 * known.max() / most, 100.0 * np.median(known) / most
         lines.append(
@@ -55,7 +60,7 @@ def contacts(curve: ResponseCurve) -> list[str]:
         )
     worst = curve.normal_error.max(axis=1, initial=0.0)
     known = worst[np.isfinite(worst)]
-    if known.any():
+    if known.max(initial=0.0) > FAINT * curve.normal_largest.max(initial=0.0):
         lines.append(
             f"estimated error of {force(pulls=curve.pulls)}s: at most "
             f"{known.max():.2g} N, {np.median(known):.2g} N in the median"

@@ -48,6 +48,8 @@ WIDE = 4
 """panels up to which a picture has the usual width"""
 SMALL = 1e-6
 """of the largest error, or velocity, below which they are not worth a look"""
+FAINT = 1e-9
+"""of what contacts take out, below which damping is nothing but rounding"""
 STEADY = 1e-3
 """of the largest force, by which normal forces vary at least, if they are drawn"""
 NOTHING = 1e-15
@@ -174,7 +176,7 @@ def estimated_error(axes: Axes, curve: ResponseCurve) -> None:
             ("friction", curve.friction_energy, curve.friction_energy_error),
             ("damping", curve.damping_energy, curve.damping_energy_error),
         )
-        if _largest(energy) and _largest(error)
+        if _largest(energy) > FAINT * _largest(curve.contact_energy) and _largest(error)
     }
     known = [np.where(np.isfinite(each), each, np.nan) for each in drawn.values()]
     for colour, name, error in zip(COLOURS, drawn, known, strict=False):
